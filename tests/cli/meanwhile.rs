@@ -3,7 +3,6 @@
 
 use std::fs;
 use std::ops::ControlFlow;
-use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -107,7 +106,7 @@ fn run(line: &str, victim: &str, reads: u32) -> (ExitStatus, bool) {
         &Utf8PathBuf::new(),
     );
     assert!(faults.is_empty());
-    let printer = Rc::new(Printer::new(Verbosity::Silent, ColorChoice::Never));
+    let printer = Arc::new(Printer::new(Verbosity::Silent, ColorChoice::Never));
     let workspace = Workspace {
         settings,
         system: Arc::<Changing>::clone(&system),
@@ -116,7 +115,7 @@ fn run(line: &str, victim: &str, reads: u32) -> (ExitStatus, bool) {
         working_directory: Utf8PathBuf::new(),
         jobs: Some(1),
         cache: None,
-        reporter: Rc::<Printer>::clone(&printer),
+        reporter: Arc::<Printer>::clone(&printer),
         is_date_decisive: Arc::default(),
     };
     let context = Context::new(&cli, cli.common.overrides(), printer, workspace);

@@ -136,7 +136,7 @@ fn severities_are_those_of_the_configuration_and_the_last_part_that_names_the_fi
         working_directory: directory.to_owned(),
         jobs: None,
         cache: None,
-        reporter: std::rc::Rc::new(SilentReporter),
+        reporter: std::sync::Arc::new(SilentReporter),
         is_date_decisive: std::sync::Arc::default(),
     };
     let severity = |diagnostic: Diagnostic| {

@@ -4,6 +4,7 @@ use std::fs;
 use std::process::Command;
 
 use crate::support::Place;
+use pathbuild_api::{CheckOptions, Error, LibraryOptions};
 use pathbuild_testkit::sheet;
 
 fn dxf(name: &str, thickness: u32, embeds: Option<&str>) -> Vec<u8> {
@@ -54,6 +55,28 @@ fn what_depends_on_a_change_is_checked_and_nothing_else() {
         assert_eq!(checked(&place, &since), "0 paths in 0 drawings");
         assert_eq!(checked(&place, &format!("check --changed-since HEAD~1{cache}")), "3 paths in 3 drawings");
     }
+}
+
+#[test]
+fn the_library_of_another_program_checks_what_depends_on_a_change() {
+    let place = library();
+    let library = pathbuild_api::Library::open(place.path()).unwrap();
+    let check = |revision: &str| library.check_with(&[], &CheckOptions::new().changed_since(revision));
+    assert_eq!(check("HEAD").unwrap().files, []);
+    fs::write(place.path().join("parts/1001.dxf"), dxf("1001.1P", 4, None)).unwrap();
+    library.changed("parts/1001.dxf").unwrap();
+    let files = check("HEAD").unwrap().files;
+    let names = files.iter().map(|drawing| (&*drawing.file, drawing.paths.join(" ")));
+    let expected = [
+        ("parts/1001.dxf", "1001.1P".to_owned()),
+        ("projects/8001.dxf", "8001.1P".to_owned()),
+        ("projects/8002.dxf", "8002.1P".to_owned()),
+    ];
+    assert_eq!(names.collect::<Vec<_>>(), expected);
+    assert!(matches!(check("missing"), Err(Error::Refused(_))));
+    let in_memory = LibraryOptions::new().open_files([("1001.dxf", dxf("1001.1P", 4, None))]).unwrap();
+    let checked = in_memory.check_with(&[], &CheckOptions::new().changed_since("HEAD"));
+    assert!(matches!(checked, Err(Error::Refused(_))));
 }
 
 /// A Git hook also runs before the first commit.

@@ -5,13 +5,15 @@ use std::ops::Range;
 
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Lang};
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::waivers::Coverage;
+use pathbuild_workspace::settle::BaselineFailure;
+use pathbuild_workspace::waivers::Waiver;
 use pathbuild_workspace::{Failure, Workspace};
 
 /// An error or a warning, with its place. (book: reference/diagnostics)
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     diagnostic: Diagnostic,
+    waiver: Option<Waiver>,
 }
 
 /// A place where a project embeds a path.
@@ -112,26 +114,37 @@ impl Finding {
         self.diagnostic.trace.iter().map(embedding).collect()
     }
 
-    /// Converts the diagnostics of a run, with the configured severities, sorted and without duplicates.
-    pub(crate) fn from_diagnostics(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Vec<Self> {
-        workspace.findings(diagnostics).diagnostics.into_iter().map(Self::new).collect()
+    /// Returns the reason for which the finding is accepted; `None` if it is not accepted, or if no reason is stated.
+    pub fn reason(&self) -> Option<&str> {
+        self.waiver.as_ref()?.reason.as_deref()
     }
 
-    /// Returns the findings of a run, and separately those that are accepted. `coverage` states which files the run covered.
-    pub(crate) fn from_settled(
-        workspace: &Workspace,
-        diagnostics: Vec<Diagnostic>,
-        coverage: Coverage,
-    ) -> Result<(Vec<Self>, Vec<Self>), Error> {
-        let settled = workspace.settle(workspace.findings(diagnostics), None, |_| coverage);
-        let Findings { diagnostics, waived, .. } =
-            settled.map_err(|faults| Error::from_findings(workspace, faults))?;
-        let accepted = waived.into_iter().map(|waived| Self::new(waived.diagnostic));
-        Ok((diagnostics.into_iter().map(Self::new).collect(), accepted.collect()))
+    /// Returns the last day, such as `2026-12-31`, on which the finding is accepted; `None` if it is not accepted, or if it is accepted without an end.
+    pub fn until(&self) -> Option<String> {
+        Some(self.waiver.as_ref()?.until?.to_string())
+    }
+
+    /// Converts the diagnostics of a run, with the configured severities, sorted and without duplicates. Leaves out the accepted ones.
+    pub(crate) fn from_diagnostics(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Vec<Self> {
+        Self::reported_and_accepted(workspace.findings(diagnostics)).0
+    }
+
+    /// Returns the findings to report, and separately those that are accepted.
+    pub(crate) fn reported_and_accepted(findings: Findings) -> (Vec<Self>, Vec<Self>) {
+        let accepted = findings.waived.into_iter();
+        let accepted =
+            accepted.map(|waived| Self { waiver: Some(waived.waiver), ..Self::new(waived.diagnostic) });
+        (findings.diagnostics.into_iter().map(Self::new).collect(), accepted.collect())
+    }
+
+    /// Returns the parts from which pathbuild's command line renders the finding.
+    #[doc(hidden)]
+    pub fn into_parts(self) -> (Diagnostic, Option<Waiver>) {
+        (self.diagnostic, self.waiver)
     }
 
     fn new(diagnostic: Diagnostic) -> Self {
-        Self { diagnostic }
+        Self { diagnostic, waiver: None }
     }
 }
 
@@ -148,15 +161,28 @@ impl fmt::Display for Finding {
 pub enum Error {
     /// The configuration, or an input of the request, has these errors; warnings may be among them.
     Findings(Vec<Finding>),
+    /// The post-processor does not exist, or has these errors.
+    Post(Vec<Finding>),
+    /// The baseline cannot be read, or has these errors.
+    Baseline(Vec<Finding>),
     /// The request is invalid, for this reason in the language of the library.
     Refused(String),
 }
 
 impl Error {
-    pub(crate) fn from_failure(workspace: &Workspace, failure: Failure) -> Self {
+    pub(crate) fn from_failure(failure: Failure) -> Self {
         match failure {
             Failure::Usage(reason) => Self::Refused(reason),
-            Failure::Post(found) | Failure::Found(found) => Self::from_findings(workspace, found),
+            Failure::Post(found) => Self::Post(unchanged(found)),
+            Failure::Found(found) => Self::Findings(unchanged(found)),
+        }
+    }
+
+    pub(crate) fn from_baseline_failure(failure: BaselineFailure) -> Self {
+        match failure {
+            BaselineFailure::Usage(reason) => Self::Refused(reason),
+            BaselineFailure::Faulty(faults) => Self::Baseline(unchanged(faults)),
+            BaselineFailure::Unwritten(fault) => Self::Findings(unchanged(vec![*fault])),
         }
     }
 
@@ -165,15 +191,20 @@ impl Error {
     }
 
     pub(crate) fn internal_error(diagnostic: Diagnostic) -> Self {
-        Self::Findings(vec![Finding { diagnostic }])
+        Self::Findings(vec![Finding::new(diagnostic)])
     }
+}
+
+/// Converts the errors that prevent a result, whose severities the configuration cannot change.
+fn unchanged(diagnostics: Vec<Diagnostic>) -> Vec<Finding> {
+    Finding::reported_and_accepted(Findings::new(diagnostics)).0
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Refused(reason) => f.write_str(reason),
-            Self::Findings(found) => {
+            Self::Findings(found) | Self::Post(found) | Self::Baseline(found) => {
                 let lines: Vec<String> = found.iter().map(Finding::to_string).collect();
                 f.write_str(&lines.join("\n"))
             }

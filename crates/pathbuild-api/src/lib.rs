@@ -1,10 +1,10 @@
 //! pathbuild as a library: checks drawings of milling paths and compiles them to G-code.
 //!
-//! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It offers what the command-line program does: it checks the
-//! drawings ([`check`](Library::check)), lists their paths ([`paths`](Library::paths)), returns the moves of a path
-//! ([`path`](Library::path)) and its G-code ([`program`](Library::program)), writes programs ([`emit`](Library::emit)), tells which path
-//! embeds which ([`embedders`](Library::embedders)), verifies programs of any origin ([`verify`](Library::verify)), and checks again
-//! whenever a drawing changes ([`watch`](Library::watch)).
+//! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It offers what the command-line program does, whose
+//! commands `check`, `emit`, `list` and `verify` ask a library themselves: it checks the drawings ([`check`](Library::check)), lists their
+//! paths ([`paths`](Library::paths)), returns the moves of a path ([`path`](Library::path)) and its G-code ([`program`](Library::program)),
+//! writes programs ([`emit`](Library::emit)), tells which path embeds which ([`embedders`](Library::embedders)), verifies programs of any
+//! origin ([`verify`](Library::verify)), and checks again whenever a drawing changes ([`watch`](Library::watch)).
 //!
 //! ```
 //! use pathbuild_api::{Error, Lang, Library};
@@ -37,6 +37,7 @@
 //! This is the only crate of pathbuild whose public items keep their meaning between versions; types that may grow are
 //! `#[non_exhaustive]`. `public-items.txt` lists all public items. The crates that this one uses may change in any version.
 
+mod baseline;
 mod finding;
 mod library;
 mod options;
@@ -45,14 +46,15 @@ mod report;
 mod verify;
 mod watch;
 
+pub use baseline::{BaselineOptions, WrittenBaseline};
 pub use finding::{Embedding, Error, Finding};
 pub use library::Library;
-pub use options::{EmitOptions, LibraryOptions};
+pub use options::{CheckOptions, EmitOptions, LibraryOptions, ListOptions};
 pub use path::{Arc, Element, Move, MoveKind, Parameter, Path, Statistics};
 pub use pathbuild_diagnostic::Lang;
 pub use report::{
-    CheckReport, EmitReport, FileState, GraphEdge, GraphReport, OutputFile, PathListing, PathSummary,
-    ProgramState, ProgramText,
+    CheckReport, CheckedDrawing, EmitReport, FileState, GraphEdge, GraphReport, LeftOutElements, OutputFile,
+    PathListing, PathSummary, PostBuild, ProgramState, ProgramText,
 };
 pub use verify::{CheckState, DrawingComparison, ProgramCheck, VerifiedProgram, VerifyOptions, VerifyReport};
 pub use watch::{WatchEnd, WatchReport};

@@ -1,25 +1,28 @@
 //! Implements the library, which answers requests in a thread of its own.
 
 use std::path::Path as FilePath;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
 use std::thread;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Role, SourceFile, bug, catch_bugs, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
-use pathbuild_workspace::check;
-use pathbuild_workspace::emit::{self, SceneReport, ShownText, State, Task};
+use pathbuild_workspace::check::{self, EarlierFiles};
+use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::list;
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
+use pathbuild_workspace::revision::RevisionFiles;
 use pathbuild_workspace::session::{NamedPaths, NotOnePath, Session, several_paths_error};
 use pathbuild_workspace::{Inputs, Workspace, verify, watch};
 
-use crate::options::Source;
+use crate::baseline::SettledFindings;
 use crate::watch::{ReportForwarder, with_absolute_paths};
 use crate::{
-    CheckReport, EmitOptions, EmitReport, Error, Finding, GraphReport, LibraryOptions, OutputFile, Path,
-    PathListing, PathSummary, ProgramText, VerifyOptions, VerifyReport, WatchEnd, WatchReport,
+    CheckOptions, CheckReport, EmitOptions, EmitReport, Error, Finding, GraphReport, LibraryOptions,
+    ListOptions, Path, PathListing, PathSummary, ProgramText, VerifyOptions, VerifyReport, WatchEnd,
+    WatchReport,
 };
 
 /// A directory of drawings, opened with the configuration that applies there.
@@ -28,11 +31,12 @@ use crate::{
 /// that depend on the edited files are computed again. Report edits with [`changed`](Self::changed).
 #[derive(Debug)]
 pub struct Library {
+    workspace: Arc<Workspace>,
     requests: Sender<Request>,
 }
 
 /// A request, which runs on the session in the library's thread and sends the answer itself.
-type Request = Box<dyn FnOnce(&mut Session<'_>) + Send>;
+type Request = Box<dyn FnOnce(&mut OpenSession<'_>) + Send>;
 
 /// Stack size of the library's thread in bytes, as large as that of a program's main thread.
 const STACK: usize = 8 << 20;
@@ -53,20 +57,35 @@ impl Library {
     /// # Errors
     /// If the baseline has errors. Errors in the drawings are in the report.
     pub fn check(&self, inputs: &[&str]) -> Result<CheckReport, Error> {
-        let inputs = to_inputs(inputs);
-        self.ask(move |session| {
-            let inputs = if inputs.inputs.is_empty() { whole_library(session) } else { inputs };
-            let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
+        self.check_with(inputs, &CheckOptions::new())
+    }
+
+    /// Like [`check`](Self::check), with options.
+    ///
+    /// # Errors
+    /// If the baseline has errors or cannot be written, or if there is no revision to compare with.
+    pub fn check_with(&self, inputs: &[&str], options: &CheckOptions) -> Result<CheckReport, Error> {
+        let (inputs, options) = (to_inputs(inputs), options.clone());
+        let baseline = options.baseline.clone().resolve(&self.workspace)?;
+        let is_traced = self.workspace.keeps_results() || options.changed_since.is_some();
+        self.ask_traced(is_traced, move |session| {
             let workspace = session.workspace();
-            let outcome = request.run(session).map_err(|failure| Error::from_failure(workspace, failure))?;
-            let coverage = request.coverage(workspace, &outcome.files);
-            let (findings, accepted) = Finding::from_settled(workspace, outcome.diagnostics, coverage)?;
-            Ok(CheckReport {
-                findings,
-                accepted,
-                paths: outcome.files.iter().map(|file| file.paths.len()).sum(),
-                drawings: outcome.files.len(),
-            })
+            let inputs = if inputs.inputs.is_empty() { whole_library(workspace) } else { inputs };
+            let revision = |name: &String| revision_files(workspace, &inputs, name);
+            let revision = options.changed_since.as_ref().map(revision).transpose()?;
+            let changed = revision.as_ref().map(|revision| revision as &dyn EarlierFiles);
+            let request =
+                check::Request { inputs: &inputs, with_all_values: options.has_all_values, changed };
+            if options.has_timings {
+                session.timings.switch_on();
+            }
+            let check::CheckOutcome { diagnostics, files } =
+                request.run(session).map_err(Error::from_failure)?;
+            let coverage = || request.coverage(workspace, &files);
+            let settled = SettledFindings::new(workspace, diagnostics, &baseline, coverage)?;
+            let timings =
+                if options.has_timings { session.timings.lines(workspace.lang()) } else { Vec::new() };
+            Ok(CheckReport::new(settled, files, timings))
         })
     }
 
@@ -76,17 +95,24 @@ impl Library {
     /// # Errors
     /// If a pattern is invalid.
     pub fn paths(&self, inputs: &[&str]) -> Result<PathListing, Error> {
-        let inputs = to_inputs(inputs);
-        self.ask(move |session| {
+        self.paths_with(inputs, &ListOptions::new())
+    }
+
+    /// Like [`paths`](Self::paths), with options.
+    ///
+    /// # Errors
+    /// If a pattern is invalid, or if the post-processor does not exist or has errors.
+    pub fn paths_with(&self, inputs: &[&str], options: &ListOptions) -> Result<PathListing, Error> {
+        let (inputs, options) = (to_inputs(inputs), options.clone());
+        self.ask_traced(false, move |session| {
             let workspace = session.workspace();
-            let listed = list::Request { inputs: &inputs, post: None }.run(session);
-            let listed = listed.map_err(|failure| Error::from_failure(workspace, failure))?;
+            let listed = list::Request { inputs: &inputs, post: options.post.as_deref() }.run(session);
+            let listed = listed.map_err(Error::from_failure)?;
             let paths = listed.paths.into_iter().map(|path| PathSummary::new(workspace, path));
-            Ok(PathListing {
-                paths: paths.collect(),
-                drawings: listed.drawings,
-                findings: Finding::from_diagnostics(workspace, listed.diagnostics),
-            })
+            let (paths, drawings) = (paths.collect(), listed.drawings);
+            let found = workspace.findings(listed.diagnostics);
+            let (findings, accepted) = Finding::reported_and_accepted(found);
+            Ok(PathListing { paths, drawings, findings, accepted })
         })
     }
 
@@ -141,40 +167,26 @@ impl Library {
     /// # Errors
     /// If there is no such path, if it has errors, or if its program consists of several files because it has Z-probes.
     pub fn program(&self, path: &str, options: &EmitOptions) -> Result<ProgramText, Error> {
-        let (inputs, options) = (to_inputs(&[path]), options.clone());
-        self.ask(move |session| {
-            let emission = run_emit(session, &inputs, &options, Task::Print)?;
-            let mut files = emission.delivered.into_iter().flat_map(|outcome| outcome.files);
-            let found = emission.diagnostics;
-            match files.next() {
-                Some((file, State::Printed(text))) => Ok(ProgramText {
-                    file: file.into_string(),
-                    text,
-                    findings: Finding::from_diagnostics(session.workspace(), found),
-                }),
-                _ => Err(Error::from_findings(session.workspace(), found)),
-            }
-        })
+        let EmitReport { files, findings, .. } = self.emit(&[path], &options.clone().print())?;
+        match files.into_iter().find_map(|file| Some((file.file, file.text?))) {
+            Some((file, text)) => Ok(ProgramText { file, text, findings }),
+            None => Err(Error::Findings(findings)),
+        }
     }
 
     /// Writes the programs of drawings, paths and directories as `pathbuild emit` does. Without inputs, writes those of the paths that the
     /// configuration names.
     ///
     /// # Errors
-    /// If the request is invalid, for example because a needed setting is missing. Errors in the drawings are in the report.
+    /// If the request is invalid, for example because a needed setting is missing, or if the post-processor does not exist or has errors. Errors in the
+    /// drawings are in the report.
     pub fn emit(&self, inputs: &[&str], options: &EmitOptions) -> Result<EmitReport, Error> {
         let (inputs, options) = (to_inputs(inputs), options.clone());
-        let task = if options.compare {
-            Task::Compare { moves_only: false }
-        } else {
-            Task::Write { force: options.force }
-        };
-        self.ask(move |session| {
-            let emission = run_emit(session, &inputs, &options, task)?;
-            Ok(EmitReport {
-                files: emission.delivered.into_iter().flat_map(OutputFile::from_outcome).collect(),
-                findings: Finding::from_diagnostics(session.workspace(), emission.diagnostics),
-            })
+        options.check_date(&self.workspace)?;
+        let is_traced = self.workspace.keeps_results() && options.request(&inputs).uses_cache();
+        self.ask_traced(is_traced, move |session| {
+            let emission = options.request(&inputs).run(session).map_err(Error::from_failure)?;
+            Ok(EmitReport::new(session.workspace(), emission))
         })
     }
 
@@ -186,7 +198,7 @@ impl Library {
     pub fn embedded(&self, inputs: &[&str]) -> Result<GraphReport, Error> {
         let inputs = to_inputs(inputs);
         self.ask(move |session| {
-            let inputs = if inputs.inputs.is_empty() { whole_library(session) } else { inputs };
+            let inputs = if inputs.inputs.is_empty() { whole_library(session.workspace()) } else { inputs };
             Ok(GraphReport::new(session.workspace(), session.embedded_paths(&inputs)))
         })
     }
@@ -207,14 +219,14 @@ impl Library {
     /// If the post-processor, the path to compare with or the baseline does not exist, or has errors. Problems in the programs are in the report.
     pub fn verify(&self, programs: &[&str], options: &VerifyOptions) -> Result<VerifyReport, Error> {
         let places: Vec<Utf8PathBuf> = programs.iter().map(Utf8PathBuf::from).collect();
-        let options = options.clone();
+        let mut options = options.clone();
+        let baseline = std::mem::take(&mut options.baseline).resolve(&self.workspace)?;
+        let (name, text) = options.take_text().unzip();
+        let options = options.resolve(&self.workspace)?;
         self.ask(move |session| {
-            let workspace = session.workspace();
-            let request =
-                verify::Request { places: &places, text: None, options: options.resolve(workspace)? };
-            let verification =
-                request.run(session).map_err(|failure| Error::from_failure(workspace, failure))?;
-            VerifyReport::new(workspace, verification)
+            let request = verify::Request { places: &places, text: name.as_deref().zip(text), options };
+            let verification = request.run(session).map_err(Error::from_failure)?;
+            VerifyReport::new(session.workspace(), verification, &baseline)
         })
     }
 
@@ -237,8 +249,8 @@ impl Library {
     /// # Errors
     /// If an internal error occurs.
     pub fn refresh(&self) -> Result<(), Error> {
-        self.ask(|session| {
-            *session = new_session(session.workspace());
+        self.work(|open| {
+            open.session = None;
             Ok(())
         })
     }
@@ -249,13 +261,13 @@ impl Library {
     /// # Errors
     /// If the system cannot report changes.
     pub fn watch(&self, seen: impl FnMut(WatchReport) -> bool + Send + 'static) -> Result<WatchEnd, Error> {
-        self.ask(move |session| {
-            let workspace = session.workspace();
-            let inputs = whole_library(session);
+        self.work(move |open| {
+            let workspace = open.workspace;
+            let inputs = whole_library(workspace);
             let request = watch::Request { inputs: &inputs, emits: false, lists: false, polls: false };
             let end = request.run(&with_absolute_paths(workspace), &ReportForwarder::new(workspace, seen));
             // The session's results may be out of date.
-            *session = new_session(workspace);
+            open.session = None;
             match end {
                 watch::WatchEnd::Over => Ok(WatchEnd::Stopped),
                 watch::WatchEnd::ConfigurationChanged => Ok(WatchEnd::ConfigurationChanged),
@@ -270,27 +282,49 @@ impl Library {
         })
     }
 
-    /// Starts the library's thread. The session must stay in one thread, because it borrows its workspace, and its database works for one thread at a
-    /// time.
-    pub(crate) fn start(source: Source, options: LibraryOptions) -> Result<Self, Error> {
-        let (requests, waiting) = channel();
-        let (opened, answer) = channel();
-        let serve = move || serve(source, options, &opened, waiting);
+    /// Opens the library of a workspace, and starts its thread. The session must stay in one thread, because it borrows its workspace, and its database
+    /// works for one thread at a time.
+    ///
+    /// # Errors
+    /// If the system cannot start the thread.
+    #[doc(hidden)]
+    pub fn of_workspace(workspace: Arc<Workspace>) -> Result<Self, Error> {
+        let (requests, waiting) = channel::<Request>();
+        let shared = Arc::clone(&workspace);
+        let serve = move || {
+            let mut open = OpenSession { workspace: &shared, session: None };
+            waiting.into_iter().for_each(|request| request(&mut open));
+        };
         let thread = thread::Builder::new().name("pathbuild".to_owned()).stack_size(STACK).spawn(serve);
         thread.map_err(|error| Error::Refused(error.to_string()))?;
-        answer.recv().unwrap_or_else(|_| Err(thread_ended_error()))?;
-        Ok(Self { requests })
+        Ok(Self { workspace, requests })
     }
 
-    /// Runs a closure on the session in the library's thread, and waits for its result.
+    /// Runs a closure on the session in the library's thread, and waits for its result. The session traces inputs if results are cached.
     fn ask<R: Send + 'static>(
         &self,
         work: impl FnOnce(&mut Session<'_>) -> Result<R, Error> + Send + 'static,
     ) -> Result<R, Error> {
+        self.ask_traced(self.workspace.keeps_results(), work)
+    }
+
+    /// Like [`ask`](Self::ask). `is_traced` is whether the session must trace inputs.
+    fn ask_traced<R: Send + 'static>(
+        &self,
+        is_traced: bool,
+        work: impl FnOnce(&mut Session<'_>) -> Result<R, Error> + Send + 'static,
+    ) -> Result<R, Error> {
+        self.work(move |open| work(open.session(is_traced)))
+    }
+
+    fn work<R: Send + 'static>(
+        &self,
+        work: impl FnOnce(&mut OpenSession<'_>) -> Result<R, Error> + Send + 'static,
+    ) -> Result<R, Error> {
         let (answer, answered) = channel();
-        let request = move |session: &mut Session<'_>| {
+        let request = move |open: &mut OpenSession<'_>| {
             let result =
-                catch_bugs(|| work(session)).unwrap_or_else(|problem| Err(Error::internal_error(*problem)));
+                catch_bugs(|| work(open)).unwrap_or_else(|problem| Err(Error::internal_error(*problem)));
             // The receiver exists, because the caller waits for the result.
             _ = answer.send(result);
         };
@@ -299,30 +333,18 @@ impl Library {
     }
 }
 
-/// Opens the session and answers requests until the library is dropped.
-fn serve(
-    source: Source,
-    options: LibraryOptions,
-    opened: &Sender<Result<(), Error>>,
-    requests: Receiver<Request>,
-) {
-    let workspace = match options.workspace(source) {
-        Ok(workspace) => workspace,
-        Err(error) => {
-            _ = opened.send(Err(error));
-            return;
-        }
-    };
-    let mut session = new_session(&workspace);
-    _ = opened.send(Ok(()));
-    for request in requests {
-        request(&mut session);
-    }
+/// The session of a library, which the first request opens.
+struct OpenSession<'w> {
+    workspace: &'w Workspace,
+    session: Option<Session<'w>>,
 }
 
-/// Opens a session that caches results if the workspace does.
-fn new_session(workspace: &Workspace) -> Session<'_> {
-    if workspace.keeps_results() { Session::with_tracing(workspace) } else { Session::new(workspace) }
+impl<'w> OpenSession<'w> {
+    /// Returns the session. Opens another one if the present one does not trace inputs although that is needed.
+    fn session(&mut self, is_traced: bool) -> &mut Session<'w> {
+        self.session.take_if(|session| is_traced && !session.is_traced());
+        self.session.get_or_insert_with(|| Session::open(self.workspace, is_traced))
+    }
 }
 
 /// Creates the error for a thread that has ended, which only an internal error can cause.
@@ -335,9 +357,26 @@ fn to_inputs(inputs: &[&str]) -> Inputs {
 }
 
 /// Returns the inputs that stand for the configured library, or for the directory if none is configured.
-fn whole_library(session: &Session<'_>) -> Inputs {
-    let directory = (!session.has_library()).then_some(&session.workspace().working_directory);
+fn whole_library(workspace: &Workspace) -> Inputs {
+    let directory = (!workspace.has_library()).then_some(&workspace.working_directory);
     Inputs::places(directory)
+}
+
+/// Reads a Git revision.
+fn revision_files<'w>(
+    workspace: &'w Workspace,
+    inputs: &Inputs,
+    revision: &str,
+) -> Result<RevisionFiles<'w>, Error> {
+    // Git would look for a repository in the working directory of the process.
+    if workspace.working_directory.as_str().is_empty() {
+        let [en, de] = [
+            "the library has no directory on disk, so it has no revisions",
+            "die Bibliothek hat kein Verzeichnis auf der Platte und deshalb keine Revisionen",
+        ];
+        return Err(Error::Refused(workspace.choose(en, de).to_owned()));
+    }
+    RevisionFiles::new(workspace, inputs, revision).map_err(Error::Refused)
 }
 
 /// Finds a path by its name, or by the name of a drawing with no other path.
@@ -384,22 +423,4 @@ fn scene(session: &Session<'_>, file: SourceFile, name: PathName) -> Result<Scen
         .map_err(|found| Error::from_findings(workspace, found))?;
     let report = session.scene(file, &[name], ShownText::Emitted(post_processor.as_ref()));
     Ok(SceneReport { diagnostics: session.with_hints(report.diagnostics), ..report })
-}
-
-fn run_emit(
-    session: &mut Session<'_>,
-    inputs: &Inputs,
-    options: &EmitOptions,
-    task: Task,
-) -> Result<emit::Emission, Error> {
-    let request = emit::Request {
-        inputs,
-        task,
-        post: options.post.as_deref(),
-        post_arguments: PostArguments::default(),
-        join: None,
-        deps: None,
-        removes_stale: false,
-    };
-    request.run(session).map_err(|failure| Error::from_failure(session.workspace(), failure))
 }

@@ -9,10 +9,12 @@ use pathbuild_db::system::{BasedSystem, FileKind, MemorySystem, OsSystem, clean}
 use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::config::sections::general::OPTIONS;
 use pathbuild_workspace::config::{self, GivenOptions, OptionValues, Overrides};
-use pathbuild_workspace::waivers::{DateSource, RunDate};
+use pathbuild_workspace::emit::{self, Task};
+use pathbuild_workspace::post_processor::PostArguments;
+use pathbuild_workspace::waivers::{Date, DateSource, RunDate};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
-use crate::{Error, Library};
+use crate::{BaselineOptions, Error, Library};
 
 /// Options for opening a library. By default, the library is opened as the command-line program opens it, but without the cache and the user's own
 /// configuration.
@@ -33,14 +35,6 @@ pub struct LibraryOptions {
     threads: Option<u16>,
     lang: Option<Lang>,
     date: Option<String>,
-}
-
-/// Options for writing programs: the post-processor, and whether existing files are compared or overwritten.
-#[derive(Clone, Debug, Default)]
-pub struct EmitOptions {
-    pub(crate) post: Option<String>,
-    pub(crate) compare: bool,
-    pub(crate) force: bool,
 }
 
 impl LibraryOptions {
@@ -99,7 +93,7 @@ impl LibraryOptions {
     /// # Errors
     /// If there is no such directory, or if the configuration or an option has errors.
     pub fn open(self, directory: impl AsRef<Path>) -> Result<Library, Error> {
-        Library::start(Source::Directory(directory.as_ref().to_owned()), self)
+        self.open_source(Source::Directory(directory.as_ref().to_owned()))
     }
 
     /// Opens a library of files in memory, each with its name relative to the library's directory. A file named `pathbuild.toml` is its
@@ -112,10 +106,14 @@ impl LibraryOptions {
         files: impl IntoIterator<Item = (N, Vec<u8>)>,
     ) -> Result<Library, Error> {
         let files = files.into_iter().map(|(name, bytes)| (name.into(), bytes)).collect();
-        Library::start(Source::Files(files), self)
+        self.open_source(Source::Files(files))
     }
 
-    pub(crate) fn workspace(self, source: Source) -> Result<Workspace, Error> {
+    fn open_source(self, source: Source) -> Result<Library, Error> {
+        Library::of_workspace(Arc::new(self.workspace(source)?))
+    }
+
+    fn workspace(self, source: Source) -> Result<Workspace, Error> {
         let settings = self.given_options()?;
         let utf8 = |path| utf8(path, self.lang);
         let config = self.config.map(utf8).transpose()?;
@@ -134,7 +132,7 @@ impl LibraryOptions {
             working_directory: directory,
             jobs: self.threads,
             cache,
-            reporter: std::rc::Rc::new(SilentReporter),
+            reporter: Arc::new(SilentReporter),
             is_date_decisive: Arc::default(),
         };
         if faults.is_empty() { Ok(workspace) } else { Err(Error::from_findings(&workspace, faults)) }
@@ -170,6 +168,80 @@ impl LibraryOptions {
     }
 }
 
+/// Options for checking drawings.
+#[derive(Clone, Debug, Default)]
+pub struct CheckOptions {
+    pub(crate) changed_since: Option<String>,
+    pub(crate) has_all_values: bool,
+    pub(crate) has_timings: bool,
+    pub(crate) baseline: BaselineOptions,
+}
+
+impl CheckOptions {
+    /// Creates the default options.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Reports only findings that depend on files changed since this Git revision. The inputs must be directories or the whole library, which must be on
+    /// disk.
+    pub fn changed_since(mut self, revision: impl Into<String>) -> Self {
+        self.changed_since = Some(revision.into());
+        self
+    }
+
+    /// Checks all combinations of the variables' values instead of one value of each.
+    pub fn all_values(mut self) -> Self {
+        self.has_all_values = true;
+        self
+    }
+
+    /// Sets the baseline, and whether it is applied or written.
+    pub fn baseline(mut self, baseline: BaselineOptions) -> Self {
+        self.baseline = baseline;
+        self
+    }
+
+    /// Measures the phases, for pathbuild's command line.
+    #[doc(hidden)]
+    pub fn timings(mut self) -> Self {
+        self.has_timings = true;
+        self
+    }
+}
+
+/// Options for listing paths.
+#[derive(Clone, Debug, Default)]
+pub struct ListOptions {
+    pub(crate) post: Option<String>,
+}
+
+impl ListOptions {
+    /// Creates the default options.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Compares the programs on disk with those of this post-processor: the name of a built-in one, the file of a definition, or `native`. Without it,
+    /// the configuration decides.
+    pub fn post(mut self, post: impl Into<String>) -> Self {
+        self.post = Some(post.into());
+        self
+    }
+}
+
+/// Options for writing programs: the post-processor, and whether existing files are compared or overwritten.
+#[derive(Clone, Debug, Default)]
+pub struct EmitOptions {
+    post: Option<String>,
+    task: Option<Task>,
+    force: bool,
+    join: Option<String>,
+    deps: Option<Utf8PathBuf>,
+    removes_stale: bool,
+    arguments: PostArguments,
+}
+
 impl EmitOptions {
     /// Creates the default options.
     pub fn new() -> Self {
@@ -184,7 +256,19 @@ impl EmitOptions {
 
     /// Compares the files with those on disk instead of writing them.
     pub fn compare(mut self) -> Self {
-        self.compare = true;
+        self.task = Some(Task::Compare { moves_only: false });
+        self
+    }
+
+    /// Compares only the moves of the files with those on disk instead of writing them.
+    pub fn compare_moves(mut self) -> Self {
+        self.task = Some(Task::Compare { moves_only: true });
+        self
+    }
+
+    /// Returns the program in [`OutputFile::text`](crate::OutputFile::text) instead of writing it. The inputs must name a single path.
+    pub fn print(mut self) -> Self {
+        self.task = Some(Task::Print);
         self
     }
 
@@ -193,11 +277,65 @@ impl EmitOptions {
         self.force = true;
         self
     }
+
+    /// Joins all paths, in the order of the inputs, into one program of this name.
+    pub fn join(mut self, name: impl Into<String>) -> Self {
+        self.join = Some(name.into());
+        self
+    }
+
+    /// Also writes the dependencies of the files into this file, for make and Ninja.
+    pub fn deps(mut self, file: impl Into<String>) -> Self {
+        self.deps = Some(file.into().into());
+        self
+    }
+
+    /// Removes programs that pathbuild wrote earlier and would no longer write.
+    pub fn remove_stale(mut self) -> Self {
+        self.removes_stale = true;
+        self
+    }
+
+    /// Sets the date, such as `2026-12-31`, that a post-processor may write into programs.
+    pub fn date(mut self, date: impl Into<String>) -> Self {
+        self.arguments.date = Some(date.into().into());
+        self
+    }
+
+    /// Sets the dialect of the output, for a post-processor that does not name it.
+    pub fn dialect(mut self, dialect: impl Into<String>) -> Self {
+        self.arguments.dialect = Some(dialect.into().into());
+        self
+    }
+
+    /// Lets the post-processor request commands for its output. They are in [`EmitReport::post_builds`](crate::EmitReport::post_builds), and the caller
+    /// runs them.
+    pub fn post_builds(mut self) -> Self {
+        self.arguments.run_post_build = true;
+        self
+    }
+
+    pub(crate) fn check_date(&self, workspace: &Workspace) -> Result<(), Error> {
+        let date = self.arguments.date.as_deref().map(|text| date(text, Some(workspace.lang())));
+        date.transpose().map(|_| ())
+    }
+
+    pub(crate) fn request<'a>(&'a self, inputs: &'a Inputs) -> emit::Request<'a> {
+        emit::Request {
+            inputs,
+            task: self.task.unwrap_or(Task::Write { force: self.force }),
+            post: self.post.as_deref(),
+            post_arguments: self.arguments.clone(),
+            join: self.join.as_deref(),
+            deps: self.deps.as_deref(),
+            removes_stale: self.removes_stale,
+        }
+    }
 }
 
 /// Location of a library's files: a directory on disk, or names and contents in memory.
 #[derive(Clone, Debug)]
-pub(crate) enum Source {
+enum Source {
     Directory(PathBuf),
     Files(Vec<(String, Vec<u8>)>),
 }
@@ -226,15 +364,18 @@ impl Source {
     }
 }
 
-fn utf8(path: PathBuf, lang: Option<Lang>) -> Result<Utf8PathBuf, Error> {
+pub(crate) fn utf8(path: PathBuf, lang: Option<Lang>) -> Result<Utf8PathBuf, Error> {
     let [en, de] = ["{}: the name is not UTF-8", "{}: der Name ist nicht in UTF-8"];
     Utf8PathBuf::from_path_buf(path).map_err(|path| refusal(lang, en, de, &path.to_string_lossy()))
 }
 
 fn run_date(text: &str, lang: Option<Lang>) -> Result<RunDate, Error> {
+    Ok(RunDate { date: date(text, lang)?, source: DateSource::Given })
+}
+
+pub(crate) fn date(text: &str, lang: Option<Lang>) -> Result<Date, Error> {
     let [en, de] = ["`{}` is not a date such as 2026-12-31", "`{}` ist kein Datum wie 2026-12-31"];
-    let date = text.parse().map_err(|()| refusal(lang, en, de, text))?;
-    Ok(RunDate { date, source: DateSource::Given })
+    text.parse().map_err(|()| refusal(lang, en, de, text))
 }
 
 /// Creates a refusal that occurs before the configuration is read, so that a language set there does not apply.

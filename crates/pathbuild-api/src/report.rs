@@ -1,11 +1,18 @@
 //! Results of requests about many paths.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use camino::Utf8PathBuf;
+use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Lang};
+use pathbuild_path::PathName;
 use pathbuild_workspace::Workspace;
-use pathbuild_workspace::emit::{ProgramOutcome, State};
+use pathbuild_workspace::check::CheckedFile;
+use pathbuild_workspace::emit::{Emission, ProgramOutcome, State};
 use pathbuild_workspace::list::{self, ListedPath};
 use pathbuild_workspace::session::{EmbeddingEnd, Graph, GraphOutcome, Node};
 
-use crate::Finding;
+use crate::baseline::SettledFindings;
+use crate::{Finding, WrittenBaseline};
 
 /// The result of [`Library::check`](crate::Library::check).
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +26,23 @@ pub struct CheckReport {
     pub paths: usize,
     /// Number of drawings that were checked.
     pub drawings: usize,
+    /// The drawings that were checked, sorted by name.
+    pub files: Vec<CheckedDrawing>,
+    /// The baseline that was written instead of reporting the findings; `None` if that was not requested.
+    pub baseline: Option<WrittenBaseline>,
+    /// Time spent in each phase, for pathbuild's command line.
+    #[doc(hidden)]
+    pub timings: Vec<String>,
+}
+
+/// A drawing that was checked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct CheckedDrawing {
+    /// File of the drawing.
+    pub file: String,
+    /// Names of the checked paths, in file order, as their layers spell them.
+    pub paths: Vec<String>,
 }
 
 /// Paths with their figures.
@@ -32,6 +56,8 @@ pub struct PathListing {
     /// Findings about directories, inputs, and drawings as a whole. Findings about paths are in [`PathSummary::findings`];
     /// [`Library::check`](crate::Library::check) gives all findings, without duplicates.
     pub findings: Vec<Finding>,
+    /// Findings that `severity-in` accepts for a stated reason. (book: howto/ci)
+    pub accepted: Vec<Finding>,
 }
 
 /// The figures of a path. Lengths are in mm.
@@ -94,6 +120,40 @@ pub struct EmitReport {
     pub files: Vec<OutputFile>,
     /// Errors and warnings, in the order in which `pathbuild emit` prints them.
     pub findings: Vec<Finding>,
+    /// Findings that `severity-in` accepts for a stated reason. (book: howto/ci)
+    pub accepted: Vec<Finding>,
+    /// Notes of the post-processor, in the language of the library.
+    pub notes: Vec<String>,
+    /// Elements that lie on the layer of a path, but are not part of its program.
+    pub left_out: Vec<LeftOutElements>,
+    /// Names of the files that were removed because they were stale.
+    pub removed: Vec<String>,
+    /// Names of stale programs of paths that still exist, for example of adjusted ones that no longer match the program of their path.
+    pub outdated: Vec<String>,
+    /// Commands that the post-processor requests for files that were written. See [`EmitOptions::post_builds`](crate::EmitOptions::post_builds).
+    pub post_builds: Vec<PostBuild>,
+}
+
+/// Elements of a path that are not part of its program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct LeftOutElements {
+    /// Name of the path, or of the drawing's file if the elements belong to no path.
+    pub path: String,
+    /// Type of the elements, for example `SPLINE`.
+    pub entity: String,
+    /// Number of elements.
+    pub count: usize,
+}
+
+/// A command that a post-processor requests for its output.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct PostBuild {
+    /// The program to run, followed by its arguments.
+    pub command: Vec<String>,
+    /// Name of the file that the post-processor wrote.
+    pub file: String,
 }
 
 /// A file that `emit` writes.
@@ -104,8 +164,12 @@ pub struct OutputFile {
     pub file: String,
     /// Name of the path whose program the file contains.
     pub path: String,
+    /// Whether the file is the program itself. Otherwise, it belongs to it, as a setup sheet does.
+    pub is_program: bool,
     /// Outcome of writing or comparing the file.
     pub state: FileState,
+    /// Content of the file if it was requested instead of writing the file, in the encoding and with the line ends that `emit` writes.
+    pub text: Option<Vec<u8>>,
     /// Length of the program in mm.
     pub length: f64,
     /// Estimated working time in minutes.
@@ -126,6 +190,28 @@ pub enum FileState {
     Outdated,
     /// The file should be compared, but does not exist.
     Missing,
+    /// The content of the file was requested instead of writing it.
+    Printed,
+}
+
+impl CheckReport {
+    pub(crate) fn new(settled: SettledFindings, files: Vec<CheckedFile>, timings: Vec<String>) -> Self {
+        let SettledFindings { findings, accepted, baseline } = settled;
+        let names = |paths: &[PathName]| paths.iter().map(|path| path.as_str().to_owned()).collect();
+        let drawing = |CheckedFile { file, paths }: CheckedFile| CheckedDrawing {
+            file: file.into_string(),
+            paths: names(&paths),
+        };
+        Self {
+            findings,
+            accepted,
+            paths: files.iter().map(|file| file.paths.len()).sum(),
+            drawings: files.len(),
+            files: files.into_iter().map(drawing).collect(),
+            baseline,
+            timings,
+        }
+    }
 }
 
 impl PathSummary {
@@ -150,22 +236,78 @@ impl PathSummary {
     }
 }
 
-impl OutputFile {
-    pub(crate) fn from_outcome(outcome: ProgramOutcome) -> Vec<Self> {
-        let ProgramOutcome { path, files, length, minutes, .. } = outcome;
-        let file = |(file, state): (camino::Utf8PathBuf, State)| {
-            let state = match state {
-                State::Written => FileState::Written,
-                State::Unchanged => FileState::Unchanged,
-                State::Current => FileState::Current,
-                State::Outdated => FileState::Outdated,
-                State::Missing => FileState::Missing,
-                // A printed program has no file.
-                State::Printed(_) => return None,
-            };
-            Some(Self { file: file.into_string(), path: path.to_string(), state, length, minutes })
+impl EmitReport {
+    pub(crate) fn new(workspace: &Workspace, emission: Emission) -> Self {
+        let Emission { delivered, removed, outdated, diagnostics } = emission;
+        let names = |files: Vec<Utf8PathBuf>| files.into_iter().map(Utf8PathBuf::into_string).collect();
+        let left_out = LeftOutElements::of(&diagnostics);
+        let (findings, accepted) = Finding::reported_and_accepted(workspace.findings(diagnostics));
+        let post_builds = delivered.iter().filter_map(PostBuild::requested).collect();
+        let (files, notes) = OutputFile::of_programs(delivered, workspace.lang());
+        let (removed, outdated) = (names(removed), names(outdated));
+        Self { files, findings, accepted, notes, left_out, removed, outdated, post_builds }
+    }
+}
+
+impl LeftOutElements {
+    /// Counts the elements of each path that are not part of its program, by type.
+    fn of(diagnostics: &[Diagnostic]) -> Vec<Self> {
+        let curves = diagnostics.iter().filter(|found| found.code() == Code::UnsupportedCurve);
+        let curves: BTreeSet<_> = curves.map(|found| (&found.path, &found.file, &found.place)).collect();
+        let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+        for (path, file, place) in curves {
+            let name = path.as_deref().or_else(|| file.as_ref().and_then(|file| file.file_name()));
+            let kind = place.entity.map_or("", EntityKind::name);
+            *counts.entry((name.unwrap_or_default(), kind)).or_default() += 1;
+        }
+        let elements = |((path, entity), count): ((&str, &str), usize)| Self {
+            path: path.to_owned(),
+            entity: entity.to_owned(),
+            count,
         };
-        files.into_iter().filter_map(file).collect()
+        counts.into_iter().map(elements).collect()
+    }
+}
+
+impl PostBuild {
+    fn requested(outcome: &ProgramOutcome) -> Option<Self> {
+        let (command, file) = outcome.post_build.as_ref().filter(|(_, file)| outcome.has_written(file))?;
+        Some(Self { command: command.clone(), file: file.to_string() })
+    }
+}
+
+impl OutputFile {
+    /// Converts the outcomes of programs. Also returns the notes of their post-processors, each note once. Public for `watch` of pathbuild's command line.
+    #[doc(hidden)]
+    pub fn of_programs(outcomes: Vec<ProgramOutcome>, lang: Lang) -> (Vec<Self>, Vec<String>) {
+        let (mut all, mut notes) = (Vec::new(), Vec::new());
+        for ProgramOutcome { path, files, length, minutes, notes: added, .. } in outcomes {
+            for (index, (file, state)) in files.into_iter().enumerate() {
+                let (state, text) = FileState::of(state);
+                let (file, path, is_program) = (file.into_string(), path.to_string(), index == 0);
+                all.push(Self { file, path, is_program, state, text, length, minutes });
+            }
+            for note in added.iter().map(|note| note.text(lang)) {
+                if !notes.contains(&note) {
+                    notes.push(note);
+                }
+            }
+        }
+        (all, notes)
+    }
+}
+
+impl FileState {
+    /// Converts a state. Also returns the content of a printed file.
+    fn of(state: State) -> (Self, Option<Vec<u8>>) {
+        match state {
+            State::Written => (Self::Written, None),
+            State::Unchanged => (Self::Unchanged, None),
+            State::Current => (Self::Current, None),
+            State::Outdated => (Self::Outdated, None),
+            State::Missing => (Self::Missing, None),
+            State::Printed(text) => (Self::Printed, Some(text)),
+        }
     }
 }
 

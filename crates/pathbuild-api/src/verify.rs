@@ -3,11 +3,13 @@
 use camino::Utf8PathBuf;
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::config::types::Requirement;
-use pathbuild_workspace::program::ReadingOptions;
+use pathbuild_workspace::program::{ReadingOptions, UnitCodes};
+use pathbuild_workspace::settle;
 use pathbuild_workspace::verify::{self, CheckRecord, MoveComparison, Outcome, Verification};
 use pathbuild_workspace::waivers::Coverage;
 
-use crate::{Error, Finding};
+use crate::baseline::SettledFindings;
+use crate::{BaselineOptions, Error, Finding, Lang, WrittenBaseline};
 
 /// Options for verifying programs.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +20,11 @@ pub struct VerifyOptions {
     dialect: Option<String>,
     post: Option<String>,
     required: Vec<String>,
+    text: Option<(String, Vec<u8>)>,
+    has_table_unit_codes: bool,
+    has_absolute_arc_centres: bool,
+    is_feed_ignored: bool,
+    pub(crate) baseline: BaselineOptions,
 }
 
 impl VerifyOptions {
@@ -63,12 +70,54 @@ impl VerifyOptions {
         self
     }
 
+    /// Also verifies this program, which is not in a file. Findings name it by `name`.
+    pub fn text(mut self, name: impl Into<String>, text: Vec<u8>) -> Self {
+        self.text = Some((name.into(), text));
+        self
+    }
+
+    /// In programs for `XpertMILL`, reads G70 as millimetres and G71 as inches, the other way round than DIN 66025.
+    pub fn table_unit_codes(mut self) -> Self {
+        self.has_table_unit_codes = true;
+        self
+    }
+
+    /// In programs for `XpertMILL`, reads I and J as the centre of an arc itself, not as its distance from the start of the arc.
+    pub fn absolute_arc_centres(mut self) -> Self {
+        self.has_absolute_arc_centres = true;
+        self
+    }
+
+    /// In programs for `XpertMILL`, ignores F and uses the feeds of the layers.
+    pub fn ignore_feed(mut self) -> Self {
+        self.is_feed_ignored = true;
+        self
+    }
+
+    /// Sets the baseline, and whether it is applied or written.
+    pub fn baseline(mut self, baseline: BaselineOptions) -> Self {
+        self.baseline = baseline;
+        self
+    }
+
+    /// Takes the program that is not in a file.
+    pub(crate) fn take_text(&mut self) -> Option<(Utf8PathBuf, Vec<u8>)> {
+        self.text.take().map(|(name, text)| (name.into(), text))
+    }
+
     pub(crate) fn resolve(self, workspace: &Workspace) -> Result<verify::VerifyOptions, Error> {
-        let reading = |name: &String| {
+        let in_dialect = |name: &String| {
             ReadingOptions::in_dialect(name).ok_or_else(|| {
                 let [en, de] = ["there is no dialect `{}`", "es gibt keinen Dialekt `{}`"];
                 Error::Refused(workspace.phrase(en, de, name))
             })
+        };
+        let reading = self.dialect.as_ref().map(in_dialect).transpose()?.unwrap_or_default();
+        let reading = ReadingOptions {
+            unit_codes: if self.has_table_unit_codes { UnitCodes::Table } else { UnitCodes::Din },
+            absolute_arc_centres: self.has_absolute_arc_centres,
+            ignore_feed: self.is_feed_ignored,
+            ..reading
         };
         let requirement = |name: &String| {
             Requirement::named(name).ok_or_else(|| {
@@ -76,7 +125,7 @@ impl VerifyOptions {
             })
         };
         let options = verify::VerifyOptions {
-            reading: self.dialect.as_ref().map(reading).transpose()?.unwrap_or_default(),
+            reading,
             against: self.against,
             required: self.required.iter().map(requirement).collect::<Result<_, _>>()?,
             post: self.post,
@@ -99,6 +148,8 @@ pub struct VerifyReport {
     pub accepted: Vec<Finding>,
     /// The programs, in the order in which they were named.
     pub programs: Vec<VerifiedProgram>,
+    /// The baseline that was written instead of reporting the findings; `None` if that was not requested.
+    pub baseline: Option<WrittenBaseline>,
 }
 
 /// A verified program, with the checks that were made.
@@ -109,6 +160,8 @@ pub struct VerifiedProgram {
     pub file: String,
     /// The checks, whether made or not; empty if the program could not be read.
     pub checks: Vec<ProgramCheck>,
+    /// The checks in one line, in the language of the library; empty if the program could not be read.
+    pub summary: String,
     /// The comparison with the drawing; `None` if no drawing was named.
     pub comparison: Option<DrawingComparison>,
 }
@@ -123,6 +176,12 @@ pub struct ProgramCheck {
     pub state: CheckState,
     /// The values with which the check was made, or the reason why it was not made, in the language of the library.
     pub detail: String,
+    /// The values with which the check was made, even if not for all moves; `None` for a check without values.
+    pub values: Option<String>,
+    /// What would make the check possible; `None` if it was made.
+    pub advice: Option<String>,
+    /// Number of moves for which a check with values was not made; `None` if it was made for all moves, or for none.
+    pub open_moves: Option<usize>,
 }
 
 /// State of a check: made, made with assumed values, or not made.
@@ -145,6 +204,10 @@ pub struct DrawingComparison {
     pub path: String,
     /// File of the drawing that contains the path.
     pub drawing: String,
+    /// Name of the dialect, or of the post-processor's definition, by which the program was read.
+    pub dialect: String,
+    /// The dialect or the definition with the evidence for it, in the language of the library.
+    pub read_as: String,
     /// Number of moves in the program of the drawing.
     pub moves: usize,
     /// Number of equal moves before the first difference.
@@ -152,41 +215,57 @@ pub struct DrawingComparison {
 }
 
 impl VerifyReport {
-    pub(crate) fn new(workspace: &Workspace, verification: Verification) -> Result<Self, Error> {
-        let (mut diagnostics, mut programs) = (verification.problems, Vec::new());
-        let files = verification.programs.iter().map(|(file, _)| file.clone()).collect();
-        for (file, verified) in verification.programs {
-            diagnostics.extend(verified.diagnostics);
-            programs.push(VerifiedProgram {
-                file: Utf8PathBuf::into_string(file),
-                checks: verified.checks.iter().map(|record| ProgramCheck::new(workspace, record)).collect(),
-                comparison: verified.comparison.map(DrawingComparison::new),
-            });
+    pub(crate) fn new(
+        workspace: &Workspace,
+        verification: Verification,
+        baseline: &settle::BaselineOptions,
+    ) -> Result<Self, Error> {
+        let Verification { programs, diagnostics } = verification;
+        let files = || programs.iter().map(|(file, _)| file.clone()).collect();
+        let coverage = || Coverage { files: files(), ..Coverage::default() };
+        let SettledFindings { findings, accepted, baseline } =
+            SettledFindings::new(workspace, diagnostics, baseline, coverage)?;
+        let programs = programs.into_iter().map(|program| VerifiedProgram::new(workspace, program));
+        Ok(Self { findings, accepted, programs: programs.collect(), baseline })
+    }
+}
+
+impl VerifiedProgram {
+    fn new(workspace: &Workspace, (file, program): (Utf8PathBuf, verify::VerifiedProgram)) -> Self {
+        let (lang, checks) = (workspace.lang(), program.checks);
+        Self {
+            file: file.into_string(),
+            summary: if checks.is_empty() { String::new() } else { verify::summary(&checks, lang) },
+            checks: checks.iter().map(|record| ProgramCheck::new(record, lang)).collect(),
+            comparison: program.comparison.map(DrawingComparison::new),
         }
-        let coverage = Coverage { files, ..Coverage::default() };
-        let (findings, accepted) = Finding::from_settled(workspace, diagnostics, coverage)?;
-        Ok(Self { findings, accepted, programs })
     }
 }
 
 impl ProgramCheck {
-    fn new(workspace: &Workspace, record: &CheckRecord) -> Self {
-        let lang = workspace.lang();
-        let (state, detail) = match &record.outcome {
-            Outcome::Made(values) => {
-                (CheckState::Made, values.as_ref().map(|values| values.in_lang(lang)).unwrap_or_default())
+    fn new(record: &CheckRecord, lang: Lang) -> Self {
+        let values = record.values().map(|values| values.in_lang(lang));
+        let made = || values.clone().unwrap_or_default();
+        let (state, detail, advice, open_moves) = match &record.outcome {
+            Outcome::Made(_) => (CheckState::Made, made(), None, None),
+            Outcome::Assumed(..) => (CheckState::Assumed, made(), None, None),
+            Outcome::Incomplete(_, blind) => {
+                let (reason, count) = (verify::blind_text(*blind, lang), blind.count);
+                (CheckState::NotMade, reason, Some(&verify::ABOVE_FIRST), Some(count))
             }
-            Outcome::Assumed(values, _) => (CheckState::Assumed, values.in_lang(lang)),
-            Outcome::Incomplete(_, blind) => (CheckState::NotMade, verify::blind_text(*blind, lang)),
-            Outcome::NotMade(reason) => (CheckState::NotMade, reason.text().in_lang(lang).to_owned()),
+            Outcome::NotMade(reason) => {
+                let (text, option) = (reason.text().in_lang(lang).to_owned(), record.option(*reason));
+                (CheckState::NotMade, text, Some(option), None)
+            }
         };
-        Self { name: record.requirement.name().to_owned(), state, detail }
+        let advice = advice.map(|text| text.in_lang(lang).to_owned());
+        Self { name: record.requirement.name().to_owned(), state, detail, values, advice, open_moves }
     }
 }
 
 impl DrawingComparison {
     fn new(comparison: MoveComparison) -> Self {
-        let MoveComparison { path, drawing, moves, equal, .. } = comparison;
-        Self { path, drawing: drawing.into_string(), moves, equal }
+        let MoveComparison { path, drawing, dialect, read_as, moves, equal } = comparison;
+        Self { path, drawing: drawing.into_string(), dialect, read_as, moves, equal }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
@@ -42,7 +42,7 @@ pub(crate) fn with_absolute_paths(workspace: &Workspace) -> Workspace {
     Workspace {
         system_lang: None,
         working_directory: Utf8PathBuf::new(),
-        reporter: Rc::new(SilentReporter),
+        reporter: Arc::new(SilentReporter),
         ..workspace.clone()
     }
 }

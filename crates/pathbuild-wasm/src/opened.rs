@@ -1,7 +1,6 @@
 //! A session on the opened files, queried path by path.
 
 use std::collections::BTreeMap;
-use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -54,7 +53,7 @@ impl OpenedFiles {
             // WebAssembly has a single thread.
             jobs: Some(1),
             cache: None,
-            reporter: Rc::new(SilentReporter),
+            reporter: Arc::new(SilentReporter),
             is_date_decisive: Arc::default(),
         };
         // Leaked because it lives as long as the instance: to open other files, the page starts a new instance.

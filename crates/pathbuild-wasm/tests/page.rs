@@ -9,7 +9,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Role;
@@ -143,8 +143,8 @@ fn a_library_has_the_programs_that_are_written_from_files() {
         working_directory: Utf8PathBuf::new(),
         jobs: None,
         cache: None,
-        reporter: Rc::new(SilentReporter),
-        is_date_decisive: std::sync::Arc::default(),
+        reporter: Arc::new(SilentReporter),
+        is_date_decisive: Arc::default(),
     };
     let mut session = Session::new(&workspace);
     let mut compared = 0;

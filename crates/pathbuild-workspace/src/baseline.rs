@@ -219,7 +219,7 @@ impl Baseline {
 impl Workspace {
     /// Returns the path of the baseline file: `named` if given; otherwise it lies beside the configuration or, without a configuration, in the
     /// working directory.
-    pub fn baseline_file(&self, named: Option<&Utf8Path>) -> Utf8PathBuf {
+    pub(crate) fn baseline_file(&self, named: Option<&Utf8Path>) -> Utf8PathBuf {
         match named {
             Some(file) => self.working_directory.join(file),
             None => self.settings.directory().unwrap_or(&self.working_directory).join(FILE_NAME),
@@ -231,18 +231,18 @@ impl Workspace {
     ///
     /// # Errors
     /// If the baseline cannot be read or has faulty lines.
-    pub fn settle(
+    pub(crate) fn apply_baseline(
         &self,
         mut findings: Findings,
         baseline: Option<&Utf8Path>,
-        coverage: impl FnOnce(&Findings) -> Coverage,
+        coverage: impl FnOnce() -> Coverage,
     ) -> Result<Findings, Vec<Diagnostic>> {
         let file = self.baseline_file(baseline);
         let has_baseline = baseline.is_some() || self.system.kind(&file) == FileKind::File;
         if !has_baseline && !self.has_waivers() {
             return Ok(findings);
         }
-        let coverage = coverage(&findings);
+        let coverage = coverage();
         let mut unused = self.unused_waivers(&findings, &coverage);
         if has_baseline {
             let (baseline, faults) =

@@ -73,16 +73,8 @@ impl CheckTarget {
 }
 
 impl Request<'_> {
-    /// Opens a session that suits this request: it traces inputs if results are cached or filtered by changes.
-    pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
-        if workspace.keeps_results() || self.changed.is_some() {
-            Session::with_tracing(workspace)
-        } else {
-            Session::new(workspace)
-        }
-    }
-
-    /// Runs the check. Results are taken from the cache if they still hold, and new ones are stored.
+    /// Runs the check. Results are taken from the cache if they still hold, and new ones are stored. The session must trace inputs if results are to be
+    /// cached, or if they are limited to changed drawings.
     ///
     /// # Errors
     /// If the request is limited to changed drawings and the inputs are not all directories.

@@ -18,6 +18,11 @@ impl Inputs {
         Self { inputs: files.into_iter().map(place).collect() }
     }
 
+    /// Returns the inputs as the user wrote them.
+    pub fn texts(&self) -> Vec<&str> {
+        self.inputs.iter().map(String::as_str).collect()
+    }
+
     /// Iterates over the inputs, each classified.
     pub fn iter(&self) -> impl Iterator<Item = Input<'_>> {
         self.inputs.iter().map(|text| Input::new(text))

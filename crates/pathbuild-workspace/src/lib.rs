@@ -10,6 +10,8 @@ pub mod diff;
 pub mod emit;
 pub mod files;
 pub mod findings;
+#[cfg(not(target_family = "wasm"))]
+pub mod git;
 mod inputs;
 pub mod list;
 #[cfg(not(target_family = "wasm"))]
@@ -18,7 +20,10 @@ pub mod memo;
 pub mod post_processor;
 pub mod program;
 pub mod program_view;
+#[cfg(not(target_family = "wasm"))]
+pub mod revision;
 pub mod session;
+pub mod settle;
 mod severities;
 pub mod verify;
 pub mod waivers;

@@ -10,7 +10,7 @@ use pathbuild_diagnostic::messages::{files, gcode};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{
-    DisputedWords, Evidence, EvidenceKind, Guess, Heights, Interpretation, Options, Text, UnitCodes, guess,
+    DisputedWords, Evidence, EvidenceKind, Guess, Heights, Interpretation, Options, Text, guess,
     interpret_until,
 };
 use pathbuild_gcode::read::quote;
@@ -22,6 +22,8 @@ use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 use crate::config::Settings;
 use crate::config::types::DwellTime;
 use crate::workspace::Workspace;
+
+pub use pathbuild_gcode::interpret::UnitCodes;
 
 /// Options for reading programs.
 #[derive(Clone, Copy, Debug)]

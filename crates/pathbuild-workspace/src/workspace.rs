@@ -1,7 +1,6 @@
 //! The environment of a run, and the interface through which it tells a waiting user about its progress. Results are returned and not reported.
 
 use std::fmt::Debug;
-use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -32,7 +31,7 @@ pub struct Workspace {
     /// Place where results are cached; `None` disables the cache.
     pub cache: Option<CacheLocation>,
     /// Receives messages about the progress of the run.
-    pub reporter: Rc<dyn Reporter>,
+    pub reporter: Arc<dyn Reporter>,
     /// Whether a waiver that ends has accepted a finding because of the date of the run.
     pub is_date_decisive: Arc<AtomicBool>,
 }
@@ -70,7 +69,7 @@ impl Workspace {
     pub fn in_mode(&self, is_compatible: bool) -> Self {
         let mut settings = self.settings.clone();
         settings.general.compatible.value = is_compatible;
-        Self { settings, cache: None, reporter: Rc::new(SilentReporter), ..self.clone() }
+        Self { settings, cache: None, reporter: Arc::new(SilentReporter), ..self.clone() }
     }
 
     /// Returns the language of messages. Comments in programs use [`Settings::comment_lang`].
@@ -91,8 +90,8 @@ impl Workspace {
     }
 }
 
-/// A receiver of progress messages of a run.
-pub trait Reporter: Debug {
+/// A receiver of progress messages of a run, which may come from any thread.
+pub trait Reporter: Debug + Send + Sync {
     /// Reports a line about the progress of the run.
     fn status(&self, line: &str);
     /// Reports a line of detail, which is shown only on request.

@@ -1,14 +1,17 @@
 //! The context that is passed to every command.
 
+use std::mem::ManuallyDrop;
 use std::ops::Deref;
-use std::rc::Rc;
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use camino::Utf8Path;
+use pathbuild_api::{Error, Finding, Library};
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::waivers::WaivedFinding;
 use pathbuild_workspace::{Failure, Inputs, Workspace, files};
 use serde_json::Value;
 
@@ -25,7 +28,7 @@ use crate::render::{Format, View, json as lines, render};
 #[derive(Debug)]
 pub struct Context {
     /// Printer for stdout and stderr, which nothing else may access.
-    pub printer: Rc<Printer>,
+    pub printer: Arc<Printer>,
     /// Format in which diagnostics are printed.
     pub format: Format,
     /// The machine-readable document and reports of the run.
@@ -33,7 +36,7 @@ pub struct Context {
     /// Values from the command line that override the configuration.
     pub overrides: Overrides,
     /// Settings, files and directories of the run.
-    pub workspace: Workspace,
+    pub workspace: Arc<Workspace>,
 }
 
 impl Deref for Context {
@@ -46,9 +49,9 @@ impl Deref for Context {
 
 impl Context {
     /// Creates the context for a command line in this workspace.
-    pub fn new(cli: &Cli, overrides: Overrides, printer: Rc<Printer>, workspace: Workspace) -> Self {
+    pub fn new(cli: &Cli, overrides: Overrides, printer: Arc<Printer>, workspace: Workspace) -> Self {
         let output = Output::new(&cli.command, &cli.common);
-        Self { printer, format: output.format, output, overrides, workspace }
+        Self { printer, format: output.format, output, overrides, workspace: Arc::new(workspace) }
     }
 
     /// Creates the context for a command line in the working directory. Also returns diagnostics of the configuration.
@@ -60,7 +63,7 @@ impl Context {
         let (workspace, more) = environment::workspace(&overrides, &user, &command.inputs());
         faults.extend(more);
         let printer = Printer::new(common.verbosity(), common.color.unwrap_or_default());
-        let printer = Rc::new(printer.with_stdout_taken(Output::new(command, common).takes_stdout()));
+        let printer = Arc::new(printer.with_stdout_taken(Output::new(command, common).takes_stdout()));
         let cache_home = || {
             environment::cache_home(common.cache_dir.as_deref(), user.cache_dir, &workspace.working_directory)
         };
@@ -117,9 +120,13 @@ impl Context {
 
     /// Shows findings and returns the corresponding exit status.
     pub(crate) fn conclude(&self, diagnostics: Vec<Diagnostic>) -> ExitStatus {
-        let findings = self.findings(diagnostics);
-        self.show(&findings);
-        ExitStatus::of(&findings)
+        self.conclude_findings(&self.findings(diagnostics))
+    }
+
+    /// Shows findings with their configured severities, and returns the corresponding exit status.
+    pub(crate) fn conclude_findings(&self, findings: &Findings) -> ExitStatus {
+        self.show(findings);
+        ExitStatus::of(findings)
     }
 
     /// Shows only `some` of the findings to users. Reports contain all of them.
@@ -234,6 +241,26 @@ impl Context {
         }
     }
 
+    /// Opens the library of the run. It is never dropped, because freeing all query results takes longer than process exit.
+    ///
+    /// # Errors
+    /// If the system cannot start a thread.
+    pub(crate) fn library(&self) -> Result<ManuallyDrop<Library>, Error> {
+        Library::of_workspace(Arc::clone(&self.workspace)).map(ManuallyDrop::new)
+    }
+
+    /// Shows why a request to the library failed, and returns the exit status.
+    pub(crate) fn request_failed(&self, error: Error) -> ExitStatus {
+        match error {
+            Error::Refused(reason) => self.usage(&reason),
+            Error::Baseline(found) => self.refuse(for_rendering(found, Vec::new()).diagnostics),
+            Error::Findings(found) | Error::Post(found) => {
+                self.fail(for_rendering(found, Vec::new()).diagnostics)
+            }
+            error => self.usage(&error.to_string()),
+        }
+    }
+
     /// Reports a usage error: the command line names nothing to work on.
     pub fn refuse_empty_input(&self) -> ExitStatus {
         let advice = match self.settings.file {
@@ -269,4 +296,14 @@ impl Context {
             ..self.plain_view()
         }
     }
+}
+
+/// Converts the findings of a request to the library, and those that are accepted, for rendering.
+pub(crate) fn for_rendering(findings: Vec<Finding>, accepted: Vec<Finding>) -> Findings {
+    let diagnostics = findings.into_iter().map(|finding| finding.into_parts().0);
+    let waived = accepted.into_iter().map(|finding| {
+        let (diagnostic, waiver) = finding.into_parts();
+        WaivedFinding { diagnostic, waiver: waiver.unwrap_or_default() }
+    });
+    Findings { diagnostics: diagnostics.collect(), waived: waived.collect(), ..Findings::default() }
 }

@@ -5,7 +5,7 @@
 )]
 
 use std::env::{self, VarError};
-use std::rc::Rc;
+use std::sync::Arc;
 use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -46,8 +46,8 @@ pub(crate) fn workspace(
         working_directory,
         jobs: None,
         cache: None,
-        reporter: Rc::new(SilentReporter),
-        is_date_decisive: std::sync::Arc::default(),
+        reporter: Arc::new(SilentReporter),
+        is_date_decisive: Arc::default(),
     };
     (workspace, faults)
 }

@@ -16,11 +16,10 @@
 //! A closed pipe is not an error: the rest of that stream is dropped (`pathbuild check --format concise 2>&1 | head`). Any other write error is
 //! remembered and makes the run end with [`ExitStatus::Errors`].
 
-use std::cell::RefCell;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
@@ -75,7 +74,7 @@ pub struct Printer {
     color: ColorChoice,
     /// Whether stdout carries a machine-readable document, so that results for users go to stderr.
     is_stdout_taken: bool,
-    failures: RefCell<Failures>,
+    failures: Mutex<Failures>,
 }
 
 /// The first write error of each stream. After it, nothing more is written to that stream.
@@ -163,7 +162,7 @@ impl Printer {
 
     /// Prints a result to stdout, byte for byte.
     pub fn result_bytes(&self, bytes: &[u8]) {
-        let failed = &mut self.failures.borrow_mut().stdout;
+        let failed = &mut self.failures().stdout;
         if failed.is_none() {
             let mut stdout = io::stdout().lock();
             *failed = stdout.write_all(bytes).and_then(|()| stdout.flush()).err();
@@ -209,7 +208,7 @@ impl Printer {
 
     /// Reports write errors, and returns the final status.
     pub fn finish(&self, status: ExitStatus) -> ExitStatus {
-        let failures = self.failures.take();
+        let failures = std::mem::take(&mut *self.failures());
         let is_serious = |error: &io::Error| error.kind() != io::ErrorKind::BrokenPipe;
         if let Some(error) = failures.stdout.filter(is_serious) {
             self.write_line(Stream::Stderr, format_args!("error: cannot write to standard output: {error}"));
@@ -221,13 +220,17 @@ impl Printer {
         }
     }
 
+    fn failures(&self) -> MutexGuard<'_, Failures> {
+        self.failures.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn write_line(&self, stream: Stream, line: impl Display) {
         let line = format!("{}\n", shown::line(&line.to_string()));
         self.write(stream, &shown::lines(&line));
     }
 
     fn write(&self, stream: Stream, text: &str) {
-        let mut failures = self.failures.borrow_mut();
+        let mut failures = self.failures();
         match stream {
             Stream::Stdout => write_unless(&mut failures.stdout, io::stdout().lock(), text),
             Stream::Stderr => write_unless(&mut failures.stderr, io::stderr().lock(), text),

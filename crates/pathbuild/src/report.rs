@@ -4,33 +4,36 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::mem::ManuallyDrop;
 use std::time::Duration;
 
+use pathbuild_api::CheckReport;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, with_decimal_separator};
-use pathbuild_workspace::check::{CheckOutcome, Request};
+use pathbuild_path::PathName;
+use pathbuild_workspace::check::CheckedFile;
 use pathbuild_workspace::findings::Findings;
 
 use crate::args::CheckArgs;
-use crate::context::Context;
+use crate::context::{Context, for_rendering};
 use crate::exit::ExitStatus;
 use crate::render::write_pictures;
 use crate::text::{DRAWING, ERROR, PATH, WARNING, count, counted, table};
 use crate::waivers;
 
-/// Ends a check that took the given time: applies severities and waivers, writes pictures, shows findings and the summary, and returns
-/// the exit status.
-pub fn conclude(
-    context: &Context,
-    args: &CheckArgs,
-    request: &Request<'_>,
-    checked: CheckOutcome,
-    time: Duration,
-) -> ExitStatus {
-    let findings = Findings { checked: checked.files, ..context.findings(checked.diagnostics) };
-    let coverage = |findings: &Findings| request.coverage(context, &findings.checked);
-    match waivers::settle(context, &args.waivers, findings, coverage) {
-        // Leak instead of dropping: freeing a million values takes longer than process exit.
-        Ok(findings) => deliver(context, args, &ManuallyDrop::new(findings), time),
-        Err(status) => status,
-    }
+/// Ends a check that took the given time: writes pictures, shows findings and the summary, and returns the exit status.
+pub fn conclude(context: &Context, args: &CheckArgs, report: CheckReport, time: Duration) -> ExitStatus {
+    let CheckReport { findings, accepted, files, baseline, timings, .. } = report;
+    let status = match baseline {
+        Some(written) => waivers::report_written(context, &args.waivers, &written),
+        None => {
+            let checked = files.into_iter().map(|drawing| CheckedFile {
+                file: drawing.file.into(),
+                paths: drawing.paths.iter().map(|path| PathName::new(path)).collect(),
+            });
+            let findings = Findings { checked: checked.collect(), ..for_rendering(findings, accepted) };
+            // Leak instead of dropping: freeing a million values takes longer than process exit.
+            deliver(context, args, &ManuallyDrop::new(findings), time)
+        }
+    };
+    timings.iter().for_each(|line| context.printer.status(line));
+    status
 }
 
 fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Duration) -> ExitStatus {

@@ -1,7 +1,6 @@
 //! The programs of the recorded cases, without duplicates.
 
 use std::collections::BTreeMap;
-use std::rc::Rc;
 use std::sync::{Arc, OnceLock};
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -74,7 +73,7 @@ pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> 
         working_directory: Utf8PathBuf::new(),
         jobs: Some(1),
         cache: None,
-        reporter: Rc::new(SilentReporter),
+        reporter: Arc::new(SilentReporter),
         is_date_decisive: Arc::default(),
     };
     let session = Session::new(&workspace);

@@ -34,7 +34,9 @@ fn on_disk() -> TempDir {
 
 fn codes<T: std::fmt::Debug>(result: Result<T, Error>) -> Vec<String> {
     match result.unwrap_err() {
-        Error::Findings(found) => found.iter().map(pathbuild_api::Finding::code).collect(),
+        Error::Findings(found) | Error::Post(found) => {
+            found.iter().map(pathbuild_api::Finding::code).collect()
+        }
         other => panic!("{other:?}"),
     }
 }

@@ -76,23 +76,15 @@ pub struct Emission {
 }
 
 impl Request<'_> {
-    /// Opens a session that suits this request: it traces inputs if results are cached.
-    pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
-        if workspace.keeps_results() && !self.is_always_made() {
-            Session::with_tracing(workspace)
-        } else {
-            Session::new(workspace)
-        }
-    }
-
-    /// Whether everything is regenerated, regardless of the cache.
-    fn is_always_made(&self) -> bool {
-        matches!(self.task, Task::Print | Task::Write { force: true })
+    /// Whether results of earlier runs are used, if the session traces inputs. Otherwise, everything is regenerated.
+    pub fn uses_cache(&self) -> bool {
+        let is_always_made = matches!(self.task, Task::Print | Task::Write { force: true })
             || self.deps.is_some()
-            || self.post_arguments.run_post_build
+            || self.post_arguments.run_post_build;
+        !is_always_made
     }
 
-    /// Emits the programs in a session opened by [`session`](Self::session).
+    /// Emits the programs. The session must trace inputs if results are to be cached.
     ///
     /// # Errors
     /// If the request or the post-processor is invalid, with the reason.
@@ -133,11 +125,16 @@ struct Emitter<'r> {
 impl Emitter<'_> {
     fn run(&self, session: &mut Session<'_>) -> Result<Emission, String> {
         let Request { inputs, task, join, deps, .. } = *self.request;
-        if !session.is_traced() {
+        let uses_cache = session.is_traced() && self.request.uses_cache();
+        if !uses_cache {
             session.prefetch(inputs, &|_| false);
         }
         let mut matches = session.match_arguments(inputs);
-        let memo = Memo::open(session, ResultKind::Emit, &self.query(), inputs, &mut matches);
+        let memo = if uses_cache {
+            Memo::open(session, ResultKind::Emit, &self.query(), inputs, &mut matches)
+        } else {
+            Memo::default()
+        };
         let Run { selection, mut plans, mut diagnostics } =
             session.with_stable_files(|session| self.perform(session, &memo, &matches))?;
         report_cached(session.workspace(), &selection, &plans);

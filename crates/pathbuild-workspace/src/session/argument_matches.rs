@@ -331,7 +331,7 @@ impl Session<'_> {
 
     /// Whether the configuration names a library, so that commands work without arguments.
     pub fn has_library(&self) -> bool {
-        !self.context.settings.general.library.value.is_empty()
+        self.context.has_library()
     }
 
     /// Whether the path is an existing directory.

@@ -64,6 +64,11 @@ impl<'a> Session<'a> {
         Self { is_traced: true, ..Self::with_system(context, true, Arc::clone(&context.system)) }
     }
 
+    /// Opens a session that traces inputs if `is_traced`.
+    pub fn open(context: &'a Workspace, is_traced: bool) -> Self {
+        if is_traced { Self::with_tracing(context) } else { Self::new(context) }
+    }
+
     /// Invalidates a drawing that may have changed, appeared or disappeared.
     pub fn touch_file(&mut self, path: &Utf8Path) {
         self.db.touch_file(path);

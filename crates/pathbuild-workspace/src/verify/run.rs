@@ -26,30 +26,30 @@ pub struct Request<'a> {
 /// The outcome of a verification.
 #[derive(Debug, Default)]
 pub struct Verification {
-    /// The programs with their results, in the order in which they were named.
+    /// The programs with their results except for their diagnostics, in the order in which they were named.
     pub programs: Vec<(Utf8PathBuf, VerifiedProgram)>,
-    /// Diagnostics of directories.
-    pub problems: Vec<Diagnostic>,
+    /// Diagnostics of directories and of the programs.
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 impl Request<'_> {
-    /// Opens a session that suits this request: it traces inputs if results are cached.
-    pub fn session<'w>(&self, workspace: &'w Workspace) -> Session<'w> {
-        if workspace.keeps_results() { Session::with_tracing(workspace) } else { Session::new(workspace) }
-    }
-
-    /// Verifies the programs that have no cached result.
+    /// Verifies the programs that have no cached result. The session must trace inputs if results are to be cached.
     ///
     /// # Errors
     /// If programs cannot be verified at all, with the reason.
     pub fn run(self, session: &mut Session<'_>) -> Result<Verification, Failure> {
-        let verifier = Verifier::new(session, self.options)?;
+        let verifier = Verifier::new(session, self.options).map_err(|failure| match failure {
+            Failure::Found(found) => Failure::Found(session.with_hints(found)),
+            failure => failure,
+        })?;
         let matches = session.match_programs(self.places);
         let mut programs = verifier.verify_files(session, &matches.programs, &matches.directories);
         if let Some((name, text)) = self.text {
             programs.push((name.to_owned(), verifier.verify(name, text)));
         }
-        Ok(Verification { programs, problems: matches.problems })
+        let mut diagnostics = matches.problems;
+        programs.iter_mut().for_each(|(_, verified)| diagnostics.append(&mut verified.diagnostics));
+        Ok(Verification { programs, diagnostics: session.with_hints(diagnostics) })
     }
 }
 

@@ -49,7 +49,7 @@ pub trait Listener {
     /// Called for links to targets that cannot be watched, with the system's reason.
     fn not_watched(&self, _: &[(Utf8PathBuf, String)]) {}
     /// Called when programs were written.
-    fn programs_written(&self, _: &[ProgramOutcome]) {}
+    fn programs_written(&self, _: Vec<ProgramOutcome>) {}
     /// Called when programs cannot be written because options are missing; the text names them.
     fn options_missing(&self, _: &str) {}
 }

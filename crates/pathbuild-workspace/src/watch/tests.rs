@@ -1,6 +1,5 @@
 //! Tests with drawings that are removed between two steps of a session. They do not depend on events of the watcher and their timing.
 
-use std::rc::Rc;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -41,7 +40,7 @@ impl Place {
             working_directory: Utf8PathBuf::new(),
             jobs: Some(1),
             cache: None,
-            reporter: Rc::new(SilentReporter),
+            reporter: Arc::new(SilentReporter),
             is_date_decisive: Arc::default(),
         };
         let place = Self { system, inputs, workspace };

@@ -137,7 +137,7 @@ impl<'a> Writer<'a> {
         }
         match emit::write(session, self.post_processor.as_ref(), &targets, &mut self.owners) {
             Ok(emission) => {
-                self.listener.programs_written(&emission.delivered);
+                self.listener.programs_written(emission.delivered);
                 self.record(session, &emission.diagnostics);
                 WriteOutcome { before, now: emission.diagnostics }
             }

@@ -10,6 +10,7 @@ use std::time::Duration;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_testkit::{RandomLibrary, sheet};
+use pathbuild_workspace::session::Session;
 use pathbuild_workspace::watch::{FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
 use pathbuild_workspace::{Inputs, check};
 
@@ -65,7 +66,7 @@ impl Driver<'_> {
         let inputs = Inputs::default();
         let workspace = self.place.workspace(&inputs, Arc::new(OsSystem), false);
         let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
-        let checked = request.run(&mut request.session(&workspace)).unwrap();
+        let checked = request.run(&mut Session::open(&workspace, workspace.keeps_results())).unwrap();
         sorted(checked.diagnostics.iter().map(shown).collect())
     }
 }

@@ -94,7 +94,7 @@ type Finding = (&'static str, fn(&Workspace, &Inputs) -> Vec<Diagnostic>);
 const COMMANDS: [Finding; 5] = [
     ("check", |workspace, inputs| {
         let request = check::Request { inputs, with_all_values: false, changed: None };
-        request.run(&mut request.session(workspace)).unwrap().diagnostics
+        request.run(&mut Session::open(workspace, workspace.keeps_results())).unwrap().diagnostics
     }),
     ("emit", |workspace, inputs| emitted(workspace, inputs, Task::Print)),
     ("emit --check", |workspace, inputs| emitted(workspace, inputs, Task::Compare { moves_only: false })),
@@ -125,7 +125,10 @@ fn emitted(workspace: &Workspace, inputs: &Inputs, task: Task) -> Vec<Diagnostic
         deps: None,
         removes_stale: false,
     };
-    request.run(&mut request.session(workspace)).map(|made| made.diagnostics).unwrap_or_default()
+    request
+        .run(&mut Session::open(workspace, workspace.keeps_results()))
+        .map(|made| made.diagnostics)
+        .unwrap_or_default()
 }
 
 /// No command is aborted by a bug in listing a directory, whether it occurs the first, second, ... time or always. The bug is reported, or

@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 use std::fs;
-use std::rc::Rc;
 use std::sync::Arc;
 use std::time::SystemTime;
 
@@ -13,6 +12,7 @@ use pathbuild_testkit::{RandomLibrary, sheet};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::emit::{self, Emission, Task};
 use pathbuild_workspace::post_processor::PostArguments;
+use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace, check};
 use tempfile::TempDir;
 
@@ -106,7 +106,7 @@ impl OnDisk {
         let inputs = Inputs { inputs: arguments.iter().map(|it| (*it).to_owned()).collect() };
         let workspace = Workspace { jobs, ..self.workspace(&inputs, system, is_kept) };
         let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
-        let mut session = request.session(&workspace);
+        let mut session = Session::open(&workspace, workspace.keeps_results());
         let checked = request.run(&mut session).unwrap();
         let found = checked.diagnostics.iter().map(|it| format!("{it:?}"));
         sorted(found.chain(checked.files.iter().map(|it| format!("{it:?}"))).collect())
@@ -125,7 +125,7 @@ impl OnDisk {
             deps: None,
             removes_stale,
         };
-        request.run(&mut request.session(&workspace)).unwrap()
+        request.run(&mut Session::open(&workspace, workspace.keeps_results())).unwrap()
     }
 
     pub(crate) fn workspace(&self, inputs: &Inputs, system: Arc<dyn System>, is_kept: bool) -> Workspace {
@@ -141,7 +141,7 @@ impl OnDisk {
             working_directory: Utf8PathBuf::new(),
             jobs: None,
             cache: is_kept.then_some(CacheHome::Named(caches)),
-            reporter: Rc::new(SilentReporter),
+            reporter: Arc::new(SilentReporter),
             is_date_decisive: Arc::default(),
         }
     }

@@ -2,12 +2,15 @@
 
 use std::fmt::Write;
 
+use pathbuild_api::{ListOptions, PathSummary};
 use pathbuild_diagnostic::Lang;
-use pathbuild_workspace::list::{PathListing, Request, Row, State, Stats, Total, path_json, stats_json};
-use pathbuild_workspace::session::Session;
+use pathbuild_path::PathName;
+use pathbuild_workspace::list::{
+    Figures, ListedPath, ProgramState, Row, State, Stats, Total, path_json, stats_json,
+};
 
 use crate::args::ListArgs;
-use crate::context::Context;
+use crate::context::{Context, for_rendering};
 use crate::exit::ExitStatus;
 use crate::render::Format;
 use crate::text::{Column, ERROR, WARNING, count, counted, decimal, table};
@@ -40,17 +43,37 @@ pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
 /// Lists the paths and shows them with `print`. Errors of paths are part of the list, so only findings about directories and drawings are
 /// shown separately.
 fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row], usize)) -> ExitStatus {
-    let mut session = Session::new(context);
-    let listed = Request { inputs: &args.inputs(), post: args.post.as_deref() }.run(&mut session);
-    // Leak instead of dropping: freeing all query results takes longer than process exit.
-    std::mem::forget(session);
-    let PathListing { paths, drawings, diagnostics } = match listed {
+    let options = args.post.iter().fold(ListOptions::new(), |options, post| options.post(post));
+    let listed = context.library().and_then(|library| library.paths_with(&args.inputs().texts(), &options));
+    let listed = match listed {
         Ok(listed) => listed,
-        Err(failure) => return context.failed(failure),
+        Err(error) => return context.request_failed(error),
     };
-    let rows: Vec<Row> = paths.into_iter().map(|path| Row::new(context, path)).collect();
-    print(context, &rows, drawings);
-    context.conclude(diagnostics)
+    let rows: Vec<Row> = listed.paths.into_iter().map(row).collect();
+    print(context, &rows, listed.drawings);
+    context.conclude_findings(&for_rendering(listed.findings, listed.accepted))
+}
+
+/// Returns the row of a path, as the pages show it too.
+fn row(path: PathSummary) -> Row {
+    let errors = path.findings.iter().filter(|finding| finding.is_error()).count();
+    let warnings = path.findings.len() - errors;
+    let figures = Figures {
+        material: path.material.map(Into::into),
+        thickness: path.thickness,
+        tool: path.tool,
+        cutting_box: path.cutting_box,
+        length: path.length,
+        minutes: path.minutes,
+    };
+    let program = match path.program {
+        pathbuild_api::ProgramState::Current => ProgramState::Current,
+        pathbuild_api::ProgramState::Stale => ProgramState::Stale,
+        pathbuild_api::ProgramState::Unknown => ProgramState::Unknown,
+        _ => ProgramState::None,
+    };
+    let (name, drawing) = (PathName::new(&path.name), path.file.into());
+    Row { path: ListedPath { name, drawing, diagnostics: Vec::new(), figures, program }, errors, warnings }
 }
 
 fn state_word(state: State, context: &Context) -> &'static str {

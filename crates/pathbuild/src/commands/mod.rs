@@ -9,7 +9,6 @@ pub mod config;
 pub mod diff;
 pub mod emit;
 pub mod explain;
-mod git;
 pub mod graph;
 pub mod import;
 pub mod init;

@@ -2,20 +2,18 @@
 
 use std::io::Read;
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8Path;
+use pathbuild_api::{
+    CheckState, DrawingComparison, Error, ProgramCheck, VerifiedProgram, VerifyOptions, VerifyReport,
+};
 use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_workspace::Failure;
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::session::Session;
-use pathbuild_workspace::verify::{
-    ABOVE_FIRST, CheckRecord, MoveComparison, Outcome, Request, VerifyOptions, blind_text, summary,
-};
-use pathbuild_workspace::waivers::Coverage;
+use pathbuild_workspace::verify;
 use serde_json::{Value, json};
 
-use crate::args::VerifyArgs;
-use crate::context::Context;
+use crate::args::{UnitCodesArg, VerifyArgs};
+use crate::context::{Context, for_rendering};
 use crate::exit::ExitStatus;
 use crate::text::count;
 use crate::waivers;
@@ -26,18 +24,14 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
         Ok(options) => options,
         Err(fault) => return context.refuse(vec![*fault]),
     };
-    let standard_input = Utf8Path::new(STANDARD_INPUT);
-    let text = args.files.iter().any(|file| file == standard_input).then(|| read_standard_input(context));
-    let text = match text.transpose() {
-        Ok(text) => text.map(|text| (standard_input, text)),
+    let options = match with_standard_input(context, args, options) {
+        Ok(options) => options,
         Err(problem) => return context.fail(vec![*problem]),
     };
-    let places: Vec<Utf8PathBuf> =
-        args.files.iter().filter(|file| *file != standard_input).cloned().collect();
-    let request = Request { places: &places, text, options };
-    let mut session = request.session(context);
-    let verified = match request.run(&mut session) {
-        Err(failure @ Failure::Post(_)) => return context.failed(failure),
+    let places: Vec<&str> =
+        args.files.iter().map(|file| file.as_str()).filter(|file| *file != STANDARD_INPUT).collect();
+    let verified = match context.library().and_then(|library| library.verify(&places, &options)) {
+        Err(error @ Error::Post(_)) => return context.request_failed(error),
         verified => verified,
     };
     let programs = verified.as_ref().map_or(args.files.len(), |verified| verified.programs.len());
@@ -45,27 +39,48 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     context
         .output
         .add_figure("configuration", context.settings.file.as_deref().map(|file| context.file(file)));
-    let verified = match verified {
-        Ok(verified) => verified,
-        Err(Failure::Found(found)) => return conclude(context, args, &session, &args.files, found),
-        Err(failure) => return context.failed(failure),
-    };
-    let (mut report, mut diagnostics) = (CheckReport::default(), verified.problems);
-    let mut files = Vec::new();
-    for (file, verified) in verified.programs {
-        if let Some(comparison) = &verified.comparison {
-            report_comparison(context, &file, comparison);
+    match verified {
+        Ok(verified) => show(context, args, verified),
+        // The drawing to compare with has errors, so nothing was verified.
+        Err(Error::Findings(found)) if args.against.is_some() => {
+            conclude(context, &for_rendering(found, Vec::new())).max(ExitStatus::Errors)
         }
-        report.add(file.to_string(), verified.checks);
-        diagnostics.extend(verified.diagnostics);
-        files.push(file);
+        Err(error) => context.request_failed(error),
     }
-    let status = conclude(context, args, &session, &files, diagnostics);
-    report.finish(context);
+}
+
+/// Shows the comparisons, the findings and the checks.
+fn show(context: &Context, args: &VerifyArgs, verified: VerifyReport) -> ExitStatus {
+    let VerifyReport { findings, accepted, programs, baseline, .. } = verified;
+    for program in &programs {
+        if let Some(comparison) = &program.comparison {
+            report_comparison(context, &program.file, comparison);
+        }
+    }
+    let status = match baseline {
+        Some(written) => waivers::report_written(context, &args.waivers, &written),
+        None => conclude(context, &for_rendering(findings, accepted)),
+    };
+    report_checks(context, &programs);
     status
 }
 
 const STANDARD_INPUT: &str = "-";
+
+/// Adds the program on standard input to the options, if it is among the files.
+///
+/// # Errors
+/// Standard input cannot be read, or is too large.
+fn with_standard_input(
+    context: &Context,
+    args: &VerifyArgs,
+    options: VerifyOptions,
+) -> Result<VerifyOptions, Box<Diagnostic>> {
+    if args.files.iter().all(|file| file != STANDARD_INPUT) {
+        return Ok(options);
+    }
+    Ok(options.text(STANDARD_INPUT, read_standard_input(context)?))
+}
 
 /// Reads a program from standard input.
 ///
@@ -84,30 +99,27 @@ fn read_standard_input(context: &Context) -> Result<Vec<u8>, Box<Diagnostic>> {
 }
 
 fn options(args: &VerifyArgs) -> Result<VerifyOptions, Box<Diagnostic>> {
-    let options = VerifyOptions {
-        reading: args.reading.options(),
-        against: args.against.clone(),
-        required: args.require.clone(),
-        post: args.post.clone(),
-        ..VerifyOptions::default()
-    };
-    options.with_stock(args.cutter.as_deref(), args.surface.as_deref())
+    let (reading, stock) = (&args.reading, verify::VerifyOptions::default());
+    let stock = stock.with_stock(args.cutter.as_deref(), args.surface.as_deref())?;
+    let mut options = VerifyOptions::new().baseline(waivers::options(&args.waivers));
+    options = args.against.iter().fold(options, |options, path| options.against(path));
+    options = args.post.iter().fold(options, |options, post| options.post(post));
+    options = args.require.iter().fold(options, |options, check| options.require(check.name()));
+    options = reading.dialect.iter().fold(options, |options, dialect| options.dialect(dialect.name()));
+    options = stock.cutter.iter().fold(options, |options, diameter| options.cutter(*diameter));
+    options = stock.surface.iter().fold(options, |options, height| options.surface(*height));
+    if reading.unit_codes == Some(UnitCodesArg::Table) {
+        options = options.table_unit_codes();
+    }
+    if reading.absolute_arc_centres {
+        options = options.absolute_arc_centres();
+    }
+    Ok(if reading.ignore_feed { options.ignore_feed() } else { options })
 }
 
-fn conclude(
-    context: &Context,
-    args: &VerifyArgs,
-    session: &Session<'_>,
-    files: &[Utf8PathBuf],
-    diagnostics: Vec<Diagnostic>,
-) -> ExitStatus {
-    let findings = context.findings(session.with_hints(diagnostics));
-    let coverage = |_: &Findings| Coverage { files: files.to_vec(), ..Coverage::default() };
-    let findings = match waivers::settle(context, &args.waivers, findings, coverage) {
-        Ok(findings) => findings,
-        Err(status) => return status,
-    };
-    context.show(&findings);
+/// Shows findings and their number, and returns the exit status.
+fn conclude(context: &Context, findings: &Findings) -> ExitStatus {
+    let status = context.conclude_findings(findings);
     context.name_date();
     let (errors, warnings) = (findings.errors(), findings.warnings());
     let phrase = |en: &'static str, de: &'static str| context.choose(en, de);
@@ -121,94 +133,62 @@ fn conclude(
         phrase("errors", "Fehler"),
         phrase("warnings", "Warnungen")
     ));
-    ExitStatus::of(&findings)
+    status
 }
 
-/// The checks made for each program of a run.
-#[derive(Default)]
-struct CheckReport(Vec<(String, Vec<CheckRecord>)>);
-
-impl CheckReport {
-    fn add(&mut self, file: String, checks: Vec<CheckRecord>) {
-        if !checks.is_empty() {
-            self.0.push((file, checks));
+/// Prints a summary for all programs with the same checks, and adds the checks of each program to the machine-readable document.
+fn report_checks(context: &Context, programs: &[VerifiedProgram]) {
+    let mut summaries: Vec<(&str, Vec<&str>)> = Vec::new();
+    let checked = || programs.iter().filter(|program| !program.checks.is_empty());
+    for VerifiedProgram { file, summary, .. } in checked() {
+        match summaries.iter_mut().find(|(known, _)| known == summary) {
+            Some((_, files)) => files.push(file),
+            None => summaries.push((summary, vec![file])),
         }
     }
-
-    /// Prints a summary for all programs with the same checks, and adds the checks of each program to the machine-readable document.
-    fn finish(self, context: &Context) {
-        for (line, files) in self.summaries(context.lang()) {
-            let programs = match &*files {
-                [file] => (*file).to_owned(),
-                files => context.phrase("{} programs", "{} Programme", &files.len().to_string()),
-            };
-            context.printer.status(format_args!("{programs}: {line}"));
-        }
-        if context.output.has_figures() {
-            let record = |(file, checks): &(String, Vec<CheckRecord>)| {
-                let checks: Vec<Value> = checks.iter().map(|record| row(record, context.lang())).collect();
-                json!({ "program": file, "checks": checks })
-            };
-            context.output.add_figure("checks", self.0.iter().map(record).collect::<Vec<_>>());
-        }
+    for (summary, files) in summaries {
+        let programs = match &*files {
+            [file] => (*file).to_owned(),
+            files => context.phrase("{} programs", "{} Programme", &files.len().to_string()),
+        };
+        context.printer.status(format_args!("{programs}: {summary}"));
     }
-
-    /// Returns a summary for each distinct list of checks, with the programs that it applies to.
-    fn summaries(&self, lang: Lang) -> Vec<(String, Vec<&str>)> {
-        let mut texts: Vec<(&[CheckRecord], usize)> = Vec::new();
-        let mut lines: Vec<(String, Vec<&str>)> = Vec::new();
-        for (file, checks) in &self.0 {
-            let known = texts.iter().find(|(known, _)| known == checks).map(|(_, line)| *line);
-            let line = known.unwrap_or_else(|| {
-                let text = summary(checks, lang);
-                let line = lines.iter().position(|(known, _)| *known == text).unwrap_or(lines.len());
-                if line == lines.len() {
-                    lines.push((text, Vec::new()));
-                }
-                texts.push((checks, line));
-                line
-            });
-            lines[line].1.push(file);
-        }
-        lines
+    if context.output.has_figures() {
+        let record = |program: &VerifiedProgram| {
+            let checks: Vec<Value> = program.checks.iter().map(row).collect();
+            json!({ "program": program.file, "checks": checks })
+        };
+        context.output.add_figure("checks", checked().map(record).collect::<Vec<_>>());
     }
 }
 
-fn row(record: &CheckRecord, lang: Lang) -> Value {
-    let check = record.requirement.name();
-    match &record.outcome {
-        Outcome::Made(values) => {
-            let with = values.as_ref().map(|values| values.in_lang(lang)).unwrap_or_default();
-            json!({ "check": check, "outcome": "made", "with": with })
-        }
-        Outcome::Assumed(values, _) => {
-            json!({ "check": check, "outcome": "assumed", "with": values.in_lang(lang) })
-        }
-        Outcome::Incomplete(values, blind) => json!({
-            "check": check,
+fn row(check: &ProgramCheck) -> Value {
+    let ProgramCheck { name, state, detail, values, advice, open_moves, .. } = check;
+    match (state, open_moves) {
+        (CheckState::Made, _) => json!({ "check": name, "outcome": "made", "with": detail }),
+        (CheckState::Assumed, _) => json!({ "check": name, "outcome": "assumed", "with": detail }),
+        (_, Some(moves)) => json!({
+            "check": name,
             "outcome": "not-made",
-            "with": values.in_lang(lang),
-            "moves": blind.count,
-            "reason": blind_text(*blind, lang),
-            "option": ABOVE_FIRST.in_lang(lang),
+            "with": values,
+            "moves": moves,
+            "reason": detail,
+            "option": advice,
         }),
-        Outcome::NotMade(reason) => json!({
-            "check": check,
-            "outcome": "not-made",
-            "reason": reason.text().in_lang(lang),
-            "option": record.option(*reason).in_lang(lang),
-        }),
+        (_, None) => {
+            json!({ "check": name, "outcome": "not-made", "reason": detail, "option": advice })
+        }
     }
 }
 
 /// Reports which moves were compared with the drawing, and how many of them are equal.
-fn report_comparison(context: &Context, file: &Utf8Path, comparison: &MoveComparison) {
-    let MoveComparison { path, drawing, dialect, read_as, moves, equal } = comparison;
+fn report_comparison(context: &Context, file: &str, comparison: &DrawingComparison) {
+    let DrawingComparison { path, drawing, dialect, read_as, moves, equal, .. } = comparison;
     context.json_row(|| {
         let row = json!({
-            "file": context.file(file),
+            "file": context.file(file.as_ref()),
             "path": path,
-            "drawing": context.file(drawing),
+            "drawing": context.file(drawing.as_ref()),
             "dialect": dialect,
             "moves": moves,
             "equal": equal,

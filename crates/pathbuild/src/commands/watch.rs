@@ -1,6 +1,7 @@
 //! `pathbuild watch`: checks drawings, and with `--emit` writes programs, whenever drawings change. (book: reference/commands)
 
 use camino::Utf8PathBuf;
+use pathbuild_api::OutputFile;
 use pathbuild_db::SourceFile;
 use pathbuild_diagnostic::{Diagnostic, shown, with_decimal_separator};
 use pathbuild_workspace::Inputs;
@@ -182,8 +183,9 @@ impl Listener for WatchPrinter<'_> {
         }
     }
 
-    fn programs_written(&self, delivered: &[ProgramOutcome]) {
-        show_all(self.context, delivered);
+    fn programs_written(&self, outcomes: Vec<ProgramOutcome>) {
+        let (files, notes) = OutputFile::of_programs(outcomes, self.context.lang());
+        show_all(self.context, &files, &notes);
     }
 
     fn options_missing(&self, reason: &str) {

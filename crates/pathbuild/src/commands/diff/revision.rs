@@ -8,9 +8,9 @@ use std::io::{self, Read};
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
 use pathbuild_workspace::files::FILE_NAME;
+use pathbuild_workspace::git::{self, Entry, EntryKind, Repository};
 use tempfile::TempDir;
 
-use crate::commands::git::{self, Entry, EntryKind, Repository};
 use crate::context::Context;
 
 /// A checked-out revision; its files are removed when it is dropped.

@@ -8,37 +8,42 @@ use std::thread;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::Text;
-use pathbuild_workspace::{Workspace, config};
+
+use crate::config;
+use crate::workspace::Workspace;
 
 /// A Git repository with its working tree.
 #[derive(Debug)]
-pub(super) struct Repository<'a> {
+pub struct Repository<'a> {
     workspace: &'a Workspace,
     /// Real path of the working tree's root.
-    pub(super) root: Utf8PathBuf,
+    pub root: Utf8PathBuf,
 }
 
 /// An entry of a revision's tree.
 #[derive(Debug)]
-pub(super) struct Entry {
-    pub(super) kind: EntryKind,
+pub struct Entry {
+    /// Kind of the file.
+    pub kind: EntryKind,
     /// Object id of the blob, or of a submodule's commit.
-    pub(super) id: String,
+    pub id: String,
     /// Path relative to the root, as stored by Git. It may be hostile: check [`is_plain`](Entry::is_plain) before writing a file.
-    pub(super) name: String,
+    pub name: String,
 }
 
 /// Kind of an entry, from its Git mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum EntryKind {
+pub enum EntryKind {
+    /// A regular file.
     File,
+    /// A symbolic link.
     Link,
     /// A submodule, that is, another repository, of which only the commit is known.
     Submodule,
 }
 
 /// Callback that gets the index of a blob and its bytes, or its size if that exceeds the limit.
-pub(super) type TakeBlob<'t> = &'t mut dyn FnMut(usize, Result<&mut dyn Read, u64>) -> io::Result<()>;
+pub type TakeBlob<'t> = &'t mut dyn FnMut(usize, Result<&mut dyn Read, u64>) -> io::Result<()>;
 
 /// Maximum length in bytes of a `.git` file, and of a line in which Git lists a file or introduces a blob. No system has longer file
 /// names.
@@ -89,7 +94,7 @@ impl<'a> Repository<'a> {
     ///
     /// # Errors
     /// The repository is untrusted, and its `.git` refers to a directory outside.
-    pub(super) fn of(workspace: &'a Workspace, place: &Utf8Path) -> Result<Self, String> {
+    pub fn of(workspace: &'a Workspace, place: &Utf8Path) -> Result<Self, String> {
         let real = |place: &Utf8Path| workspace.system.canonical(&workspace.working_directory.join(place));
         let place = real(place);
         let directory = config::repository(&*workspace.system, &place);
@@ -129,13 +134,13 @@ impl<'a> Repository<'a> {
     ///
     /// # Errors
     /// Git's message if there is no such revision.
-    pub(super) fn tree(&self, revision: &str) -> Result<String, String> {
+    pub fn tree(&self, revision: &str) -> Result<String, String> {
         let id = self.run(&["rev-parse", "--verify", "--end-of-options", &format!("{revision}^{{tree}}")])?;
         Ok(String::from_utf8_lossy(&id).trim().to_owned())
     }
 
     /// Whether the revision is the current branch, and that branch has no commits yet.
-    pub(super) fn is_unborn(&self, revision: &str) -> bool {
+    pub fn is_unborn(&self, revision: &str) -> bool {
         let refs = |name: &[u8]| {
             let name = String::from_utf8_lossy(name).trim().to_owned();
             self.run(&["for-each-ref", "--count=1", "--format=%(refname)", &name]).ok()
@@ -149,7 +154,7 @@ impl<'a> Repository<'a> {
     ///
     /// # Errors
     /// There are more entries than the limit permits (a few objects can describe any number), or Git cannot read the tree.
-    pub(super) fn entries(&self, tree: &str) -> Result<Vec<Entry>, String> {
+    pub fn entries(&self, tree: &str) -> Result<Vec<Entry>, String> {
         let most = self.workspace.settings.limits.library_entries.value;
         let arguments = ["ls-tree", "-r", "-z", "--full-tree", tree];
         let (entries, is_whole) =
@@ -162,7 +167,7 @@ impl<'a> Repository<'a> {
     ///
     /// # Errors
     /// A blob is missing, the total size is too large, or `take` fails.
-    pub(super) fn each_blob(&self, ids: &[&str], most: u64, take: TakeBlob<'_>) -> Result<(), String> {
+    pub fn each_blob(&self, ids: &[&str], most: u64, take: TakeBlob<'_>) -> Result<(), String> {
         let lines = |ids: &mut dyn Iterator<Item = &str>| ids.flat_map(|id| [id, "\n"]).collect::<String>();
         let (sizes, _) = self.run_with_input(
             &["cat-file", "--batch-check"],
@@ -191,7 +196,7 @@ impl<'a> Repository<'a> {
     ///
     /// # Errors
     /// A blob is missing.
-    pub(super) fn targets(&self, ids: &[&str]) -> Result<Vec<Option<String>>, String> {
+    pub fn targets(&self, ids: &[&str]) -> Result<Vec<Option<String>>, String> {
         let mut targets = Vec::with_capacity(ids.len());
         self.each_blob(ids, MAX_LINK_BYTES, &mut |_, bytes| {
             let mut target = String::new();
@@ -204,7 +209,7 @@ impl<'a> Repository<'a> {
 
     /// Returns the blob ids that the current contents of files would have. If a file cannot be read, the list ends before it. The files
     /// must be regular files without line breaks in their names.
-    pub(super) fn ids(&self, files: &[&Utf8Path]) -> Vec<String> {
+    pub fn ids(&self, files: &[&Utf8Path]) -> Vec<String> {
         let lines: String = files.iter().flat_map(|file| [without_verbatim_prefix(file), "\n"]).collect();
         let arguments = ["hash-object", "--no-filters", "--stdin-paths"];
         let mut ids = Vec::new();
@@ -216,7 +221,7 @@ impl<'a> Repository<'a> {
     }
 
     /// Returns advice for the user if the revision is missing because the clone is shallow.
-    pub(super) fn shallow_clone_advice(&self, revision: &str) -> Option<String> {
+    pub fn shallow_clone_advice(&self, revision: &str) -> Option<String> {
         let is_shallow = self.run(&["rev-parse", "--is-shallow-repository"]).ok()?;
         let is_there = self.run(&["cat-file", "-e", &format!("{revision}^{{commit}}")]).is_ok();
         (is_shallow.trim_ascii() == b"true" && !is_there).then(|| {
@@ -301,7 +306,7 @@ impl Entry {
     }
 
     /// Whether the name is a safe relative path on every system. A name that is not UTF-8 is not safe.
-    pub(super) fn is_plain(&self) -> bool {
+    pub fn is_plain(&self) -> bool {
         let is_foreign = |part: &str| cfg!(windows) && part.contains(['\\', ':']);
         let is_special = |part: &str| matches!(part, "" | "." | "..") || part.eq_ignore_ascii_case(".git");
         !self.name.contains('\u{fffd}')
@@ -313,7 +318,7 @@ impl Entry {
 ///
 /// # Errors
 /// The name begins with a hyphen.
-pub(super) fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a str, String> {
+pub fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a str, String> {
     if name.starts_with('-') {
         return Err(workspace.phrase("{} is not a revision", "{} ist keine Revision", &format!("{name:?}")));
     }

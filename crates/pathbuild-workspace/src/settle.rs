@@ -1,0 +1,162 @@
+//! The end of a run that finds something: the baseline accepts findings, or is written. (book: howto/ci)
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::FileKind;
+use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_diagnostic::{Code, Diagnostic};
+
+use crate::baseline::Baseline;
+use crate::files;
+use crate::findings::Findings;
+use crate::waivers::{Coverage, Waiver};
+use crate::workspace::Workspace;
+
+/// The baseline of a run, and its use.
+#[derive(Clone, Debug, Default)]
+pub struct BaselineOptions {
+    /// File of the baseline; `None` for the default one, if it exists.
+    pub file: Option<Utf8PathBuf>,
+    /// Whether the baseline is applied to the findings, or written.
+    pub task: BaselineTask,
+}
+
+/// The use of a baseline.
+#[derive(Clone, Debug, Default)]
+pub enum BaselineTask {
+    /// Accept the findings that are in the baseline.
+    #[default]
+    Apply,
+    /// Write all findings into the baseline.
+    Update,
+    /// Write the findings with this code into the baseline, with the reason and the end of the waiver.
+    Accept(Code, Waiver),
+}
+
+/// The outcome of a run.
+#[derive(Clone, Debug)]
+pub enum Settled {
+    /// The findings to report, and those that are accepted.
+    Findings(Findings),
+    /// The baseline was written.
+    Written(WrittenBaseline),
+}
+
+/// A baseline that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenBaseline {
+    /// Path of the file.
+    pub file: Utf8PathBuf,
+    /// Number of findings that were written.
+    pub findings: usize,
+}
+
+/// The reason why a baseline was neither applied nor written.
+#[derive(Debug)]
+pub enum BaselineFailure {
+    /// The request is invalid, for this reason in the language of messages.
+    Usage(String),
+    /// The baseline cannot be read, or has these errors.
+    Faulty(Vec<Diagnostic>),
+    /// The baseline cannot be written.
+    Unwritten(Box<Diagnostic>),
+}
+
+impl Workspace {
+    /// Splits findings into those to report and those that are accepted, and adds warnings about waivers that match nothing any more; or writes the
+    /// baseline instead.
+    ///
+    /// # Errors
+    /// If the baseline cannot be read or written, has errors, or would accept nothing, or if the options are invalid.
+    pub fn settle(
+        &self,
+        findings: Findings,
+        options: &BaselineOptions,
+        coverage: impl FnOnce() -> Coverage,
+    ) -> Result<Settled, BaselineFailure> {
+        let named = options.file.as_deref();
+        let (file, diagnostics) = (self.baseline_file(named), &findings.diagnostics);
+        match &options.task {
+            BaselineTask::Apply => self
+                .apply_baseline(findings, named, coverage)
+                .map(Settled::Findings)
+                .map_err(BaselineFailure::Faulty),
+            BaselineTask::Update => self.update_baseline(&file, diagnostics, &coverage()),
+            BaselineTask::Accept(code, waiver) => self.accept(&file, *code, waiver, diagnostics),
+        }
+    }
+
+    /// Rewrites the baseline. Lines without a fingerprint are dropped. A reason or date that cannot be read is an error.
+    fn update_baseline(
+        &self,
+        file: &Utf8Path,
+        findings: &[Diagnostic],
+        coverage: &Coverage,
+    ) -> Result<Settled, BaselineFailure> {
+        let baseline = self.read_or_new_baseline(file);
+        let (baseline, mut faults) = baseline.unwrap_or_else(|_| (Baseline::new(file), Vec::new()));
+        faults.retain(|fault| fault.message.key != messages::BASELINE_LINE.key);
+        if !faults.is_empty() {
+            return Err(BaselineFailure::Faulty(faults));
+        }
+        self.write_baseline(file, &baseline.rewritten_text(findings, self, coverage), findings.len())
+    }
+
+    /// Adds waivers for all findings with a code to the baseline.
+    fn accept(
+        &self,
+        file: &Utf8Path,
+        code: Code,
+        waiver: &Waiver,
+        findings: &[Diagnostic],
+    ) -> Result<Settled, BaselineFailure> {
+        if let Some(reason) = self.waiver_refusal(waiver) {
+            return Err(BaselineFailure::Usage(reason));
+        }
+        let baseline = match self.read_or_new_baseline(file) {
+            Ok((baseline, faults)) if faults.is_empty() => baseline,
+            Ok((_, faults)) | Err(faults) => return Err(BaselineFailure::Faulty(faults)),
+        };
+        let (text, count) = baseline.text_accepting(findings, code, waiver, self);
+        if count == 0 {
+            return Err(BaselineFailure::Usage(self.phrase(
+                "there is no finding {} to accept",
+                "es gibt keinen Befund {}, der hinzunehmen wäre",
+                &code.to_string(),
+            )));
+        }
+        self.write_baseline(file, &text, count)
+    }
+
+    /// Reads the baseline that is to be changed, or returns an empty one if the file does not exist yet.
+    fn read_or_new_baseline(&self, file: &Utf8Path) -> Result<(Baseline, Vec<Diagnostic>), Vec<Diagnostic>> {
+        match self.system.kind(file) {
+            FileKind::File => Baseline::read(&*self.system, file, self.settings.limits.file_size.value),
+            _ => Ok((Baseline::new(file), Vec::new())),
+        }
+    }
+
+    /// Returns the reason why a waiver would have no effect; `None` if it would have an effect.
+    fn waiver_refusal(&self, waiver: &Waiver) -> Option<String> {
+        if waiver.reason.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
+            let reason = self.choose("--reason must not be empty", "--reason darf nicht leer sein");
+            return Some(reason.to_owned());
+        }
+        let run = self.settings.date;
+        let date = run.filter(|_| !waiver.holds(run))?.text(self.lang());
+        Some(self.phrase(
+            "--until lies before the date of this run, {}",
+            "--until liegt vor dem Datum dieses Laufs, {}",
+            &date,
+        ))
+    }
+
+    fn write_baseline(
+        &self,
+        file: &Utf8Path,
+        text: &str,
+        findings: usize,
+    ) -> Result<Settled, BaselineFailure> {
+        files::replace_report(self, file, text).map_err(BaselineFailure::Unwritten)?;
+        Ok(Settled::Written(WrittenBaseline { file: file.to_owned(), findings }))
+    }
+}
