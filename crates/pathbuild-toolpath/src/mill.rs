@@ -31,8 +31,9 @@ impl<P: FoldPaths> Fold<'_, P> {
         let z = Height { z: section.to_z, at: section.curve.start() };
         let count = Count { class: MoveClass::Milling, length: section.curve.length(), feed: Some(feed) };
         let tip = Tip { at: to, z: section.to_z };
-        // The three decimals of a program cannot tell an arc of almost no length, such as a slope beside a bar, from a full circle.
-        let is_line = section.curve.length() < LAST_DIGIT && !self.compatible;
+        // The three decimals of a program cannot tell a slope of almost no length, beside a bar on an arc, from a full turn of a helix.
+        let is_slope = section.from_z != section.to_z;
+        let is_line = is_slope && section.curve.length() < LAST_DIGIT && !self.compatible;
         let to = match section.curve {
             Curve::Arc(arc) if !is_line => {
                 let centre = (arc.centre - arc.start).into();

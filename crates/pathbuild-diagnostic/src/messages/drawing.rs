@@ -272,10 +272,10 @@ messages! {
         help_en: "delete one of the two; if both are wanted, give each a text, and order them with N",
         help_de: "eines der beiden löschen; sind beide gewollt, jedem einen Text geben und sie mit N ordnen",
     }
-    /// A path that is embedded twice at the same place.
+    /// A path that is embedded twice by segments on top of each other.
     SUBPATH_TWICE: LeftoverElement {
-        en: "path {path} is embedded twice at this place: it is milled twice here",
-        de: "Pfad {path} ist an dieser Stelle doppelt eingebettet: er wird hier zweimal gefräst",
+        en: "path {path} is embedded twice, by two segments on top of each other: it is milled twice here",
+        de: "Pfad {path} ist doppelt eingebettet, durch zwei Segmente aufeinander: er wird hier zweimal gefräst",
         help_en: "delete one of the two segments, or move it to where the second one belongs",
         help_de: "eines der beiden Segmente löschen oder dorthin schieben, wo das zweite Teil hingehört",
     }

@@ -200,6 +200,11 @@ impl ClampReader<'_> {
             let Diagnostic { arguments, place, .. } = left_out.diagnostic.clone();
             problems.push(Diagnostic { arguments, place, ..Diagnostic::new(message) });
         }
+        let name = Some(&*self.layer.name);
+        let widths = self.drawing.diagnostics.iter().filter(|found| {
+            found.message == &messages::WIDTH_IGNORED && found.place.layer.as_deref() == name
+        });
+        problems.extend(widths.cloned());
         self.problems.append(&mut problems);
     }
 

@@ -294,7 +294,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Returns PB121 for paths that are embedded twice with the same values at the same place.
+/// Returns PB121 for paths that are embedded twice with the same values by segments on top of each other. The walk may run back along the second one.
 pub(super) fn embedded_twice(path: &Path, items: &[Item]) -> Vec<Diagnostic> {
     let mut known = BTreeSet::new();
     let is_repeated = |item: &Item| {
@@ -305,8 +305,8 @@ pub(super) fn embedded_twice(path: &Path, items: &[Item]) -> Vec<Diagnostic> {
         let values: Vec<(Option<char>, &str)> =
             subpath.values.iter().map(|value| (value.variable, value.value.as_str())).collect();
         let height = grid_square(Xy::new(subpath.height, 0.0));
-        let is_new =
-            known.insert((name.as_str(), grid_square(placed.start), grid_square(placed.end), height, values));
+        let (one, other) = (grid_square(placed.start), grid_square(placed.end));
+        let is_new = known.insert((name.as_str(), one.min(other), one.max(other), height, values));
         let problem = Diagnostic::new(&drawing::SUBPATH_TWICE).quoting("path", name.as_str());
         (!is_new).then(|| path.origin(segment).at(problem))
     };

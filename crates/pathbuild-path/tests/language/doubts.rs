@@ -342,6 +342,9 @@ fn a_path_is_embedded_once_at_a_place() {
         codes(&compile(&path("T5 O3 I1 B0", &statements)).found)
     };
     assert_eq!(with(">1111.1P"), ["PB121"]);
+    // The walk runs back along the second segment at once.
+    let statements = "subpath 0,0 20,0 \">1111.1P\"\nend 0,0\nlayer 1234.1P~A\nsubpath 0,0 20,0 \">1111.1P\"";
+    assert_eq!(codes(&compile(&path("T5 O3 I1 B0", statements)).found), ["PB121"]);
     assert_eq!(with(">1111.2P"), [""; 0], "another path");
     assert_eq!(with(">1111.1P H0.01"), [""; 0], "higher");
     assert_eq!(with(">1111.1P :A5"), [""; 0], "with another value");

@@ -99,6 +99,19 @@ fn closed_outlines_are_clamps() {
     }
 }
 
+/// The width of a polyline makes the clamp look larger than its outline.
+#[test]
+fn the_width_of_an_outline_is_reported() {
+    let clamp = |width: &str| {
+        let corners = "10\n0\n20\n0\n10\n9\n20\n0\n10\n9\n20\n9\n10\n0\n20\n9\n";
+        let polyline = format!("0\nLWPOLYLINE\n8\nclamps\n43\n{width}\n90\n4\n70\n1\n{corners}");
+        let found = clamps_among("layer clamps\ntext 4,4 \"Z25\"", &polyline);
+        (found.all.len(), found.problems.iter().map(|found| found.code()).collect::<Vec<_>>())
+    };
+    assert_eq!(clamp("0"), (1, vec![]));
+    assert_eq!(clamp("3"), (1, vec![Code::UnsupportedCurve]));
+}
+
 #[test]
 fn a_name_counts_as_a_whole_and_in_any_case() {
     assert_eq!(right(&SQUARE.replace("clamps", "CLAMP")).len(), 1);
