@@ -174,6 +174,21 @@ fn what_two_programs_state_besides_moves_is_compared() {
     assert_prints(&json, 0, &[r#""states":[{"kind":"tool","line":8,"now":"T2","was":"T1"}]"#]);
 }
 
+/// The moves count from another zero, although they are the same in the coordinates of the program.
+#[test]
+fn a_zero_set_by_probing_is_a_change() {
+    let head = "G21 G90 G17 G94 G54\nG0 Z20\nG0 X0 Y0\n";
+    let cuts = "M3 S9000\nG0 Z5\nG1 Z-1 F100\nG1 X20\nG0 Z5\nM5\nM30\n";
+    let probed = format!("{head}G38.2 Z-20 F50\nG10 L20 P1 Z0\nG0 Z5\n{cuts}");
+    let run = programs(&format!("{head}{cuts}"), &probed);
+    let lines = [
+        "  zero set by the program: G10 instead of none (line 5)\n",
+        "  probe: G38 instead of none (line 4)\n",
+    ];
+    assert_prints(&run, 0, &lines);
+    assert_prints(&programs(&probed, &probed), 0, &["0 of 1 path changed\n"]);
+}
+
 #[test]
 fn words_are_compared_in_their_order_where_cuts_differ() {
     let longer = TWO_CUTS.replace("G1 X30", "G1 X30\nG1 X40");

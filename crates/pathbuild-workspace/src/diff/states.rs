@@ -1,6 +1,7 @@
 //! Differences between two programs in what they state besides moves: tools, spindle, work offsets, stops and the like. (book: program/comparing)
 
 use pathbuild_diagnostic::Text;
+use pathbuild_gcode::interpret::code_name;
 use pathbuild_motion::{Action, Change, Coolant, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem};
 
 /// What a program states besides moves.
@@ -12,6 +13,8 @@ pub enum StateKind {
     Spindle,
     Coolant,
     WorkOffset,
+    Zero,
+    Probe,
     Stop,
     Dwell,
 }
@@ -29,12 +32,14 @@ pub struct StateChange {
 
 impl StateKind {
     /// All kinds, in the order in which they are shown.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Tool,
         Self::ToolLength,
         Self::Spindle,
         Self::Coolant,
         Self::WorkOffset,
+        Self::Zero,
+        Self::Probe,
         Self::Stop,
         Self::Dwell,
     ];
@@ -47,6 +52,8 @@ impl StateKind {
             Self::Spindle => &Text { en: "spindle", de: "Spindel" },
             Self::Coolant => &Text { en: "coolant", de: "Kühlung" },
             Self::WorkOffset => &Text { en: "work offset", de: "Nullpunkt" },
+            Self::Zero => &Text { en: "zero set by the program", de: "vom Programm gesetzter Nullpunkt" },
+            Self::Probe => &Text { en: "probe", de: "Antasten" },
             Self::Stop => &Text { en: "stop", de: "Halt" },
             Self::Dwell => &Text { en: "dwell", de: "Verweilzeit" },
         }
@@ -60,6 +67,8 @@ impl StateKind {
             Self::Spindle => "spindle",
             Self::Coolant => "coolant",
             Self::WorkOffset => "work-offset",
+            Self::Zero => "zero",
+            Self::Probe => "probe",
             Self::Stop => "stop",
             Self::Dwell => "dwell",
         }
@@ -67,7 +76,7 @@ impl StateKind {
 
     /// Whether words of this kind happen once. Those of other kinds apply to all cuts that follow.
     fn is_event(self) -> bool {
-        matches!(self, Self::Stop | Self::Dwell)
+        matches!(self, Self::Zero | Self::Probe | Self::Stop | Self::Dwell)
     }
 }
 
@@ -99,6 +108,13 @@ impl MachineStates {
                 Action::Move(Move { pace: Pace::Feed(_), .. }) => {
                     states.add_cut(step.line, &current);
                     states.cuts += 1;
+                }
+                Action::Move(Move { pace: Pace::Probe { .. }, .. }) => {
+                    states.add(StateKind::Probe, step.line, PROBE.to_owned());
+                }
+                // Positions after the word count from a zero that only the machine knows.
+                Action::Change(Change::Offsets { code, is_followed: false, .. }) => {
+                    states.add(StateKind::Zero, step.line, code_name('G', *code));
                 }
                 Action::Stop { optional } => {
                     states.add(StateKind::Stop, step.line, if *optional { "M1" } else { "M0" }.into());
@@ -149,6 +165,9 @@ impl MachineStates {
         Some(StateChange { kind, words, line: found[1].map(|stated| stated.line) })
     }
 }
+
+/// The word for a probing move, whatever its kind.
+const PROBE: &str = "G38";
 
 /// The words in effect at a place of a program.
 #[derive(Debug)]
