@@ -99,9 +99,8 @@ pub(super) fn check(
                     |problem: &Diagnostic| is_spinning_told && problem.message == &gcode::SPINNING_AT_CHANGE;
                 problems
                     .extend(tools.into_iter().filter(|problem| !is_told(problem)).map(as_finding_of_post));
-                problems.extend(
-                    target.into_iter().flat_map(|target| bent_rapids(&read.steps, job, &cuts, target)),
-                );
+                problems
+                    .extend(target.iter().flat_map(|target| bent_rapids(&read.steps, job, &cuts, target)));
             }
             Err(movement) => problems.push(as_finding_of_post(*movement)),
         }
@@ -188,7 +187,9 @@ fn is_of_modes(problem: &Diagnostic) -> bool {
 fn bent_rapids(steps: &[Step], job: &Job, cuts: &[MatchedCut], target: &Target) -> Vec<Diagnostic> {
     let Some(stock) = stock(job, cuts) else { return Vec::new() };
     let Some(mut rules) = BentRapidRules::new(target.reader, &stock) else { return Vec::new() };
-    steps.iter().for_each(|step| rules.step(step));
+    for step in steps {
+        rules.step(step);
+    }
     let mut found = rules.finish(steps);
     for bent in &mut found {
         bent.severity = Severity::Error;

@@ -82,8 +82,8 @@ const fn inert(letter: char, code: u16, values: &'static [u8]) -> InertWord {
 }
 
 /// Creates an inert word that needs one of these letters.
-const fn needing(needs: &'static [u8], word: InertWord) -> InertWord {
-    InertWord { needs, ..word }
+const fn needing(letter: char, code: u16, values: &'static [u8], needs: &'static [u8]) -> InertWord {
+    InertWord { letter, code, values, harmless: &[], needs }
 }
 
 /// The words that most dialects share; each of them overrides some fields.
@@ -132,13 +132,13 @@ pub(super) static LINUXCNC: Words = Words {
         inert('M', 510, b"P"),
         inert('M', 520, b"P"),
         inert('M', 530, b"P"),
-        needing(b"P", inert('M', 620, b"P")),
-        needing(b"P", inert('M', 630, b"P")),
-        needing(b"P", inert('M', 640, b"P")),
-        needing(b"P", inert('M', 650, b"P")),
-        needing(b"PE", inert('M', 660, b"PELQ")),
-        needing(b"E", inert('M', 670, b"EQ")),
-        needing(b"E", inert('M', 680, b"EQ")),
+        needing('M', 620, b"P", b"P"),
+        needing('M', 630, b"P", b"P"),
+        needing('M', 640, b"P", b"P"),
+        needing('M', 650, b"P", b"P"),
+        needing('M', 660, b"PELQ", b"PE"),
+        needing('M', 670, b"EQ", b"E"),
+        needing('M', 680, b"EQ", b"E"),
     ],
     own_m_codes: true,
     ..COMMON_WORDS

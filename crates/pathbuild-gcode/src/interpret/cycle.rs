@@ -165,8 +165,8 @@ impl Interpreter<'_> {
     /// Returns P or Q, if the cycle takes it.
     fn take_cycle_word(&mut self, letter: u8) -> Option<Slot> {
         let takes = match (self.state.motion, letter) {
-            (Motion::Cycle(Cycle::ChipBreaking | Cycle::Pecking), b'Q') => true,
-            (Motion::Cycle(Cycle::Dwelling | Cycle::BoringDwelling), b'P') => true,
+            (Motion::Cycle(Cycle::ChipBreaking | Cycle::Pecking), b'Q')
+            | (Motion::Cycle(Cycle::Dwelling | Cycle::BoringDwelling), b'P') => true,
             _ => !self.rules.refuses_idle_words,
         };
         if takes { self.words.values.take_slot(letter) } else { None }
