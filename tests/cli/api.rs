@@ -377,7 +377,7 @@ fn stale_programs_are_removed_on_request() {
     let stale = &written.iter().find(|file| file.path == "1235.1P").unwrap().file;
     assert_eq!(library.emit(&["."], &options).unwrap().removed, Vec::<String>::new());
     assert!(place.path().join(stale).exists());
-    assert_eq!(library.emit(&["."], &options.remove_stale()).unwrap().removed, [stale.clone()]);
+    assert_eq!(library.emit(&["."], &options.remove_stale()).unwrap().removed, std::slice::from_ref(stale));
     assert!(!place.path().join(stale).exists());
 }
 

@@ -293,7 +293,9 @@ impl Library {
         let shared = Arc::clone(&workspace);
         let serve = move || {
             let mut open = OpenSession { workspace: &shared, session: None };
-            waiting.into_iter().for_each(|request| request(&mut open));
+            for request in waiting {
+                request(&mut open);
+            }
         };
         let thread = thread::Builder::new().name("pathbuild".to_owned()).stack_size(STACK).spawn(serve);
         thread.map_err(|error| Error::Refused(error.to_string()))?;

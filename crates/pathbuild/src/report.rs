@@ -20,19 +20,20 @@ use crate::waivers;
 /// Ends a check that took the given time: writes pictures, shows findings and the summary, and returns the exit status.
 pub fn conclude(context: &Context, args: &CheckArgs, report: CheckReport, time: Duration) -> ExitStatus {
     let CheckReport { findings, accepted, files, baseline, timings, .. } = report;
-    let status = match baseline {
-        Some(written) => waivers::report_written(context, &args.waivers, &written),
-        None => {
-            let checked = files.into_iter().map(|drawing| CheckedFile {
-                file: drawing.file.into(),
-                paths: drawing.paths.iter().map(|path| PathName::new(path)).collect(),
-            });
-            let findings = Findings { checked: checked.collect(), ..for_rendering(findings, accepted) };
-            // Leak instead of dropping: freeing a million values takes longer than process exit.
-            deliver(context, args, &ManuallyDrop::new(findings), time)
-        }
+    let status = if let Some(written) = baseline {
+        waivers::report_written(context, &args.waivers, &written)
+    } else {
+        let checked = files.into_iter().map(|drawing| CheckedFile {
+            file: drawing.file.into(),
+            paths: drawing.paths.iter().map(|path| PathName::new(path)).collect(),
+        });
+        let findings = Findings { checked: checked.collect(), ..for_rendering(findings, accepted) };
+        // Leak instead of dropping: freeing a million values takes longer than process exit.
+        deliver(context, args, &ManuallyDrop::new(findings), time)
     };
-    timings.iter().for_each(|line| context.printer.status(line));
+    for line in timings {
+        context.printer.status(line);
+    }
     status
 }
 

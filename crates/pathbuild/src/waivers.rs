@@ -10,7 +10,7 @@ use crate::text::counted;
 
 /// Returns the options for the baseline.
 pub(crate) fn options(args: &WaiverArgs) -> BaselineOptions {
-    let options = args.baseline.iter().fold(BaselineOptions::new(), |options, file| options.file(file));
+    let options = args.baseline.iter().fold(BaselineOptions::new(), BaselineOptions::file);
     match (args.update_baseline, args.accept) {
         (true, _) => options.update(),
         (false, Some(code)) => {

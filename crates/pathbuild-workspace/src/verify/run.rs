@@ -48,7 +48,9 @@ impl Request<'_> {
             programs.push((name.to_owned(), verifier.verify(name, text)));
         }
         let mut diagnostics = matches.problems;
-        programs.iter_mut().for_each(|(_, verified)| diagnostics.append(&mut verified.diagnostics));
+        for (_, verified) in &mut programs {
+            diagnostics.append(&mut verified.diagnostics);
+        }
         Ok(Verification { programs, diagnostics: session.with_hints(diagnostics) })
     }
 }

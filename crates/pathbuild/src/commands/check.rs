@@ -25,7 +25,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
 
 fn options(args: &CheckArgs) -> CheckOptions {
     let mut options = CheckOptions::new().baseline(waivers::options(&args.waivers));
-    options = args.changed_since.iter().fold(options, |options, revision| options.changed_since(revision));
+    options = args.changed_since.iter().fold(options, CheckOptions::changed_since);
     if args.all_bindings {
         options = options.all_values();
     }

@@ -24,14 +24,17 @@ pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
     }
 }
 
+/// A method that switches an option on.
+type Switch = fn(EmitOptions) -> EmitOptions;
+
 fn options(args: &EmitArgs) -> EmitOptions {
     let mut options = EmitOptions::new();
-    options = args.post.iter().fold(options, |options, post| options.post(post));
-    options = args.join.iter().fold(options, |options, name| options.join(name));
+    options = args.post.iter().fold(options, EmitOptions::post);
+    options = args.join.iter().fold(options, EmitOptions::join);
     options = args.deps.iter().fold(options, |options, file| options.deps(file.as_str()));
     options = args.date.iter().fold(options, |options, date| options.date(date.to_string()));
-    options = args.dialect.iter().fold(options, |options, dialect| options.dialect(dialect));
-    let switches: [(bool, fn(EmitOptions) -> EmitOptions); 6] = [
+    options = args.dialect.iter().fold(options, EmitOptions::dialect);
+    let switches: [(bool, Switch); 6] = [
         (args.check, EmitOptions::compare),
         (args.moves, EmitOptions::compare_moves),
         (args.output.is_some(), EmitOptions::print),
@@ -94,8 +97,13 @@ fn run_all(post_builds: &[PostBuild]) -> Vec<Diagnostic> {
 
 /// Shows the outcome of all files, and the notes of post-processors. Returns whether all files are up to date.
 pub(super) fn show_all(context: &Context, files: &[OutputFile], notes: &[String]) -> bool {
-    let is_current = files.iter().fold(true, |is_current, file| show(context, file) && is_current);
-    notes.iter().for_each(|note| context.printer.status(note));
+    let mut is_current = true;
+    for file in files {
+        is_current &= show(context, file);
+    }
+    for note in notes {
+        context.printer.status(note);
+    }
     is_current
 }
 

@@ -43,7 +43,7 @@ pub fn stats(context: &Context, args: &ListArgs) -> ExitStatus {
 /// Lists the paths and shows them with `print`. Errors of paths are part of the list, so only findings about directories and drawings are
 /// shown separately.
 fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row], usize)) -> ExitStatus {
-    let options = args.post.iter().fold(ListOptions::new(), |options, post| options.post(post));
+    let options = args.post.iter().fold(ListOptions::new(), ListOptions::post);
     let listed = context.library().and_then(|library| library.paths_with(&args.inputs().texts(), &options));
     let listed = match listed {
         Ok(listed) => listed,

@@ -102,8 +102,8 @@ fn options(args: &VerifyArgs) -> Result<VerifyOptions, Box<Diagnostic>> {
     let (reading, stock) = (&args.reading, verify::VerifyOptions::default());
     let stock = stock.with_stock(args.cutter.as_deref(), args.surface.as_deref())?;
     let mut options = VerifyOptions::new().baseline(waivers::options(&args.waivers));
-    options = args.against.iter().fold(options, |options, path| options.against(path));
-    options = args.post.iter().fold(options, |options, post| options.post(post));
+    options = args.against.iter().fold(options, VerifyOptions::against);
+    options = args.post.iter().fold(options, VerifyOptions::post);
     options = args.require.iter().fold(options, |options, check| options.require(check.name()));
     options = reading.dialect.iter().fold(options, |options, dialect| options.dialect(dialect.name()));
     options = stock.cutter.iter().fold(options, |options, diameter| options.cutter(*diameter));
