@@ -178,7 +178,7 @@ fn a_command_line_says_the_same_whatever_of_the_commands_is_defined() {
 fn an_empty_argument_is_refused() {
     let place = Place::new().file("pathbuild.toml", "library = [\".\"]");
     for arguments in
-        [&["check", ""][..], &["emit", "--out-dir", "", "."], &["check", "--search="], &["list", ""]]
+        [&["check", ""][..], &["emit", "--out-dir", "", "."], &["check", "--search", ""], &["list", ""]]
     {
         let run = place.run_with(arguments);
         assert_eq!(run.status, Some(2), "{run}");

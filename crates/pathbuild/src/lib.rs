@@ -41,7 +41,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     }
     match Cli::read(&arguments) {
         Ok(Cli { command: Command::Compat(args), common }) => run_compat(&arguments, &args, &common),
-        Ok(_) if let Some(number) = arguments.iter().position(is_empty_value) => {
+        Ok(_) if let Some(number) = arguments.iter().position(|argument| argument.is_empty()) => {
             let lang = lang_of(&arguments);
             print(|printer| german::print_usage_error(&empty_argument_error(number, lang), lang, printer))
         }
@@ -55,12 +55,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     }
 }
 
-/// Whether an argument is empty, or an option has an empty value, as where a script uses a variable that is not set. As a name of a file it would mean
-/// the working directory, and a script would write all programs instead of one.
-fn is_empty_value(argument: &OsString) -> bool {
-    argument.is_empty() || argument.to_str().is_some_and(|text| text.starts_with("--") && text.ends_with('='))
-}
-
+/// Returns the error for an empty argument, as in a script whose variable is not set. As the name of a file it would mean the working directory, and
+/// the script would write all programs instead of one.
 fn empty_argument_error(number: usize, lang: Lang) -> String {
     match lang {
         Lang::En => format!(
