@@ -167,7 +167,7 @@ fn what_two_programs_state_besides_moves_is_compared() {
         let changed = u8::from(!line.is_empty());
         assert_prints(&run, 0, &[line, &format!("{changed} of 1 path changed\n")]);
     }
-    let german = Place::new().file("a.ngc", TWO_CUTS).file("b.ngc", &TWO_CUTS.replace("T1", "T2"));
+    let german = Place::new().file("a.ngc", TWO_CUTS).file("b.ngc", TWO_CUTS.replace("T1", "T2"));
     let run = german.run("diff a.ngc b.ngc --dialect linuxcnc --lang de");
     assert_prints(&run, 0, &["  Werkzeug: T2 statt T1 (Zeile 8)\n"]);
     let json = german.run("diff a.ngc b.ngc --dialect linuxcnc --format json");

@@ -635,7 +635,9 @@ fn each_work_offset_of_unknown_place_fits_into_the_travel() {
         let mut rules = MachineRules::new(&machine);
         let text = format!("G21 G90 G54 {head}\nG0 Z5\nG0 X0 Y0\n{program}\nM30\n");
         let steps = interpret(text.as_bytes(), LinuxCnc, &Options::default()).steps;
-        steps.iter().for_each(|step| rules.step(step));
+        for step in &steps {
+            rules.step(step);
+        }
         (rules.has_several_frames(), rules.finish().iter().map(fault_text).collect::<Vec<_>>())
     };
     let run = |program: &str| run_after("", program);

@@ -62,6 +62,7 @@ fn check_count<'a>(fields: &Fields<'a>, found: usize) -> Result<(), BadGroup<'a>
 }
 
 /// A POLYLINE that is waiting for its VERTEX records.
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub(crate) struct OpenPolyline {
     elevation: f64,
     is_closed: bool,

@@ -71,7 +71,9 @@ pub(super) fn uncut_runs<'a>(segments: &[SupportSegment<'a>]) -> Vec<UncutRun<'a
         let is_uncut = run.len() > 1 && !run.iter().any(|segment| segments[*segment].has_gap());
         let pitches: f64 = run.iter().map(|segment| segments[*segment].pitches()).sum();
         if is_uncut && at_least(pitches, 1.0) && !is_reported[run[0]] {
-            run.iter().for_each(|segment| is_reported[*segment] = true);
+            for segment in run {
+                is_reported[*segment] = true;
+            }
             found.insert(run[0], run.clone());
         }
     }

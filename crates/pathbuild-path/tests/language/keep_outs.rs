@@ -1,6 +1,6 @@
 //! Tests reading clamps, and finding the moves that hit them. (book: language/keep-outs)
 
-use pathbuild_diagnostic::{Code, Lang};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
     Arc, Curve, KeepOut, KeepOutMap, KeepOuts, Language, LayerPattern, Line, TipMove, Xy, keep_outs,
@@ -106,7 +106,7 @@ fn the_width_of_an_outline_is_reported() {
         let corners = "10\n0\n20\n0\n10\n9\n20\n0\n10\n9\n20\n9\n10\n0\n20\n9\n";
         let polyline = format!("0\nLWPOLYLINE\n8\nclamps\n43\n{width}\n90\n4\n70\n1\n{corners}");
         let found = clamps_among("layer clamps\ntext 4,4 \"Z25\"", &polyline);
-        (found.all.len(), found.problems.iter().map(|found| found.code()).collect::<Vec<_>>())
+        (found.all.len(), found.problems.iter().map(Diagnostic::code).collect::<Vec<_>>())
     };
     assert_eq!(clamp("0"), (1, vec![]));
     assert_eq!(clamp("3"), (1, vec![Code::UnsupportedCurve]));

@@ -173,8 +173,10 @@ const PROBE: &str = "G38";
 #[derive(Debug)]
 struct CurrentState {
     selected: Option<u32>,
-    /// The tool of the last M6, if there was one. Without M6, T names the tool in the spindle.
-    inserted: Option<Option<u32>>,
+    /// Whether the program has had an M6. Before the first one, T names the tool in the spindle.
+    has_changed: bool,
+    /// The tool of the last M6.
+    inserted: Option<u32>,
     length: String,
     spindle: Spindle,
     coolant: Option<Coolant>,
@@ -185,6 +187,7 @@ impl Default for CurrentState {
     fn default() -> Self {
         Self {
             selected: None,
+            has_changed: false,
             inserted: None,
             length: String::new(),
             spindle: Spindle::UNSTATED,
@@ -199,7 +202,7 @@ impl CurrentState {
     fn apply(&mut self, action: &Action) {
         match action {
             Action::SelectTool(number) => self.selected = Some(*number),
-            Action::ChangeTool(number) => self.inserted = Some(*number),
+            Action::ChangeTool(number) => (self.has_changed, self.inserted) = (true, *number),
             Action::Spindle(spindle) => self.spindle = *spindle,
             Action::Coolant(coolant) => self.coolant = Some(*coolant),
             Action::System { system, .. } => self.system = system.name().into_owned(),
@@ -209,7 +212,7 @@ impl CurrentState {
     }
 
     fn words(&self) -> [(StateKind, String); 5] {
-        let tool = self.inserted.unwrap_or(self.selected);
+        let tool = if self.has_changed { self.inserted } else { self.selected };
         [
             (StateKind::Tool, tool.map_or_else(String::new, |number| format!("T{number}"))),
             (StateKind::ToolLength, self.length.clone()),

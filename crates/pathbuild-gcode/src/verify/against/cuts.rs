@@ -164,7 +164,8 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
                 && libm::fabs(z - movement.from.z()) <= height
         };
         match chain.check(&traverse) {
-            Err(RapidDeviation { found, expected }) => {
+            Err(deviation) => {
+                let RapidDeviation { found, expected } = *deviation;
                 let expected = expected.or(next);
                 Err(Box::new(Difference { kind: DifferenceKind::Place, found, expected }))
             }
@@ -457,11 +458,12 @@ impl RapidSequence {
     }
 
     /// Checks the moves against the expected ones. The error is the first deviation.
-    fn check(&self, traverse: &ExpectedTraverse<'_>) -> Result<(), RapidDeviation> {
+    fn check(&self, traverse: &ExpectedTraverse<'_>) -> Result<(), Box<RapidDeviation>> {
         if !self.is_head {
             return Self::check_rest(&self.moves, traverse.expected, traverse);
         }
-        let begins_elsewhere = |found| RapidDeviation { found, expected: Some(traverse.arrival_at_start()) };
+        let begins_elsewhere =
+            |found| Box::new(RapidDeviation { found, expected: Some(traverse.arrival_at_start()) });
         let mut outcome = Err(begins_elsewhere(self.moves.first().copied()));
         for (passed, place) in traverse.clear_places().enumerate() {
             let rest = self.moves_after_arrival(&place, passed > 0, traverse);
@@ -479,18 +481,18 @@ impl RapidSequence {
         moves: &[NumberedMove],
         expected: &[NumberedMove],
         traverse: &ExpectedTraverse<'_>,
-    ) -> Result<(), RapidDeviation> {
+    ) -> Result<(), Box<RapidDeviation>> {
         let mut found = moves.iter().filter(|(_, movement)| !traverse.is_too_short(movement));
         for expected in expected.iter().filter(|(_, movement)| !traverse.is_too_short(movement)) {
             let next = found.next();
             let is_same = |(_, movement): &NumberedMove| traverse.is_same(movement, &expected.1);
             if !next.is_some_and(is_same) {
-                return Err(RapidDeviation { found: next.copied(), expected: Some(*expected) });
+                return Err(Box::new(RapidDeviation { found: next.copied(), expected: Some(*expected) }));
             }
         }
         match found.find(|(_, movement)| !(traverse.is_foot && traverse.is_harmless(movement))) {
             None => Ok(()),
-            Some(other) => Err(RapidDeviation { found: Some(*other), expected: None }),
+            Some(other) => Err(Box::new(RapidDeviation { found: Some(*other), expected: None })),
         }
     }
 
