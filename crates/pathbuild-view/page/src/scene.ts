@@ -140,8 +140,11 @@ function step(radius: number, sagitta: number): number {
   return Math.min(STEP, (360 / Math.PI) * Math.acos(Math.max(-1, 1 - sagitta / radius)) || STEP);
 }
 
+/** Maximum distance in mm between a drawn arc and its chords. */
+const SAGITTA = 0.02;
+
 /** Returns the points of a move from start to end; empty if its route is unknown. Chords stay within `sagitta` mm of an arc. */
-export function pointsOfMove(move: Move, sagitta = Infinity): [number, number, number][] {
+export function pointsOfMove(move: Move, sagitta = SAGITTA): [number, number, number][] {
   const { from, to, arc } = move;
   const z = (place: Place) => place[2] ?? (from[2] ?? to[2] ?? 0);
   if (from[0] === null || from[1] === null || to[0] === null || to[1] === null) return [];

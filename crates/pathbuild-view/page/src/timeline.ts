@@ -65,7 +65,7 @@ type Place = [number, number, number];
 
 /** Returns the points of a move up to a share of its length, in coordinates of the drawing. Empty if its ends are unknown. */
 export function wayUpTo({ path, move }: Step, share: number): Place[] {
-  const points = pointsOfMove(move).map(([x, y, z]): Place => [x + path.zero[0], y + path.zero[1], z]);
+  const points = pointsOfMove(move, 0.001).map(([x, y, z]): Place => [x + path.zero[0], y + path.zero[1], z]);
   const lengths = points.slice(1).map((to, index) => Math.hypot(...to.map((part, axis) => part - points[index][axis])));
   let left = share * lengths.reduce((sum, length) => sum + length, 0);
   const way = points.slice(0, 1);

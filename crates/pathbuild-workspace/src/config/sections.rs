@@ -284,7 +284,7 @@ pub mod machine {
         travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]", Emit;
         /// 1/min: the spindle's slowest and fastest speed
         spindle_speeds: Option<NumberRange> = "spindle-speeds", NUMBER_RANGE, None, "[3000, 24000]", Emit;
-        /// mm/min: highest speeds of X, Y and Z; with accelerations, times are those of the machine
+        /// mm/min: highest speeds of X, Y and Z; with accelerations, import also states the time on the machine
         rates: Option<[f64; 3]> = "rates", AXES, None, "[3000, 3000, 1000]", Neither;
         /// mm/s²: largest accelerations of X, Y and Z
         accelerations: Option<[f64; 3]> = "accelerations", AXES, None, "[200, 200, 50]", Neither;
