@@ -326,8 +326,13 @@ pub fn write(
         }
         for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()) {
             // A job that is left out claims its names, too: whether another target may write them does not depend on which was saved last.
-            let clash = job.claim_file_names(session, owners);
-            diagnostics.extend(clash.filter(|_| !std::mem::replace(&mut job.is_left_out, true)));
+            if let Some(clash) = job.claim_file_names(session, owners) {
+                // A clash among these targets is reported already.
+                if !job.is_left_out {
+                    diagnostics.push(clash);
+                }
+                job.is_left_out = true;
+            }
         }
         build_and_settle(
             session,
