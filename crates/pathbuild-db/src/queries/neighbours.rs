@@ -197,8 +197,8 @@ impl<'db> PlacedProgram<'db> {
         if own.parts.is_empty() {
             return Vec::new();
         }
-        let bars = PathCuts { bars: Vec::new(), ..own.cuts.clone() };
-        let own = PlacedCuts::new(&bars, own.parts, own.placement, 0.0);
+        let without_bars = PathCuts { bars: Vec::new(), ..own.cuts.clone() };
+        let own = PlacedCuts::new(&without_bars, own.parts, own.placement, 0.0);
         self.cuts_into(0, &own, 1..self.paths.len())
     }
 

@@ -575,9 +575,9 @@ messages! {
     }
     /// A polyline that is drawn with a width.
     WIDTH_IGNORED: UnsupportedCurve {
-        en: "the width of {entity} is ignored: only its middle line counts",
+        en: "the width of {entity} is ignored: only its centre line counts",
         de: "die Breite von {entity} wird nicht beachtet: es zählt nur die Mittellinie",
-        help_en: "set the width to 0 and draw what is meant: the way of the cutter, or the outline",
+        help_en: "set the width to 0 and draw what is meant: the path of the cutter, or the outline",
         help_de: "die Breite auf 0 setzen und zeichnen, was gemeint ist: den Weg des Fräsers oder den Umriss",
     }
     /// A spline that is given by points on it only.

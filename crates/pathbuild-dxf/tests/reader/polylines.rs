@@ -65,7 +65,7 @@ fn straight_pieces_become_lines() {
 /// Only the middle line is read, so a width is reported, once for each layer.
 #[test]
 fn a_width_is_reported() {
-    let wide = |name: &str| [format!("PB111 5 the width of {name} is ignored: only its middle line counts")];
+    let wide = |name: &str| [format!("PB111 5 the width of {name} is ignored: only its centre line counts")];
     let light_width =
         |widths: &str| file_faults(&light(&format!("{widths}10 0\n20 0\n40 0\n41 0\n10 3\n20 0")));
     assert_eq!(light_width(""), [""; 0]);
