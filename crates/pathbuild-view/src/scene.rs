@@ -43,12 +43,12 @@ pub struct Scene {
     pub uncut: Vec<Vec<Shape>>,
     /// Findings, numbered from 1.
     pub findings: Vec<Finding>,
-    /// How a program was read and checked; `None` for drawings.
+    /// Record of how the program was read and checked; `None` for drawings.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<ProgramRecord>,
 }
 
-/// How a program of any origin was read and checked.
+/// A record of how a program of any origin was read and checked.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ProgramRecord {
     /// Name of the dialect in which the program was read.
@@ -64,12 +64,12 @@ pub struct ProgramRecord {
     pub cutters: Vec<ToolSpan>,
     /// Z in mm of the material's upper face; `None` if it is unknown or not level.
     pub surface: Option<f64>,
-    /// Dwells, stops and tool changes, which are in no time; `None` if there are none.
+    /// Description of dwells, stops and tool changes, which the totals do not include; `None` if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub waits: Option<BilingualText>,
 }
 
-/// A check of `verify`, with what it was made with or the reason why it was not made.
+/// A check of `verify`, with the values that it used or the reason why it was not made.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShownCheck {
     /// Name of the check, as for `--require`.

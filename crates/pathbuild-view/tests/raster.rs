@@ -1,5 +1,5 @@
-//! PNG and PDF files contain letters, which rendering silently omits if the font database is empty. Pages request nothing and do not interpret
-//! texts as markup.
+//! Tests that PNG and PDF files contain letters, which rendering silently omits if the font database is empty, and that pages request nothing and
+//! do not interpret texts as markup.
 #![cfg(feature = "pictures")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up has failed")]
 

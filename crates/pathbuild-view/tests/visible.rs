@@ -1,4 +1,4 @@
-//! The page's script escapes the same characters as the program.
+//! Tests that the page's script escapes the same characters as the program.
 #![allow(clippy::unwrap_used, reason = "a test that cannot set up has failed")]
 
 use pathbuild_diagnostic::shown;

@@ -198,8 +198,8 @@ impl Request<'_> {
         Results { selection, named, each }
     }
 
-    /// Returns the earlier state with which drawings are compared. `None` selects all drawings: the request does not ask for changed ones only, or a
-    /// file that affects all results has changed.
+    /// Returns the earlier state with which drawings are compared. `None` if all drawings are selected, because the request does not ask for changed
+    /// ones only or because a file that affects all results has changed.
     fn changes_since(&self, session: &Session<'_>, matches: &ArgumentMatches) -> Option<&dyn EarlierFiles> {
         let past = self.changed?;
         let directories: Vec<Utf8PathBuf> =
@@ -547,7 +547,6 @@ fn add(paths: &mut BTreeSet<Utf8PathBuf>, path: &Utf8Path) {
 }
 
 impl ChangedDrawings {
-    /// Determines which of the given inputs have changed since `past`.
     fn new(session: &Session<'_>, past: &dyn EarlierFiles, reached: ReachedInputs) -> Self {
         let ReachedInputs { mut files, directories } = reached;
         let mut gone = BTreeSet::new();

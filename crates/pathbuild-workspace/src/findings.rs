@@ -15,7 +15,7 @@ use crate::severities::Verdict;
 use crate::waivers::{Coverage, WaivedFinding, Waiver};
 use crate::workspace::Workspace;
 
-/// The diagnostics of a run, and what was checked.
+/// The diagnostics of a run, with the drawings that were checked.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     /// Diagnostics that are not waived, sorted, without duplicates.

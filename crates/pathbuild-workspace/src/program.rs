@@ -195,7 +195,7 @@ impl Program {
         Self { file: file.to_owned(), text, dialect, evidence, shown, read, by_definition, options }
     }
 
-    /// Returns the program at its nominal heights, without the correction formulas.
+    /// Returns ten times the number of the G code that selects inches: 200 for G20.
     pub fn at_nominal_heights(&self) -> Text<'_> {
         let options = Options { heights: Heights::Nominal, ..self.options.clone() };
         Text { text: self.code(), dialect: self.dialect, options }
@@ -249,7 +249,7 @@ impl Program {
         text
     }
 
-    /// Whether all words that may move the tool are known to the dialect and followed.
+    /// Whether the dialect knows all words that may move the tool, and the reader interprets them.
     pub fn are_moves_known(&self) -> bool {
         let hides_moves = |problem: &Diagnostic| {
             problem.is_error() && matches!(problem.code(), Code::UnknownWord | Code::WordNotFollowed)
@@ -257,7 +257,7 @@ impl Program {
         !self.read.problems.iter().any(hides_moves)
     }
 
-    /// Returns the first line with unknown moves, for example a call of a subprogram. Lengths and times are unknown as well if there is one.
+    /// Returns the first line with unknown moves, for example a call of a subprogram. If there is such a line, lengths and times are unknown as well.
     pub fn first_line_with_unknown_moves(&self) -> Option<u32> {
         let is_unfollowed =
             |problem: &&Diagnostic| problem.is_error() && problem.code() == Code::WordNotFollowed;

@@ -23,12 +23,12 @@ pub struct BaselineOptions {
 /// The use of a baseline.
 #[derive(Clone, Debug, Default)]
 pub enum BaselineTask {
-    /// Accept the findings that are in the baseline.
+    /// Accepts the findings that are in the baseline.
     #[default]
     Apply,
-    /// Write all findings into the baseline.
+    /// Writes all findings into the baseline.
     Update,
-    /// Write the findings with this code into the baseline, with the reason and the end of the waiver.
+    /// Writes the findings with this code into the baseline, with the reason and the end of the waiver.
     Accept(Code, Waiver),
 }
 

@@ -15,7 +15,7 @@ const SIZE: Point = [420.0, 280.0];
 const MIN_EXTENT: f64 = 36.0;
 const ENLARGEMENT: f64 = 1.4;
 
-/// Small gaps are enlarged: the picture shows this multiple of the gap, but at least the second value, in mm.
+/// Extent shown for a small gap: this multiple of the gap, but at least `MIN_GAP_EXTENT` mm.
 const GAP_MULTIPLE: f64 = 40.0;
 const MIN_GAP_EXTENT: f64 = 4.0;
 

@@ -607,7 +607,7 @@ fn move_touching_blank(([low, high], surface): Blank, zero: Point) -> (Move, Sto
 /// Depth in mm of the move that touches a blank, too small to count as material.
 const TOUCH_DEPTH: f64 = 1e-4;
 
-/// Returns the line number of a step that `steps` other steps precede.
+/// Returns the line number of a step that comes after `steps` other steps.
 fn line(steps: usize) -> u32 {
     u32::try_from(steps + 1).unwrap_or(u32::MAX)
 }

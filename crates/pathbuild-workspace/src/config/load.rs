@@ -215,8 +215,8 @@ pub fn repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8P
     directory.ancestors().find(is_repository).unwrap_or(directory)
 }
 
-/// Returns the repository that files of an untrusted tree must not lead out of. If a symbolic link leads to the directory, this is the repository
-/// that contains the link.
+/// Returns the repository outside which an untrusted run must not access files. If the path of the directory goes through symbolic links, this is the
+/// repository that contains the outermost of these links.
 pub(super) fn confining_repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
     let is_link = |place: &&Utf8Path| {
         let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else { return false };

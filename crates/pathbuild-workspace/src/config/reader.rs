@@ -153,7 +153,7 @@ impl<'a> TomlReader<'a> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Returns the value in `found`; if there is none, reports that `value` is not what is expected.
+    /// Returns the content of `found`; if there is none, reports that the TOML value is not of the expected kind.
     pub(super) fn require<T>(
         &mut self,
         found: Option<T>,

@@ -243,7 +243,7 @@ pub(crate) fn level_in(levels: &[(Code, Level)], code: Code) -> Option<Level> {
     levels.iter().find(|(known, _)| *known == code).map(|(_, level)| *level)
 }
 
-/// A tool, as post-processors know it. (book: program/posts)
+/// A configured tool: its cutter, its number on the machine, and the spindle speed and coolant to use. (book: program/posts)
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
     /// Name of the tool's table.

@@ -32,7 +32,7 @@ pub struct Tree<'s, 'w> {
     pub root: &'s Utf8Path,
 }
 
-/// The paths that differ between two trees, and what could not be compared.
+/// The paths that differ between two trees, with diagnostics of everything that could not be compared.
 #[derive(Debug, Default)]
 pub struct Comparison {
     /// Paths that differ between the sides, sorted by name.

@@ -19,7 +19,8 @@ use crate::config::{Settings, settings};
 pub enum Reason {
     /// An element was added, removed or changed in the drawing.
     Drawn(DrawnChange),
-    /// The file contains the same elements in another order, which matters where several are equally good candidates. Nothing else has changed.
+    /// The file contains the same elements in another order, which decides between equally good candidates for the next element. Nothing else has
+    /// changed.
     Reordered,
     /// A variable of the path has another value.
     Variable(ValueChange),

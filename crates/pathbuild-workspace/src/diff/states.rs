@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Text;
 use pathbuild_gcode::interpret::code_name;
 use pathbuild_motion::{Action, Change, Coolant, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem};
 
-/// What a program states besides moves.
+/// A kind of statement in a program other than a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum StateKind {
@@ -19,14 +19,14 @@ pub enum StateKind {
     Dwell,
 }
 
-/// The first difference of a kind between two programs.
+/// The first difference between two programs in one kind of statement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StateChange {
     /// The kind of the difference.
     pub kind: StateKind,
     /// The words of the old and of the new program, such as `T1`; empty if there are none.
     pub words: [String; 2],
-    /// The line of the new program from which it differs, if the new program has a line for that.
+    /// The line at which the new program begins to differ; `None` if the new program has no line for the difference.
     pub line: Option<u32>,
 }
 
@@ -74,7 +74,7 @@ impl StateKind {
         }
     }
 
-    /// Whether words of this kind happen once. Those of other kinds apply to all cuts that follow.
+    /// Whether words of this kind act once, where they stand. Words of other kinds apply to all cuts that follow.
     fn is_event(self) -> bool {
         matches!(self, Self::Zero | Self::Probe | Self::Stop | Self::Dwell)
     }
@@ -140,7 +140,7 @@ impl MachineStates {
         self.stated[kind as usize].push(StatedWords { cut: self.cuts, words, line });
     }
 
-    /// Returns the first difference of each kind. Programs with another number of cuts are compared by the order of the words alone.
+    /// Returns the first difference of each kind. If the programs have different numbers of cuts, only the order of the words is compared.
     pub fn changes(&self, new: &Self) -> Vec<StateChange> {
         StateKind::ALL.into_iter().filter_map(|kind| self.first_change(new, kind)).collect()
     }
@@ -159,7 +159,7 @@ impl MachineStates {
         let words = [0, 1].map(|side| match found[side] {
             Some(stated) => stated.words.clone(),
             None if kind.is_event() => String::new(),
-            // What was stated before still applies.
+            // The words before still apply.
             None => at.checked_sub(1).map_or_else(String::new, |before| sides[side][before].words.clone()),
         });
         Some(StateChange { kind, words, line: found[1].map(|stated| stated.line) })

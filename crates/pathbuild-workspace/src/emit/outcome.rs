@@ -129,13 +129,11 @@ impl Task {
         }
     }
 
-    /// Whether the results of this task contain machining times.
     pub(super) fn writes_times(self) -> bool {
         self != Self::Compare { moves_only: true }
     }
 }
 
-/// Returns PB004 for a file that cannot be written.
 pub(super) fn write_error(name: &str, reason: impl Into<Value>) -> Diagnostic {
     Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason)
 }

@@ -19,7 +19,7 @@ use crate::post_processor::PostProcessor;
 use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
 use crate::workspace::Workspace;
 
-/// The targets that yield each file, by file name in lower case. A file with several is not written.
+/// The targets that yield each file, by file name in lower case. A file with several targets is not written.
 pub type FileOwners = HashMap<String, Vec<Target>>;
 
 /// The plan for one program: its job, or the reasons why it has none.
@@ -29,7 +29,6 @@ pub(super) struct Plan {
     pub(super) diagnostics: Vec<Diagnostic>,
     /// Reasons why no program is generated although the paths have no errors.
     pub(super) refusals: Vec<Diagnostic>,
-    /// The job that generates the program; `None` if none is generated.
     pub(super) job: Option<Job>,
 }
 
@@ -407,7 +406,6 @@ pub(super) fn leave_out_clashes<'p>(
     }
 }
 
-/// Returns PB514 for two programs with a file of the same name.
 fn same_output_error(name: Option<&str>, first: String, second: String, drawing: &Utf8Path) -> Diagnostic {
     Diagnostic::new(&messages::SAME_OUTPUT)
         .quoting("name", name.unwrap_or_default())

@@ -89,7 +89,6 @@ struct TargetCollector<'a> {
 }
 
 impl TargetCollector<'_> {
-    /// Adds the paths matched by the configured patterns.
     fn add_configured(&mut self, library: &[Answer<DrawingResult>]) {
         let mut configured = TargetPatterns::new(&self.session.workspace().settings);
         for drawing in library {

@@ -86,7 +86,6 @@ const QUEUE_LENGTH: usize = 32;
 /// The generated files of a job, with its index.
 type NumberedOutputs = (usize, Vec<Output>);
 
-/// Adds the outcome of writing the files to that of generating them.
 fn add_files(generated: &mut ProgramOutcome, written: ProgramOutcome) {
     generated.files.extend(written.files);
     generated.hashes.extend(written.hashes);

@@ -412,7 +412,7 @@ struct KnownTitles {
     idle: BTreeSet<Title>,
     /// Drawings of which the run knows all paths.
     covered: BTreeSet<Title>,
-    /// Drawings that exist, but of which the run does not know the paths.
+    /// Existing drawings whose paths the run does not know.
     others: BTreeSet<Title>,
     /// Names of the drawings in the search directories, which `emit` finds although they may not be in the library.
     searched: BTreeSet<String>,

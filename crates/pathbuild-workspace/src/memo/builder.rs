@@ -151,7 +151,7 @@ impl<'a> CatalogueBuilder<'a> {
         self.add_file(fact)
     }
 
-    /// Adds a drawing that was read in this run.
+    /// Adds a drawing that was read in this run, and returns its index.
     fn drawing(&mut self, file: SourceFile) -> usize {
         let path = file.path(self.session.db());
         let is_known = |number: &usize| {
@@ -163,7 +163,8 @@ impl<'a> CatalogueBuilder<'a> {
         }
     }
 
-    /// Adds a file other than a drawing. If results were computed from different contents, it is unclear which content a result belongs to.
+    /// Adds a file other than a drawing, and returns its index. If results were computed from different contents of the file, it is unclear to which
+    /// content a result belongs, so the file gets neither stamp nor hash.
     fn further_file(&mut self, ExtraInput { path, hash }: &ExtraInput) -> usize {
         let mut room = Vec::new();
         let limit = self.session.workspace().settings.limits.file_size.value;
@@ -178,7 +179,7 @@ impl<'a> CatalogueBuilder<'a> {
         number
     }
 
-    /// Records an output file written or compared in this run.
+    /// Adds an output file that was written or compared in this run, and returns its index.
     fn output(&mut self, GeneratedFile { path, hash, is_there }: &GeneratedFile) -> usize {
         let stamp = if *is_there { Stamp::of(path).for_storing(self.begun) } else { Stamp::UNKNOWN };
         // If the file has vanished meanwhile, the stamp of a missing file must not be stored with the hash.
@@ -186,13 +187,13 @@ impl<'a> CatalogueBuilder<'a> {
         self.add_file(FileFact { path: path.clone(), stamp, hash: Some(*hash) })
     }
 
-    /// Adds a file. A file that could not be read gets neither stamp nor hash, so that its results are recomputed.
+    /// Adds a file, and returns its index. A file that could not be read gets neither stamp nor hash, so that its results are recomputed.
     fn new_file(&mut self, path: &Utf8Path, content: Option<Content>) -> usize {
         let stamp = content.map_or(Stamp::UNKNOWN, |(_, stamp)| stamp.for_storing(self.begun));
         self.add_file(FileFact { path: path.to_owned(), stamp, hash: content.map(|(hash, _)| hash) })
     }
 
-    /// Adds a fact about a file; the first fact wins.
+    /// Adds a fact about a file, and returns its index; the first fact about a file wins.
     fn add_file(&mut self, fact: FileFact) -> usize {
         if let Some(known) = self.files.get(&fact.path) {
             return *known;
@@ -215,7 +216,7 @@ impl<'a> CatalogueBuilder<'a> {
         new
     }
 
-    /// Adds a lookup made in this run.
+    /// Adds a lookup made in this run, and returns its index.
     fn lookup(&mut self, lookup: &NameLookup) -> usize {
         let list = lookup.directories.iter().map(|directory| self.directory(directory)).collect();
         self.add_lookup(list, lookup.name.as_str())
@@ -235,7 +236,7 @@ impl<'a> CatalogueBuilder<'a> {
         }
     }
 
-    /// Adds a directory with its current names.
+    /// Adds a directory with its current names, and returns its index.
     fn directory(&mut self, path: &Utf8Path) -> usize {
         match self.directories.get(path) {
             Some(known) => *known,

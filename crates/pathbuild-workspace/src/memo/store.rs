@@ -370,7 +370,7 @@ impl Scope {
         }
     }
 
-    /// Whether the run uses a result.
+    /// Whether the run uses the result with this subject.
     pub(super) fn holds(&self, subject: &str) -> bool {
         match self {
             Self::All => true,

@@ -269,7 +269,6 @@ impl Checker<'_> {
     }
 }
 
-/// Returns the outcome of a target for which the check was aborted.
 fn aborted_target(db: &Database, target: Target, problem: Diagnostic) -> CheckedTarget {
     CheckedTarget {
         target,

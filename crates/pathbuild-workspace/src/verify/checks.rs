@@ -14,7 +14,7 @@ use crate::config::types::Requirement;
 pub struct CheckRecord {
     /// The kind of check.
     pub requirement: Requirement,
-    /// Whether the check was made, and with which values or why not.
+    /// Whether the check was made; if so, with the values that it used, and if not, with the reason.
     pub outcome: Outcome,
 }
 
@@ -89,7 +89,7 @@ pub enum Reason {
     NoCornerLimit,
     /// All cuts end above the surface that an option states.
     NoCutBelow,
-    /// A word is not followed, so that the moves are not known.
+    /// The program contains a word that pathbuild does not interpret, so its moves are not known.
     NotFollowed,
     /// The program moves in coordinate systems whose places relative to each other are not known.
     SeveralZeros,
@@ -104,7 +104,7 @@ pub(super) struct References {
     pub(super) is_compared_to_its_end: Option<bool>,
     /// Whether the configuration names layers of clamps.
     pub(super) has_keep_out: bool,
-    /// Whether all words that may move the tool are followed.
+    /// Whether pathbuild interprets all words of the program that may move the tool.
     pub(super) are_moves_known: bool,
     /// Whether the program moves in coordinate systems whose places relative to each other are not known.
     pub(super) has_several_zeros: bool,
@@ -147,7 +147,7 @@ pub(super) fn records(
     all.map(|(requirement, outcome)| CheckRecord { requirement, outcome }).into()
 }
 
-/// Returns the check of how far corners are rounded. `has_limit` is whether the program limits that.
+/// Returns the record of the check for the rounding of corners. `has_limit` says whether the program limits the rounding.
 pub(super) fn of_corners(has_limit: bool) -> CheckRecord {
     let outcome = if has_limit { Outcome::Made(None) } else { Outcome::NotMade(Reason::NoCornerLimit) };
     CheckRecord { requirement: Requirement::Corners, outcome }

@@ -55,7 +55,7 @@ pub struct VerifyOptions {
     pub required: Vec<Requirement>,
     /// Name or file of the post-processor that wrote the programs.
     pub post: Option<String>,
-    /// The control for which the programs will be rewritten. Its way of making rapid moves counts, not that of a program's own dialect.
+    /// The control for which the programs will be rewritten. Rapid moves are checked as this control makes them, not as a program's own dialect does.
     pub target: Option<Dialect>,
 }
 
@@ -561,8 +561,8 @@ fn is_about_decimal_point(doubt: &Diagnostic) -> bool {
     doubt.message.key == NO_DECIMAL_POINT.key
 }
 
-/// Whether the doubt concerns words that the drawing's program does not contain. Two kinds of doubts do not: the drawing does not determine how fine
-/// arcs are, and the user asked to ignore feeds.
+/// Whether the doubt concerns words that the drawing's program does not contain. Two kinds of doubts never do: the drawing does not determine how
+/// fine arcs are, and the user asked to ignore feeds.
 fn is_absent_from_drawing(doubt: &Diagnostic) -> bool {
     doubt.code() != Code::DoubtfulArc && doubt.message.key != FEED_IGNORED.key
 }

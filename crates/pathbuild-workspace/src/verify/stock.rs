@@ -45,8 +45,8 @@ impl ToolDiameters {
         first.or(self.header.map(|_| Origin::Program))
     }
 
-    /// Returns the widths according to the first source. Where another source disagrees, the smaller diameter removes material and the larger one
-    /// hits it. Only the configuration and the header know the shape.
+    /// Returns the widths according to the first source. If another source disagrees, the smaller diameter counts for removing material, and the
+    /// larger one for hitting material. Only the configuration and the header know the shape.
     fn cutter(&self) -> Option<Cutter> {
         let table = self.table.filter(|_| self.is_numbered);
         let known = [self.given, self.drawn, table.map(|table| table.diameter)];
@@ -138,7 +138,7 @@ impl<'s> Sources<'s> {
         !is_surface_known || self.cutter_origin() == Some(Origin::Program)
     }
 
-    /// Whether all words that may move the tool are followed.
+    /// Whether pathbuild interprets all words of the program that may move the tool.
     pub(super) fn are_moves_known(&self) -> bool {
         self.program.are_moves_known()
     }

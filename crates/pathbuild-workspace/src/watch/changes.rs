@@ -59,7 +59,7 @@ pub(super) enum Batch {
 /// Interval at which network drives are polled.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Resolution of the times by which polling notices changes, with a margin: a change is not noticed if it follows the first look within a second.
+/// Resolution of the times by which polling notices changes, with a margin: a change within a second after the first look is not noticed.
 const POLL_RESOLUTION: Duration = Duration::from_millis(1100);
 
 /// Interval at which the path of the working directory is checked.

@@ -27,7 +27,7 @@ pub(super) struct WatchedDirectories {
     refused: BTreeSet<Utf8PathBuf>,
     /// Symbolic and hard links among the drawings.
     links: Links,
-    /// Directories and files that are watched because links lead to them.
+    /// Directories and files that are watched because links point to them.
     linked: BTreeSet<Utf8PathBuf>,
 }
 
@@ -326,7 +326,7 @@ pub(super) struct Links {
 /// A path to watch for a linked drawing.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum LinkPlace {
-    /// A symbolic link that is followed, or the file to which the last one leads.
+    /// A symbolic link that is followed, or the file to which the last one points.
     Name(Utf8PathBuf),
     /// A followed symbolic link to a directory.
     Directory(Utf8PathBuf),

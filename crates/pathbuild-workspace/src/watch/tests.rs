@@ -89,7 +89,6 @@ fn update(library: &mut Library<'_>, paths: &[&str]) -> [Vec<Code>; 2] {
     [codes(&found.before), codes(&found.now)]
 }
 
-/// A second definition comes and goes with its drawing, or with its name in the drawing.
 #[test]
 fn a_second_definition_of_a_path_is_noticed() {
     let place = Place::new();

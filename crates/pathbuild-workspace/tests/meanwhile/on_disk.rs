@@ -46,7 +46,6 @@ impl OnDisk {
         Self::configured("library = [\"lib\"]\nfeed = 100\n", drawings)
     }
 
-    /// Like [`of`](Self::of), with this configuration.
     pub(crate) fn configured(configuration: &str, drawings: &[(&str, &str)]) -> Self {
         let place = Self { directory: TempDir::new().unwrap(), caches: TempDir::new().unwrap() };
         fs::write(place.path().join("pathbuild.toml"), configuration).unwrap();
@@ -57,7 +56,6 @@ impl OnDisk {
         place
     }
 
-    /// Writes a drawing, replacing an existing one.
     pub(crate) fn draw(&self, file: &str, text: &str) {
         fs::write(self.path().join(file), sheet(text).unwrap().to_dxf()).unwrap();
     }
