@@ -100,7 +100,7 @@ fn digits(digit: u8, window: &[u8; VECTOR_BYTES + 2]) -> u32 {
     (is_padding & is(bytes(1), digit) & is_blank(bytes(2))).to_bitmask()
 }
 
-/// Returns the start of the line after the one that contains the byte at `digit`, if that line contains only a group code.
+/// Returns the start of the line after the one with the byte at `digit`; `None` if the line with that byte contains more than a group code.
 fn line_after_code(bytes: &[u8], digit: usize, line_end: u8) -> Option<usize> {
     let length = rest_of_code(&bytes[digit + 1..], line_end)?;
     is_begin_of_code(&bytes[..digit], line_end).then_some(digit + 1 + length)

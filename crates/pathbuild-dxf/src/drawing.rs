@@ -135,7 +135,7 @@ pub struct Entity {
     pub geometry: Geometry,
 }
 
-/// A point in world coordinates, in mm. `z` should be 0 on a path layer; the path reports PB110 otherwise.
+/// A point in world coordinates, in mm. If `z` is not 0 on the layer of a path, the path reports PB110.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[expect(missing_docs, reason = "coordinates")]
 pub struct Point3 {

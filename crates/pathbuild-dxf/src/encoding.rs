@@ -92,7 +92,7 @@ impl<'a> Decoder<'a> {
             Charset::Dos(page) => dos(page, bytes),
             Charset::Unknown => (standard(WINDOWS_1252, bytes).0, false),
             Charset::Either(file) => {
-                // If a single string is not UTF-8, the file is not; testing the string first is cheaper.
+                // If a single string is not UTF-8, neither is the file; testing the string first is cheaper.
                 let is_utf8 = [bytes, file].into_iter().all(|text| std::str::from_utf8(text).is_ok());
                 let encoding = if is_utf8 { UTF_8 } else { WINDOWS_1252 };
                 self.charset = Charset::Standard(encoding);

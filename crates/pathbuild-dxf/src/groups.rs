@@ -264,7 +264,7 @@ pub(crate) struct CodeEnd {
     mask: u64,
 }
 
-/// Longest line with a code that the fast path reads.
+/// Maximum length in bytes of a group code's line that the fast path reads.
 const FAST_CODE_BYTES: usize = 8;
 
 impl CodeEnd {
@@ -393,7 +393,6 @@ fn number(padded: u64) -> Option<i32> {
     i32::try_from(fours.wrapping_mul(1 + (10_000 << 32)) >> 32).ok()
 }
 
-/// 0x01 in each byte.
 const ONE_PER_BYTE: u64 = u64::from_le_bytes([1; 8]);
 
 /// The codes 0 to 999 as three characters, by hash. Slots without a code match no text.

@@ -341,7 +341,7 @@ fn is_end_of_table(head: &Pair<'_>) -> bool {
     ["ENDTAB", "TABLE", "ENDSEC"].iter().any(|keyword| head.is(keyword))
 }
 
-/// The line type where none is given.
+/// The line type of entities and layers that name none.
 pub(crate) const CONTINUOUS: SmolStr = SmolStr::new_static("CONTINUOUS");
 
 /// The line type of an entity as the file states it.

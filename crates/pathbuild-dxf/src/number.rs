@@ -125,7 +125,6 @@ const WIDTH: usize = 8;
 const POWERS: [f64; 2 * WIDTH] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
-/// 0x01 in each byte.
 const ONE_PER_BYTE: u64 = u64::from_le_bytes([1; WIDTH]);
 
 /// The character `0` in each byte.

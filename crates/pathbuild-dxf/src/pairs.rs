@@ -104,7 +104,7 @@ impl<'a> Pairs<'a> {
         Self { at, line, ..*self }
     }
 
-    /// Restricts these pairs to those before `end`.
+    /// Returns those of these pairs that come before `end`.
     pub(crate) fn until(&self, end: &Self) -> Self {
         Self { bytes: &self.bytes[..end.at], ..*self }
     }

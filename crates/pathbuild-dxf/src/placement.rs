@@ -13,7 +13,6 @@ pub(crate) struct Placement {
     turn: f64,
     /// Scale of lengths, positive.
     scale: f64,
-    /// Scale of z.
     z_scale: f64,
     mirrored: bool,
 }
@@ -82,7 +81,7 @@ impl Placement {
         Point3 { x: self.origin.x + x, y: self.origin.y + y, z: self.origin.z + self.z_scale * point.z }
     }
 
-    /// Transforms a vector.
+    /// Transforms a vector: unlike a point, it is not moved.
     pub(crate) fn direction(&self, x: f64, y: f64) -> (f64, f64) {
         let (cos, sin) = self.x_axis;
         let y = if self.mirrored { -y } else { y };

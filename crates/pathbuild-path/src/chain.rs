@@ -18,7 +18,7 @@ pub struct WalkedPath {
     pub items: Vec<Item>,
     /// The members of all chains, in walking order.
     pub(crate) members: Vec<ChainSegment>,
-    /// One of PB401 to PB404, PB201 for each chain without I, and PB114 and PB210.
+    /// The findings of the walk: PB401 to PB404, PB201 for chains without I, and PB114, PB115, PB121, PB210 and PB211.
     pub diagnostics: Vec<Diagnostic>,
     /// The last point of a path without an end marker.
     pub open_end: Option<Xy>,

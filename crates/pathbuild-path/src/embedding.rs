@@ -117,7 +117,8 @@ impl PathSignature {
         }
     }
 
-    /// S of the path in a role: its own, that of the option, or the default; `None` if the option is missing.
+    /// The sweep height (S) of the path in a role: its own, or else that of `--sweep-height`, or the default. `None` if the option is required but
+    /// missing.
     pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
         let numbers = PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: None };
         self.sweep_height.or_else(|| numbers.sweep_height(options, role))
@@ -546,7 +547,8 @@ impl<'a> SubpathChecker<'a> {
         problems
     }
 
-    /// Reports a path that is drawn for another cutter. A program has a single cutter, that of the emitted path, whatever O a segment gives.
+    /// Returns the finding about a path that is drawn for another cutter. A program has a single cutter, that of the emitted path, whatever O a
+    /// segment gives.
     fn other_cutter_problem(&self, inner: &PathSignature) -> Diagnostic {
         Diagnostic::new(&messages::CUTTER_OF_PROJECT)
             .quoting("outer", self.outer.name.as_str())
@@ -555,8 +557,8 @@ impl<'a> SubpathChecker<'a> {
             .with("there", inner.tool)
     }
 
-    /// Reports an embedded path with a name that selects another tool of the same diameter. A path for which a tool is found by diameter alone can be
-    /// milled with any tool of that diameter.
+    /// Returns the finding about an embedded path with a name that selects another tool of the same diameter. A path for which a tool is found by
+    /// diameter alone can be milled with any tool of that diameter.
     fn other_tool_problem(&self, inner: &PathSignature) -> Option<Diagnostic> {
         let tool = |path: &PathSignature| self.language.tools.of(path.name.as_str(), path.tool);
         let (here, there) = (tool(self.outer)?, tool(inner)?);

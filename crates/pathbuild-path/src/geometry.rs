@@ -80,7 +80,7 @@ impl Curve {
         }
     }
 
-    /// The same curve in the opposite direction.
+    /// Returns the curve in the opposite direction.
     pub fn reversed(self) -> Self {
         match self {
             Self::Line(line) => Self::Line(Line { start: line.end, end: line.start }),
@@ -263,8 +263,8 @@ impl Line {
         self.start + along * (along.dot(&(point - self.start)) / squared).clamp(0.0, 1.0)
     }
 
-    /// Whether two lines cross, so that each has its ends on both sides of the other. Lines that only touch do not cross, but an end of one
-    /// line lies on the other. Neither do lines of which one continues the other, wherever rounding puts their ends.
+    /// Whether two lines cross, so that each has its ends on both sides of the other. Lines that only touch, with an end of one on the other, do not
+    /// cross. Nor do lines of which one continues the other, wherever rounding puts their ends.
     pub(crate) fn crosses(&self, other: &Self) -> bool {
         let divides = |one: &Self, other: &Self| {
             let along = one.end - one.start;

@@ -1,7 +1,6 @@
 //! The parameter letters, and which of them are permitted on which elements: the table of book: language/letters, used by binding, messages
 //! and the manual.
 
-/// Declares the letters, each with its character.
 macro_rules! letters {
     ($($(#[$doc:meta])* $letter:ident $character:literal,)*) => {
         /// The letter of a parameter.

@@ -279,7 +279,8 @@ impl Path {
         self.sweep_height(&PathOptions::default(), PathRole::Embedded).unwrap_or_default()
     }
 
-    /// S of the path in a role: its own, that of the option, or the default; `None` if the option is missing.
+    /// The sweep height (S) of the path in a role: its own, or else that of `--sweep-height`, or the default. `None` if the option is required but
+    /// missing.
     pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
         self.sweep_height.or_else(|| self.numbers().sweep_height(options, role))
     }

@@ -561,7 +561,7 @@ pub(crate) fn unit_mistake(letter: Letter, value: &str) -> Option<Diagnostic> {
     Some(problem.quoting("value", value).quoting("meant", format!("{}{number}", letter.as_char())))
 }
 
-/// Suffixes of numbers in mm or mm/min.
+/// Texts after a number that do not change its meaning: punctuation, and the units mm and mm/min.
 const UNIT_SUFFIXES: [&str; 8] = ["", ";", ":", "mm", "mm;", "mm,", "mm/min", "/min"];
 
 /// Recognises an equals sign between letter and number: `B=2`. `problem`: the error about the reference.

@@ -192,7 +192,6 @@ impl<'t> Values<'t> {
         self.text.fault_of(letter)
     }
 
-    /// Returns the text with a piece underlined.
     pub(crate) fn underlined(&self, piece: &LetterValue) -> TextFault {
         self.text.fault(piece)
     }

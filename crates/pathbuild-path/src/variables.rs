@@ -249,7 +249,7 @@ fn invalid_definition(message: &'static pathbuild_diagnostic::Message, written: 
     Box::new(Diagnostic::new(message).quoting("definition", written))
 }
 
-/// Some combinations of values, and the total number.
+/// Combinations of the values of a path's variables, up to a limit, and the number of all combinations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Combinations {
     /// The combinations, up to the limit, beginning with the example values. Every value of every variable occurs in one of them if the

@@ -400,7 +400,7 @@ struct Span<'s> {
 /// Point and weight in homogeneous coordinates.
 type Homogeneous = [f64; 3];
 
-/// The degree where none is given.
+/// Degree of a spline that states none.
 const CUBIC: i64 = 3;
 
 /// Largest degree that is read. Higher ones do not occur, and evaluation takes time quadratic in the degree.

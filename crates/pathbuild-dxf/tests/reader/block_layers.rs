@@ -84,7 +84,7 @@ fn a_block_without_a_name_changes_nothing_about_others() {
     assert_eq!(left_out(&(block("2 B", &other) + &block("70 0", &wanted)), "X"), 0);
 }
 
-/// Whichever of two blocks of a name draws something wanted, the insertion is a fault.
+/// Whichever of two blocks with the same name draws something wanted, the insertion is a fault.
 #[test]
 fn of_two_blocks_of_a_name_each_counts() {
     let faults = |blocks: &str| {

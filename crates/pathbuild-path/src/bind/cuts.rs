@@ -73,7 +73,7 @@ impl Binder<'_> {
         Some(bars)
     }
 
-    /// Reports PB211 for bars that stand hardly above the plate. Of the bars with the path's D as their height, only the first is reported.
+    /// Reports PB211 for support bars that are too thin to hold a part. Of the bars whose height is the path's D, only the first is reported.
     fn note_thin_bars(&mut self, scope: &Scope<'_>, top: f64) {
         let Some((problem, is_path)) = check_bar(top, scope.values, &self.values) else { return };
         if !is_path {

@@ -283,7 +283,7 @@ impl<'a> Binder<'a> {
         });
     }
 
-    /// Returns the bottom of a cut, from its own text or the path's. Reports a doubtful mark; of the marks with the path's D, only the first.
+    /// Returns the bottom of a cut, from its own text or the path's. Reports doubtful marks; of those that use the path's D, only the first.
     fn bottom(&mut self, scope: &Scope<'_>, cut: Cut) -> Option<f64> {
         let bottom = self.value(scope, cut.depth())?;
         let doubts = &self.language.doubts;
@@ -527,7 +527,8 @@ impl Binder<'_> {
         }
     }
 
-    /// Returns the value of a letter for an element by the table of letters: its own or the path's. PB201 if it is required and neither gives it.
+    /// Returns the value of a letter for an element: from its own text or the path's, as the table of letters permits. Reports PB201 if a required
+    /// letter is in neither text.
     fn value(&mut self, scope: &Scope<'_>, letter: Letter) -> Option<f64> {
         let given = scope.texts(&self.values).number(letter);
         // A letter that every path must have is reported once, at the path's start.
@@ -606,7 +607,6 @@ fn is_closed_by(tool: f64, outline: &[Curve]) -> bool {
     above(tool, gap.length()) && above(area.abs(), perimeter * tool / 2.0)
 }
 
-/// The letters that only apply to support bars.
 const BAR_LETTERS: [Letter; 2] = [Letter::P, Letter::U];
 
 impl Binder<'_> {

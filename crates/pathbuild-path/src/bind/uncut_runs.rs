@@ -11,7 +11,6 @@ use crate::element::Element;
 use crate::geometry::Curve;
 use crate::path::Bars;
 
-/// A segment with support bars.
 #[derive(Clone, Copy)]
 pub(super) struct SupportSegment<'a> {
     pub(super) element: &'a Element,
@@ -21,7 +20,6 @@ pub(super) struct SupportSegment<'a> {
 
 /// Connected support segments, each too short for a gap.
 pub(super) struct UncutRun<'a> {
-    /// The first of the segments.
     pub(super) first: SupportSegment<'a>,
     length: f64,
     count: usize,

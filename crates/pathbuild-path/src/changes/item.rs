@@ -14,7 +14,7 @@ use crate::letter::Letter;
 use crate::line_type::LineType;
 use crate::text::{LetterValue, ParameterText};
 
-/// An element or marker as it is compared, with its text and its effective parameters.
+/// An element or marker of one version of a path, with the text and the effective parameters that are compared.
 #[derive(Debug)]
 pub(super) struct Item<'a> {
     pub(super) kind: ElementKind,
@@ -106,8 +106,9 @@ impl Item<'_> {
         is_changed.then(|| [old_role, new_role].map(|role| line_type(role).name()))
     }
 
-    /// Returns the pieces that differ between the old and the new text of the element, for letters with different effective values that at least one
-    /// of the texts gives. `None` if a new or old line type takes no text: the change of the line type explains the lost or added text.
+    /// Returns the pieces in which the old and the new text of the element differ. Only letters with a different effective value are compared, and
+    /// only those that at least one of the texts gives. `None` if the new or the old line type takes no text: the change of the line type explains
+    /// the lost or added text.
     pub(super) fn text_change(&self, new: &Self) -> Option<[String; 2]> {
         if self.role != new.role && [self.role, new.role].iter().flatten().any(|role| !takes_text(*role)) {
             return None;
@@ -288,8 +289,8 @@ fn arc_change(
     }
 }
 
-/// Returns the new curve, reversed if necessary to run in the direction of the old one: two arcs turn the same way, and each end of a line is the one
-/// nearer to that of the old line.
+/// Returns the new curve, reversed if necessary to run in the direction of the old one: both arcs run clockwise or both counterclockwise, and the
+/// ends of a line are nearer to those of the old line than if the line were reversed.
 fn in_same_direction(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Curve {
     let distance = |curve: &Curve| {
         (curve.start() - old.start() - shift).norm() + (curve.end() - old.end() - shift).norm()

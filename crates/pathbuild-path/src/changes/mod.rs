@@ -35,7 +35,7 @@ pub struct DrawnSide<'a> {
 pub struct DrawnChanges {
     /// The changes that can affect the program, each with all elements that it applies to, ordered by place.
     pub changes: Vec<DrawnChange>,
-    /// Whether there is no change, but the elements are in the file in another order, which decides between equal candidates.
+    /// Whether only the order of the elements in the file has changed. It decides between segments that the walk could traverse equally well.
     pub is_reordered: bool,
 }
 

@@ -36,7 +36,7 @@ impl PairedElements<'_> {
 }
 
 impl Frame {
-    /// Returns the shift that most elements share, if the start was moved. Otherwise there is no shift.
+    /// Determines the shift that most elements share, provided that the start was moved. Otherwise there is no shift.
     pub(super) fn between(old: &[Item<'_>], new: &[Item<'_>]) -> Self {
         let start =
             |items: &[Item<'_>]| items.iter().find(|item| item.kind == ElementKind::Start).map(Item::at);

@@ -219,7 +219,8 @@ impl RangeTable {
         let group = path.0.first();
         match group.and_then(|group| FirstGroup::new(group)).zip(group) {
             Some((first, group)) => {
-                // A text is compared with integers as texts, and the integers are not in the order of texts, so all of them are scanned.
+                // A text is compared with integers as if they were texts, but the table does not have them in that order, so all integers are
+                // scanned.
                 if !first.is_integer() {
                     self.integers().iter().for_each(|entry| take(&entry.range, entry.file));
                 }

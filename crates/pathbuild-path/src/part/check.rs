@@ -280,7 +280,7 @@ mod tests {
         (0..4).flat_map(side).collect()
     }
 
-    /// A contour round a plate of 40 x 20, each side in four pieces and an element of its own, shifted 0.05 mm to the right.
+    /// Returns a contour round a plate of 40 x 20 mm, shifted 0.05 mm to the right. Each side is one element and consists of four lines.
     fn contour() -> PathCuts {
         let ways = rectangle([-0.95, -1.0], [41.05, 21.0], 4);
         let element = |number: u32| CutElement {

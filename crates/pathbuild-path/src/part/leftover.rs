@@ -84,8 +84,8 @@ pub(super) struct LeftoverSearch<'s> {
     tolerance: f64,
     /// The elements, with their paths, that enter the part above the plate: grooves, which have no influence on the part's outline.
     grooves: BTreeSet<(usize, u32)>,
-    /// Whether the cuts and support bars of the paths that cut the part out close a ring round it, once that is needed. The edge of the plate is then
-    /// nowhere the edge of the part.
+    /// Whether the cuts and support bars of the paths that cut the part out close a ring round it, so that the edge of the plate is nowhere the edge
+    /// of the part. Computed when first needed.
     is_ringed: OnceCell<bool>,
 }
 
@@ -299,7 +299,8 @@ impl<'s> LeftoverSearch<'s> {
         })
     }
 
-    /// Returns the stretches that the smallest cutter beside a curve, or of all if there is none, cannot reach without entering the part elsewhere.
+    /// Returns the stretches of a curve that a cutter cannot reach without entering the part elsewhere. The cutter is the smallest one beside the
+    /// curve or, if there is none, the smallest of all.
     fn unreachable_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let radii = self.cuts_beside(curve).map(|judged| judged.cut.radius);
         let smallest = radii.min_by(f64::total_cmp).or_else(|| self.smallest_radius());

@@ -128,8 +128,8 @@ impl<'c> PlacedCuts<'c> {
         severed.collect()
     }
 
-    /// Whether one of these parts is equal to a part of another path, or contains it, as placed: its outline then shows the other part once more, or
-    /// the sheet from which that is cut.
+    /// Whether one of these parts is equal to a part of another path, or contains it, as placed. Its outline then shows the other part once more, or
+    /// the sheet from which the other part is cut.
     pub fn shows_part_of(&self, part: usize, other: &Self) -> bool {
         let is_near = self.kept.zip(other.kept).is_some_and(|(own, other)| own.intersects(&other));
         if !is_near {

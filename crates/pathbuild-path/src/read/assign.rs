@@ -60,7 +60,7 @@ impl Texts<'_> {
 }
 
 impl<'d> LayerTexts<'d> {
-    /// Assigns each text to its element. Texts without an element stay in `texts`. PB005 if the budget is exhausted.
+    /// Assigns each text to its element. Texts without an element stay in `texts`. Returns PB005 if the budget is exhausted.
     fn assign(
         &mut self,
         path: &mut PathCollector<'_>,

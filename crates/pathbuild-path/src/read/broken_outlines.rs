@@ -212,8 +212,8 @@ struct OpenHalf {
 
 type NumberedPoint = GeomWithData<[f64; 2], usize>;
 
-/// Returns the open halves of outlines. They are attached to the ring on both sides of the gap and lie outside it; inside, there are only lines
-/// across the part.
+/// Returns the open halves of outlines. Such a half is attached to the ring on both sides of the gap and lies outside the ring; inside the ring,
+/// there are only lines across the part.
 fn open_halves(rings: &[NumberedCurves], hanging: &[NumberedCurves]) -> Vec<OpenHalf> {
     if hanging.is_empty() {
         return Vec::new();

@@ -224,7 +224,7 @@ pub(crate) enum CandidateIndex {
     Tree(RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>),
 }
 
-/// Maximum number of candidates in a list.
+/// Number of candidates up to which scanning all of them is faster than building a tree.
 const MAX_SCANNED_CANDIDATES: usize = 128;
 
 /// Margin in mm around each box, so that rounding does not decide which candidates a text touches.

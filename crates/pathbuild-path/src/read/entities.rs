@@ -16,7 +16,6 @@ pub(super) struct FoundText<'d> {
     pub(super) text: AnyText<'d>,
 }
 
-/// A text entity: TEXT or MTEXT.
 #[derive(Clone, Copy)]
 pub(super) enum AnyText<'d> {
     Text(&'d Text),

@@ -3,7 +3,7 @@
 use pathbuild_path::{FilePattern, NameRange, PathKey, PathPattern, RangeTable};
 use proptest::prelude::*;
 
-/// Returns the ranges in the names of some files.
+/// Returns the name ranges of some files, each with the number of its file.
 fn ranges(pattern: &FilePattern, stems: &[String]) -> Vec<(NameRange, u32)> {
     let of_file = |(number, stem): (u32, &String)| {
         pattern.ranges(stem).into_iter().map(move |range| (range, number)).collect::<Vec<_>>()

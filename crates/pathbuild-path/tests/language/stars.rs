@@ -67,7 +67,6 @@ fn the_shorter_comes_first_and_the_first_on_a_tie() {
     assert_eq!(first("mill 0,0 20,0 0,0\nmill 0,0 0,19.9999 0,0"), "[0,0 0,19.9999");
 }
 
-/// The chord counts as the length of an arc.
 #[test]
 fn the_length_of_an_arc_is_its_chord() {
     let statements = "mill arc 0,0 20,0 r 10\nmill 20,0 0,0\nmill 0,0 0,25 0,0\nend 0,0";

@@ -16,7 +16,6 @@ pub(crate) struct Compiled {
 }
 
 impl Compiled {
-    /// Returns the curves of the path's first chain.
     #[track_caller]
     pub(crate) fn first_chain(&self) -> Vec<Curve> {
         let (Some(path), Some(Item::Chain(chain))) = (&self.path, self.walked.items.first()) else {

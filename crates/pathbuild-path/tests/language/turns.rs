@@ -184,7 +184,6 @@ fn at_a_marker_on_the_end_the_tool_goes_back() {
     assert_eq!(codes_of("mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 20,10"), ["PB403"]);
 }
 
-/// If no segments are left, the tool goes back to the end.
 #[test]
 fn with_nothing_left_the_tool_goes_back_to_the_end() {
     assert_eq!(
