@@ -80,28 +80,28 @@ messages! {
     SECOND_COMMAND: ConflictingWords {
         en: "{dialect} obeys only one command per line: {first}, not {word}",
         de: "{dialect} führt je Zeile nur einen Befehl aus: {first}, nicht {word}",
-        help_en: "write {word} into a line of its own",
+        help_en: "write {word} on a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
     }
     /// Two G words or two M words in one line, in a dialect that obeys only the first.
     SECOND_WORD: ConflictingWords {
         en: "{dialect} obeys only one {letter} word per line: {first}, not {word}",
         de: "{dialect} führt je Zeile nur ein {letter}-Wort aus: {first}, nicht {word}",
-        help_en: "write {word} into a line of its own",
+        help_en: "write {word} on a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
     }
     /// A second M code in a line of a control that refuses such lines.
     SECOND_M_REFUSED: ConflictingWords {
-        en: "{dialect} allows only one M code in a line; here are {first} and {second}",
+        en: "{dialect} allows only one M code on a line; here are {first} and {second}",
         de: "{dialect} erlaubt in einer Zeile nur ein M-Wort; hier stehen {first} und {second}",
-        help_en: "write {second} into a line of its own",
+        help_en: "write {second} on a line of its own",
         help_de: "{second} in eine eigene Zeile schreiben",
     }
     /// A second M code in a line, which older controls ignore.
     SECOND_M_LOST: IgnoredWord {
-        en: "older controls of {dialect} obey only one M code in a line: {first} or {second} is lost",
+        en: "older controls of {dialect} obey only one M code on a line: {first} or {second} is lost",
         de: "ältere Steuerungen von {dialect} führen je Zeile nur ein M-Wort aus: {first} oder {second} geht verloren",
-        help_en: "write {second} into a line of its own, or accept this warning with `--accept` if the control takes several (parameter 3404#7)",
+        help_en: "write {second} on a line of its own, or accept this warning with `--accept` if the control takes several (parameter 3404#7)",
         help_de: "{second} in eine eigene Zeile schreiben oder die Warnung mit `--accept` hinnehmen, wenn die Steuerung mehrere annimmt (Parameter 3404#7)",
     }
     /// A file that does not look like G-code.
@@ -304,7 +304,7 @@ messages! {
     NO_END: NoProgramEnd {
         en: "the program ends without {words}",
         de: "das Programm endet ohne {words}",
-        help_en: "check whether the file was cut off; if not, write M30 in its last line",
+        help_en: "check whether the file was cut off; if not, write M30 on its last line",
         help_de: "prüfen, ob die Datei abgeschnitten ist; wenn nicht, M30 in die letzte Zeile schreiben",
     }
     /// A line marked by `/`, which a switch at the machine can skip.
@@ -496,16 +496,16 @@ messages! {
     }
     /// Two words of the same modal group.
     SAME_GROUP: ConflictingWords {
-        en: "{first} and {second} must not be in the same line",
+        en: "{first} and {second} must not be on the same line",
         de: "{first} und {second} dürfen nicht in derselben Zeile stehen",
         help_en: "put them on separate lines",
         help_de: "auf zwei Zeilen verteilen",
     }
     /// A letter that occurs twice in one line.
     LETTER_TWICE: ConflictingWords {
-        en: "{letter} occurs twice in one line",
+        en: "{letter} occurs twice on one line",
         de: "{letter} kommt in einer Zeile zweimal vor",
-        help_en: "put the second one into a line of its own; perhaps a letter is missing between the two",
+        help_en: "put the second one on a line of its own; perhaps a letter is missing between the two",
         help_de: "das zweite in eine eigene Zeile setzen; vielleicht fehlt zwischen beiden ein Buchstabe",
     }
     /// Two words that both use the coordinates.
@@ -554,12 +554,12 @@ messages! {
     MACHINE_COORDINATES_MOTION: ConflictingWords {
         en: "G53 works only with G0 and G1",
         de: "G53 wirkt nur zusammen mit G0 und G1",
-        help_en: "write G0 or G1 in the same line",
+        help_en: "write G0 or G1 on the same line",
         help_de: "G0 oder G1 in dieselbe Zeile schreiben",
     }
     /// A word that nothing in its line uses.
     UNUSED: UnusedWord {
-        en: "nothing in this line uses {word}",
+        en: "nothing on this line uses {word}",
         de: "nichts in dieser Zeile verwendet {word}",
         help_en: "remove it, or add the G word that it belongs to",
         help_de: "entfernen oder das G-Wort ergänzen, zu dem es gehört",
@@ -594,7 +594,7 @@ messages! {
     POSITION_UNKNOWN: UnknownOffset {
         en: "the target of {word} is unknown, so the next move begins at an unknown position",
         de: "das Ziel von {word} ist unbekannt; die nächste Bewegung beginnt daher an unbekannter Stelle",
-        help_en: "check at the machine that the way of the next move is free: lengths and checks leave out such moves",
+        help_en: "check at the machine that nothing is in the way of the next move: lengths and checks leave out such moves",
         help_de: "an der Maschine prüfen, dass der Weg der nächsten Bewegung frei ist: Längen und Prüfungen lassen solche Bewegungen aus",
     }
     /// A program that does not state its unit.
@@ -664,7 +664,7 @@ messages! {
     MOTION_NOT_STATED: MotionNotStated {
         en: "these coordinates have no motion word and are read as another {word}; it is not known whether {dialect} does the same",
         de: "diese Koordinaten haben kein Bewegungswort und werden als weiteres {word} gelesen; ob {dialect} das auch tut, ist nicht bekannt",
-        help_en: "write the motion word in every line",
+        help_en: "write the motion word on every line",
         help_de: "das Bewegungswort in jede Zeile schreiben",
     }
     /// A helix in a dialect that may not support it.
@@ -678,7 +678,7 @@ messages! {
     NO_FEED: MissingFeed {
         en: "this cutting move has no feed",
         de: "diese Fräsbewegung hat keinen Vorschub",
-        help_en: "write F in this line or an earlier one",
+        help_en: "write F on this line or an earlier one",
         help_de: "F in diese oder eine frühere Zeile schreiben",
     }
     /// A cut without a feed after G94 cleared it.
@@ -692,7 +692,7 @@ messages! {
     INVERSE_TIME_WITHOUT_FEED: MissingFeed {
         en: "with G93 every cutting move needs its own F",
         de: "mit G93 braucht jede Fräsbewegung ihr eigenes F",
-        help_en: "write F in this line, or switch to G94",
+        help_en: "write F on this line, or switch to G94",
         help_de: "F in diese Zeile schreiben oder auf G94 schalten",
     }
     /// A cut with G95 before a spindle speed is set.
@@ -774,7 +774,7 @@ messages! {
     STOP_BEFORE_MOTION: StopBeforeMotion {
         en: "{word} is obeyed before the move of this line, while the cutter is still in the material",
         de: "{word} wird vor der Bewegung dieser Zeile ausgeführt, während der Fräser noch im Material ist",
-        help_en: "put {word} into the next line",
+        help_en: "put {word} on the next line",
         help_de: "{word} in die nächste Zeile setzen",
     }
     /// A program that would require more cells than the limit to simulate its material.

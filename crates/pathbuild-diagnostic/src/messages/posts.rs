@@ -586,16 +586,16 @@ messages! {
     }
     /// Two words of a group in one line, such as G0 and G1, in the output of a definition without a dialect.
     WORDS_EXCLUDE: RejectedWord {
-        en: "{first} and {second} must not be in the same line: controls refuse the line, or obey only one of the two",
+        en: "{first} and {second} must not be on the same line: controls refuse the line, or obey only one of the two",
         de: "{first} und {second} dürfen nicht in derselben Zeile stehen: Steuerungen lehnen sie ab oder befolgen nur eines von beiden",
-        help_en: "write them in separate lines, or remove one of them",
+        help_en: "write them on separate lines, or remove one of them",
         help_de: "in getrennte Zeilen schreiben oder eines entfernen",
     }
     /// A repeated letter in the output of a definition without a dialect.
     LETTER_REPEATED: RejectedWord {
-        en: "{letter} occurs twice in one line: controls refuse the line, or obey only one of the two",
+        en: "{letter} occurs twice on one line: controls refuse the line, or obey only one of the two",
         de: "{letter} kommt in einer Zeile zweimal vor: Steuerungen lehnen sie ab oder befolgen nur eines von beiden",
-        help_en: "remove one, or write it in a line of its own",
+        help_en: "remove one, or write it on a line of its own",
         help_de: "eines entfernen oder in eine eigene Zeile schreiben",
     }
     /// P beside G54 to G59 in the output of a definition without a dialect.

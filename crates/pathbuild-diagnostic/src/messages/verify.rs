@@ -87,7 +87,7 @@ messages! {
     }
     /// `verify --against`: a line with words of unknown effect, which the post's definition does not write.
     LINE_NOT_WRITTEN: MovesDiffer {
-        en: "the definition writes \"{expected}\" here, but this program has something else, with words whose effect is unknown",
+        en: "the definition writes \"{expected}\" here, but this program has other words, whose effect is unknown",
         de: "die Definition schreibt hier \"{expected}\", dieses Programm enthält aber etwas anderes, mit Wörtern, deren Wirkung unbekannt ist",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
@@ -451,7 +451,7 @@ messages! {
     }
     /// A slanting rapid move in the material, on a control that moves each axis at its own speed.
     BENT_RAPID: DiagonalRapid {
-        en: "a rapid move in X and Y at once below the material's surface: {dialect} does not go straight, and leaves the way that was cut",
+        en: "a rapid move in X and Y at once below the material's surface: {dialect} does not move straight there, and leaves what was cut",
         de: "ein Eilgang zugleich in X und Y unter der Oberfläche des Materials: {dialect} fährt nicht gerade und verlässt den gefrästen Weg",
         help_en: "raise the tool above the material first, or move with G1",
         help_de: "das Werkzeug zuerst über das Material heben oder mit G1 fahren",

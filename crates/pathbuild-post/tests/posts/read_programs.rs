@@ -615,7 +615,7 @@ fn a_rapid_move_that_the_target_bends_into_material_is_not_written() {
         written.map_or_else(|errors| texts(&errors).join("\n"), |_| String::new())
     };
     for post in ["fanuc", "haas"] {
-        assert!(written(post, "X20 Y50", 2.0).contains("does not go straight"), "{post}");
+        assert!(written(post, "X20 Y50", 2.0).contains("does not move straight"), "{post}");
         assert_eq!(written(post, "X20 Y20", 2.0), "", "{post}");
         assert_eq!(written(post, "X20 Y50", 0.0), "", "{post}: the cutter is unknown");
     }
