@@ -269,7 +269,7 @@ impl<'a> Blocks<'a> {
             layers: BlockLayers::Unknown,
             drawn_layers: None,
             is_reference: fields
-                .whole(70)
+                .whole_number(70)
                 .is_ok_and(|flags| flags.is_some_and(|bits| bits & REFERENCE_FLAGS != 0)),
         });
     }

@@ -198,7 +198,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             line_type: self.line_types.get(self.fields.get(6), &mut self.decoder),
             kind: kind.entity_kind(),
             origin: Origin { line, handle: self.fields.handle() },
-            is_invisible: self.fields.whole(60).is_ok_and(|flag| flag == Some(1)),
+            is_invisible: self.fields.whole_number(60).is_ok_and(|flag| flag == Some(1)),
         }))
     }
 
@@ -256,7 +256,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 
     fn is_in_paper_space(&self) -> bool {
-        self.fields.whole(67).is_ok_and(|flag| flag == Some(1))
+        self.fields.whole_number(67).is_ok_and(|flag| flag == Some(1))
     }
 
     #[inline(always)]

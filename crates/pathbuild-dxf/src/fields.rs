@@ -7,7 +7,7 @@ use pathbuild_diagnostic::Handle;
 
 use crate::Point3;
 use crate::groups::{Group, Groups, Role};
-use crate::number::{NotANumber, real, whole};
+use crate::number::{NotANumber, real, whole_number};
 use crate::pairs::{Pair, Stop, without_cr};
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -206,9 +206,9 @@ impl<'a> Fields<'a> {
     }
 
     /// Returns the value of a code as an integer; `None` if the group is missing.
-    pub(crate) fn whole(&self, code: i32) -> Result<Option<i64>, BadGroup<'a>> {
+    pub(crate) fn whole_number(&self, code: i32) -> Result<Option<i64>, BadGroup<'a>> {
         let Some(value) = self.get(code) else { return Ok(None) };
-        whole(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
+        whole_number(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
     }
 
     /// Returns the point that has this code for its x. `z` may be missing; R10 used the elevation (38) instead.

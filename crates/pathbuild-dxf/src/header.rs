@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Text};
 
 use crate::Units;
 use crate::faults::{self, Fatal};
-use crate::number::whole;
+use crate::number::whole_number;
 use crate::pairs::{Keyword, Pair, Pairs, Stop};
 
 /// The HEADER section. All of it may be missing, as in R10 files and those written by scripts.
@@ -58,7 +58,7 @@ impl<'a> Header<'a> {
         let release = self.version.and_then(|version| version.trim_ascii().strip_prefix(b"AC"));
         // Releases before R10 are "AC1.50" to "AC2.22", which do not parse as integers.
         release.is_some_and(|release| {
-            !release.contains(&b'.') && whole(release).is_ok_and(|number| number >= 1021)
+            !release.contains(&b'.') && whole_number(release).is_ok_and(|number| number >= 1021)
         })
     }
 
@@ -70,7 +70,7 @@ impl<'a> Header<'a> {
     /// Returns the value of `$INSUNITS`, if the header has it.
     pub(crate) fn units(&self) -> Result<Option<i64>, Fatal> {
         let Some((pair, _)) = self.units else { return Ok(None) };
-        whole(pair.value).map(Some).map_err(|reason| {
+        whole_number(pair.value).map(Some).map_err(|reason| {
             let diagnostic = faults::bad_value_error("$INSUNITS", pair.code, pair.value, reason);
             Box::new(self.at_units(diagnostic))
         })

@@ -13,7 +13,7 @@ use crate::encoding::Decoder;
 use crate::fields::{Fields, FillDecision, Value};
 use crate::groups::Records;
 use crate::names::{Spellings, case_folded, without_xref};
-use crate::number::{real, whole};
+use crate::number::{real, whole_number};
 use crate::pairs::{LAYER, Pair, Pairs, Stop};
 
 /// Index of a spelling of a layer's name.
@@ -268,7 +268,7 @@ impl LayerRecord<'_> {
     }
 
     fn is_frozen(&self) -> bool {
-        self.flags.is_some_and(|flags| whole(flags).is_ok_and(|bits| bits & 1 != 0))
+        self.flags.is_some_and(|flags| whole_number(flags).is_ok_and(|bits| bits & 1 != 0))
     }
 }
 

@@ -25,7 +25,7 @@ pub(crate) fn real(value: &[u8]) -> Result<f64, NotANumber> {
 }
 
 /// Parses an integer. One written as a real number (`5.0`) is accepted.
-pub(crate) fn whole(value: &[u8]) -> Result<i64, NotANumber> {
+pub(crate) fn whole_number(value: &[u8]) -> Result<i64, NotANumber> {
     let number = real(value)?;
     // Up to 2^53 every integer has an exact f64.
     let is_whole = libm::trunc(number) == number && number.abs() <= LARGEST_EXACT;

@@ -223,7 +223,7 @@ fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
     match path.as_std_path().metadata() {
         Ok(data) if data.is_dir() => return Err(Value::Prose(&DIRECTORY_OF_THAT_NAME)),
         Ok(data) if !data.is_file() => return Err(Value::Prose(&NOT_REGULAR)),
-        Ok(data) if data.len() == bytes.len() as u64 && holds(path, bytes) => {
+        Ok(data) if data.len() == bytes.len() as u64 && file_contains(path, bytes) => {
             return Ok(WriteOutcome::Unchanged);
         }
         _ => {}
@@ -233,7 +233,7 @@ fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
     written.map(|()| WriteOutcome::Changed).map_err(|error| reason(&error))
 }
 
-fn holds(path: &Utf8Path, bytes: &[u8]) -> bool {
+fn file_contains(path: &Utf8Path, bytes: &[u8]) -> bool {
     OsSystem.read(path, bytes.len() as u64).is_ok_and(|present| present == bytes)
 }
 

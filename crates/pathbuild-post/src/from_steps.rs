@@ -128,7 +128,7 @@ struct Builder {
     starts_spindle: bool,
     /// Whether the program has stopped or waited with the spindle off since the last operation began. From then on, the settings of the operation are
     /// final.
-    is_resting: bool,
+    is_spindle_kept_off: bool,
     /// Whether a tool length is in effect.
     has_length: bool,
     /// The number of the tool to which the length in effect belongs, if it is known.
@@ -169,7 +169,7 @@ impl Builder {
             starts_spindle: steps
                 .iter()
                 .any(|step| matches!(&step.action, Action::Spindle(spindle) if spindle.turning.is_on())),
-            is_resting: false,
+            is_spindle_kept_off: false,
             has_length: false,
             length_tool: None,
             length_line: 0,
@@ -185,7 +185,7 @@ impl Builder {
             Action::Dwell(seconds) => {
                 // A dwell after M5 waits until the spindle stands still.
                 if self.state.spindle == Some(Turning::Off) {
-                    self.rest();
+                    self.keep_spindle_off();
                 }
                 self.push(JobStep::Dwell { seconds: *seconds });
             }
@@ -260,7 +260,7 @@ impl Builder {
         operation.entry = self.entry();
         self.has_cut = false;
         self.has_ended = false;
-        self.is_resting = false;
+        self.is_spindle_kept_off = false;
         self.job.operations.push(operation);
         self.update_operation();
     }
@@ -271,7 +271,7 @@ impl Builder {
 
     /// Whether the settings of the last operation are final, because it has cut something or stopped with the spindle off.
     fn is_settled(&self) -> bool {
-        self.has_cut || self.is_resting
+        self.has_cut || self.is_spindle_kept_off
     }
 
     /// Updates the last operation to the settings of the machine, unless they are final.
@@ -307,7 +307,7 @@ impl Builder {
             set == (tool.unwrap_or(0), spindle, speed, coolant, plane)
         };
         self.operation();
-        let is_over = |last| self.is_resting || self.has_cut && !is_same(last);
+        let is_over = |last| self.is_spindle_kept_off || self.has_cut && !is_same(last);
         if self.job.operations.last().is_some_and(is_over) {
             self.begin_again();
         }
@@ -340,7 +340,7 @@ impl Builder {
     fn stop(&mut self) {
         self.has_cut_with_tool = false;
         if !self.state.spindle.is_some_and(Turning::is_on) {
-            self.rest();
+            self.keep_spindle_off();
         }
         self.push(JobStep::Stop);
         if self.is_raised {
@@ -349,8 +349,8 @@ impl Builder {
     }
 
     /// Keeps the spindle off during a stop or a dwell. The moves after it belong to another operation, which switches it on again.
-    fn rest(&mut self) {
-        if !self.starts_spindle || self.is_resting {
+    fn keep_spindle_off(&mut self) {
+        if !self.starts_spindle || self.is_spindle_kept_off {
             return;
         }
         let coolant = !self.state.coolant.is_some_and(Coolant::is_on);
@@ -360,7 +360,7 @@ impl Builder {
             operation.spindle = Some(Turning::Off);
             operation.coolant = operation.coolant.filter(|_| !coolant).or(coolant.then_some(Coolant::OFF));
         }
-        self.is_resting = true;
+        self.is_spindle_kept_off = true;
     }
 
     /// Handles a tool change. Moves since the last cut are dropped, because they only led to the change.
@@ -395,7 +395,7 @@ impl Builder {
             turning => Some(turning),
         };
         self.state.speed = spindle.speed.filter(|speed| *speed > 0.0);
-        if self.is_resting && self.state.spindle.is_some_and(Turning::is_on) {
+        if self.is_spindle_kept_off && self.state.spindle.is_some_and(Turning::is_on) {
             self.begin_again();
         }
         self.update_operation();

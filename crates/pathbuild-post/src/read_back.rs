@@ -357,7 +357,7 @@ fn as_finding_of_post(found: Diagnostic) -> Diagnostic {
 
 /// Returns the moves of a job, each with the number of its step (from 1).
 fn moves(job: &Job) -> Result<Vec<(u32, Move)>, Box<Diagnostic>> {
-    let mut mover = Mover { at: Position::default(), moves: Vec::new(), number: 0 };
+    let mut mover = MoveBuilder { at: Position::default(), moves: Vec::new(), number: 0 };
     for operation in &job.operations {
         mover.enter(operation);
         for step in &operation.steps {
@@ -368,13 +368,13 @@ fn moves(job: &Job) -> Result<Vec<(u32, Move)>, Box<Diagnostic>> {
     Ok(mover.moves.into_iter().map(with_equal_probes).collect())
 }
 
-struct Mover {
+struct MoveBuilder {
     at: Position,
     moves: Vec<(u32, Move)>,
     number: u32,
 }
 
-impl Mover {
+impl MoveBuilder {
     /// Adds the moves to the start of an operation, unless the tool is already there.
     fn enter(&mut self, operation: &Operation) {
         match operation.entry {

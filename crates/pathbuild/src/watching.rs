@@ -42,7 +42,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                 Err(reason) => return context.printer.finish(context.usage(&reason)),
             }
         }
-        let waits = server.as_ref().is_some_and(Server::waits);
+        let waits = server.as_ref().is_some_and(Server::waits_for_fixes);
         let is_lost = had_file && context.settings.file.is_none() && cli.common.config.is_none();
         let ended = match faults.is_empty() {
             // An editor may remove the configuration before it writes the new one.

@@ -418,7 +418,7 @@ impl Spline {
         if groups.points.iter().any(|point| point[2].unwrap_or(0.0) != z) {
             return Err(EntityError::Tilted);
         }
-        let degree = usize::try_from(fields.whole(71)?.unwrap_or(CUBIC)).unwrap_or(0);
+        let degree = usize::try_from(fields.whole_number(71)?.unwrap_or(CUBIC)).unwrap_or(0);
         let spline = Self { degree, points: groups.control_points()?, knots: groups.knots, z };
         if !spline.is_sound() {
             return Err(EntityError::omitted(&SPLINE_NOT_UNDERSTOOD, fields));

@@ -128,6 +128,6 @@ fn scale<'a>(fields: &Fields<'a>, code: i32) -> Result<f64, BadGroup<'a>> {
 
 /// Reads a number of copies; missing or 0 means one.
 fn count<'a>(fields: &Fields<'a>, code: i32) -> Result<u32, BadGroup<'a>> {
-    let count = fields.whole(code)?.unwrap_or(1).max(1);
+    let count = fields.whole_number(code)?.unwrap_or(1).max(1);
     Ok(u32::try_from(count).unwrap_or(u32::MAX))
 }

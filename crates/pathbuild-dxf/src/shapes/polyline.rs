@@ -19,7 +19,7 @@ pub(crate) struct Polyline {
 
 /// Converts an LWPOLYLINE to lines and arcs.
 pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Polyline, EntityError<'a>> {
-    let flags = fields.whole(70)?.unwrap_or(0);
+    let flags = fields.whole_number(70)?.unwrap_or(0);
     let z = fields.number(38)?.unwrap_or(0.0);
     let mut corners: Vec<Corner> = Vec::new();
     let mut has_y = true;
@@ -53,7 +53,7 @@ pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Polyline, EntityErr
 
 /// Checks that an LWPOLYLINE has as many vertices as it states: an editor or a transfer may have lost some.
 fn check_count<'a>(fields: &Fields<'a>, found: usize) -> Result<(), BadGroup<'a>> {
-    match (fields.whole(90)?, fields.get(90)) {
+    match (fields.whole_number(90)?, fields.get(90)) {
         (Some(stated), Some(value)) if usize::try_from(stated) != Ok(found) => {
             Err(BadGroup::VertexCount { value, found })
         }
@@ -77,7 +77,7 @@ pub(crate) struct OpenPolyline {
 impl OpenPolyline {
     /// Reads the groups of a POLYLINE itself, before its VERTEX records.
     pub(crate) fn begin<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
-        let flags = fields.whole(70)?.unwrap_or(0);
+        let flags = fields.whole_number(70)?.unwrap_or(0);
         if flags & (THREE_DIMENSIONAL_FLAG | MESH_FLAG | POLYFACE_FLAG) != 0 {
             return Err(EntityError::omitted(&POLYLINE_NOT_FLAT, fields));
         }
@@ -94,7 +94,7 @@ impl OpenPolyline {
 
     /// Adds the next VERTEX. Frame points of a smoothed polyline are not corners.
     pub(crate) fn vertex<'a>(&mut self, fields: &Fields<'a>) -> Result<(), EntityError<'a>> {
-        let flags = fields.whole(70)?.unwrap_or(0);
+        let flags = fields.whole_number(70)?.unwrap_or(0);
         if self.is_spline_fit && flags & FRAME_POINT_FLAG != 0 {
             return Ok(());
         }

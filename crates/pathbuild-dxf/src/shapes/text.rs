@@ -20,10 +20,10 @@ pub(crate) fn text<'a>(
     if string.bytes.len() > longest {
         return Err(EntityError::TextTooLong);
     }
-    let horizontal = fields.whole(72)?.unwrap_or(0);
-    let vertical = fields.whole(73)?.unwrap_or(0);
+    let horizontal = fields.whole_number(72)?.unwrap_or(0);
+    let vertical = fields.whole_number(73)?.unwrap_or(0);
     let (anchor, direction) = anchor(fields, horizontal, vertical)?;
-    let generation = fields.whole(71)?.unwrap_or(0);
+    let generation = fields.whole_number(71)?.unwrap_or(0);
     let text = Text {
         string: without_carets(decoder.decode(string.bytes, string.line)).into(),
         anchor,
@@ -44,7 +44,7 @@ pub(crate) fn mtext<'a>(
     options: &Options<'_>,
 ) -> Result<Geometry, EntityError<'a>> {
     let plain = plain_text(&joined_chunks(fields, decoder, options.max_text)?);
-    let attachment = fields.whole(71)?.unwrap_or(1);
+    let attachment = fields.whole_number(71)?.unwrap_or(1);
     let (horizontal, vertical) = attachment_align(attachment);
     let is_mirrored = is_mirrored(fields)?;
     let rotation = rotation(fields, is_mirrored)?;

@@ -11,7 +11,7 @@ use pathbuild_motion::{Action, StatedWord, Step, WordEffect};
 
 use super::codes;
 use super::evaluate::name_of;
-use super::execute::{Interpreter, Jump, LoopExit, SubprogramName, ValueFault, limits, whole};
+use super::execute::{Interpreter, Jump, LoopExit, SubprogramName, ValueFault, limits, whole_number};
 use super::switches::CALLS;
 use crate::read::{Block, BlockReader, Code, OWord, OWordKind, Place, Value};
 
@@ -444,10 +444,10 @@ fn definitions(mut reader: BlockReader<'_>) -> HashMap<SubprogramName, Definitio
         }
         let first = block.words.first().filter(|word| word.letter == b'O');
         let program = first.and_then(|word| match word.value {
-            Value::Number(number) => whole(number.value).map(SubprogramName::Program),
+            Value::Number(number) => whole_number(number.value).map(SubprogramName::Program),
             Value::Expression(_) => None,
         });
-        let number = block.number.and_then(|number| whole(number.value)).map(SubprogramName::Line);
+        let number = block.number.and_then(|number| whole_number(number.value)).map(SubprogramName::Line);
         for name in program.into_iter().chain(number) {
             add(name, before, block.line);
         }
@@ -490,7 +490,7 @@ impl Interpreter<'_> {
         word: OWord,
         name: Box<str>,
     ) -> Result<Option<Jump>, ValueFault> {
-        let times = self.arguments(block, word)?.first().copied().and_then(whole);
+        let times = self.arguments(block, word)?.first().copied().and_then(whole_number);
         if times.is_none() {
             self.report(block, &say::O_WORD, word.span, |d| d);
         }
@@ -532,7 +532,7 @@ impl Interpreter<'_> {
             }),
             (_, Some(place)) => {
                 let repeats = self.words.values.take_slot(b'L');
-                match (whole(place.value), repeats.map_or(Some(1), |slot| whole(slot.value))) {
+                match (whole_number(place.value), repeats.map_or(Some(1), |slot| whole_number(slot.value))) {
                     (Some(number), Some(times)) => {
                         let name = if code == 970 {
                             SubprogramName::Line(number)

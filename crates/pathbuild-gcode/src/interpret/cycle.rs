@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position};
 
 use super::codes::{self, Cycle, Motion};
-use super::execute::{Interpreter, Slot, limits, whole};
+use super::execute::{Interpreter, Slot, limits, whole_number};
 use super::state::{CycleState, StatedLength};
 use crate::read::{Block, Span};
 
@@ -131,7 +131,7 @@ impl Interpreter<'_> {
     fn take_repeat_count(&mut self, block: &Block<'_>) -> u32 {
         let letter = self.rules.repeats;
         let Some(slot) = self.words.values.take_slot(letter) else { return 1 };
-        match whole(slot.value) {
+        match whole_number(slot.value) {
             Some(repeats) if repeats >= 1 => repeats,
             _ => {
                 let letter = if letter == b'L' { "L" } else { "K" };

@@ -218,7 +218,7 @@ fn rises(movement: &Move) -> bool {
 }
 
 /// Converts the number of a tool, a layer or repetitions; `None` if it is negative or not a whole number.
-pub(super) fn whole(value: f64) -> Option<u32> {
+pub(super) fn whole_number(value: f64) -> Option<u32> {
     let nearest = libm::round(value);
     let fits = libm::fabs(value - nearest) < 0.0001 && (0.0..f64::from(u32::MAX)).contains(&nearest);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and within a u32")]

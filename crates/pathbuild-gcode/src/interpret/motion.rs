@@ -8,7 +8,7 @@ use pathbuild_motion::{
 };
 
 use super::codes::{self, Command, Motion, Origin};
-use super::execute::{Interpreter, Slot, Values, limits, whole};
+use super::execute::{Interpreter, Slot, Values, limits, whole_number};
 use super::half_circles::{ArcByRadius, height_over_chord};
 use super::state::{INCH, State, StatedLength};
 use crate::dialect::RadiusTolerance;
@@ -289,10 +289,10 @@ impl Interpreter<'_> {
         let value = |letter: u8| self.words.values.peek(letter).map(|slot| slot.value);
         match command {
             Command::SetOffsets => {
-                let number = value(b'P').and_then(whole).filter(|number| *number > 0);
+                let number = value(b'P').and_then(whole_number).filter(|number| *number > 0);
                 let is_active =
                     number.is_none_or(|number| WorkSystem::from_number(number) == Some(offsets.active));
-                let is_here = value(b'L').and_then(whole) == Some(20);
+                let is_here = value(b'L').and_then(whole_number) == Some(20);
                 is_active && if is_here { self.knows_place() } else { offsets.is_fixed_to_machine() }
             }
             Command::SetOrigin => self.knows_place(),
@@ -316,10 +316,10 @@ impl Interpreter<'_> {
     }
 
     fn set_offsets(&mut self, block: &Block<'_>, span: Span) {
-        let kind = self.words.values.take(b'L').and_then(whole);
+        let kind = self.words.values.take(b'L').and_then(whole_number);
         let slot = self.words.values.take_slot(b'P');
         let coordinates = self.words.values.take_coordinates();
-        let number = slot.and_then(|slot| whole(slot.value));
+        let number = slot.and_then(|slot| whole_number(slot.value));
         let system = number.and_then(WorkSystem::from_number);
         // P0 and L20 set other offsets on Fanuc and its relatives, where G91 also adds to the offset.
         let is_own =
@@ -396,7 +396,7 @@ impl Interpreter<'_> {
             return false;
         }
         let Some(slot) = self.words.values.take_slot(b'P') else { return false };
-        let number = whole(slot.value);
+        let number = whole_number(slot.value);
         if !matches!(number, Some(2..=4)) {
             self.report_out_of_range(block, "P", slot, &limits::REFERENCES);
         }
@@ -481,7 +481,7 @@ impl Interpreter<'_> {
             return without;
         };
         self.words.values.take(b'P');
-        let number = whole(slot.value).filter(|number| (1..=numbers.most).contains(number));
+        let number = whole_number(slot.value).filter(|number| (1..=numbers.most).contains(number));
         let system = number.and_then(|number| match number.checked_sub(numbers.regular) {
             None | Some(0) => WorkSystem::from_number(number),
             Some(additional) => WorkSystem::additional(additional),
@@ -576,7 +576,7 @@ impl Interpreter<'_> {
         if self.rules.unusual.turns {
             self.report(block, &say::OFF_IN_BUILDS, slot.span, |d| d.quoting("word", "P"));
         }
-        match whole(slot.value) {
+        match whole_number(slot.value) {
             Some(turns) if (1..=MAX_TURNS).contains(&turns) => turns - 1,
             _ => {
                 self.report_out_of_range(block, "P", slot, &limits::TURNS);

@@ -5,7 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
 use pathbuild_motion::{Action, Axes, Change, Coolant, Corners, Group, Move, ToolLength, Turning};
 
 use super::codes::{self, Command, FeedUnit, Motion};
-use super::execute::{Interpreter, Slot, Values, limits, whole};
+use super::execute::{Interpreter, Slot, Values, limits, whole_number};
 use super::state::{INCH, StatedLength};
 use crate::dialect::{DwellUnit, FeedMode, UnitChange};
 use crate::read::{Block, Span};
@@ -24,7 +24,7 @@ impl Interpreter<'_> {
     pub(super) fn apply_tool_words(&mut self, block: &Block<'_>) {
         let change = self.words.m_code(&[60]);
         if let Some(slot) = self.words.values.take_slot(b'T') {
-            match whole(slot.value) {
+            match whole_number(slot.value) {
                 Some(number) => {
                     self.state.tool = Some(number);
                     if change.is_none() {
@@ -167,7 +167,7 @@ impl Interpreter<'_> {
     /// Handles O, the program number, which may occur once at the beginning.
     pub(super) fn program_number(&mut self, block: &Block<'_>) {
         let Some(slot) = self.words.values.take_slot(b'O') else { return };
-        let Some(number) = whole(slot.value).filter(|number| *number > 0) else {
+        let Some(number) = whole_number(slot.value).filter(|number| *number > 0) else {
             return self.report_out_of_range(block, "O", slot, &limits::POSITIVE_COUNT);
         };
         if self.begins_subprogram {
@@ -269,7 +269,7 @@ impl Interpreter<'_> {
         // Some controls apply the length along the axes in the line.
         let is_across =
             [b'X', b'Y'].iter().any(|axis| self.words.values.has(*axis)) && !self.words.values.has(b'Z');
-        let length = match (code, entry.map(whole)) {
+        let length = match (code, entry.map(whole_number)) {
             (430, _) if is_across => ToolLength::Other,
             (490, _) => ToolLength::Off,
             (430, None) => ToolLength::OfTool(None),
@@ -418,7 +418,7 @@ impl Interpreter<'_> {
     /// Returns the layer to which the words of the block apply. M6 selects it before they take effect.
     fn layer_of_block(&self) -> u32 {
         let chosen = self.words.m_code(TOOL).and_then(|_| self.words.values.peek(b'T'));
-        chosen.and_then(|slot| whole(slot.value)).unwrap_or(self.state.layer)
+        chosen.and_then(|slot| whole_number(slot.value)).unwrap_or(self.state.layer)
     }
 
     pub(super) fn set_units(&mut self, block: &Block<'_>, inches: bool, code: u16, span: Span) {

@@ -68,11 +68,11 @@ impl<'c> BentRapidRules<'c> {
 }
 
 fn is_slanting_rapid(movement: &Move) -> bool {
-    let [across, up] = plane_way(movement);
+    let [across, up] = displacement_in_plane(movement);
     movement.pace == Pace::Rapid && movement.is_known() && across != 0.0 && up != 0.0
 }
 
-fn plane_way(movement: &Move) -> [f64; 2] {
+fn displacement_in_plane(movement: &Move) -> [f64; 2] {
     [0, 1].map(|axis| movement.to.at[axis] - movement.from.at[axis])
 }
 
@@ -103,7 +103,7 @@ impl<P: Program + ?Sized> Program for BentRapids<'_, P> {
 }
 
 fn legs(movement: &Move) -> [Move; 2] {
-    let way = plane_way(movement);
+    let way = displacement_in_plane(movement);
     let shorter = libm::fabs(way[0]).min(libm::fabs(way[1]));
     let [x, y] = [0, 1].map(|axis| movement.from.at[axis] + libm::copysign(shorter, way[axis]));
     let corner = Position::known(x, y, movement.from.z().max(movement.to.z()));

@@ -148,7 +148,7 @@ impl HeightMap {
     /// Returns the first and last index of cells with centres between two coordinates. If the last is less than the first, there are no such cells.
     fn centres_within(&self, (low, high): (f64, f64)) -> (i32, i32) {
         let index = |coordinate: f64| coordinate / self.resolution - 0.5;
-        (whole(index(low).ceil()), whole(index(high).floor()))
+        (to_index(index(low).ceil()), to_index(index(high).floor()))
     }
 }
 
@@ -175,7 +175,7 @@ fn rounded(height: f64) -> f32 {
 const MAX_CELL_INDEX: f64 = 1e9;
 
 /// Converts an index to an integer, clamping extreme values.
-fn whole(index: f64) -> i32 {
+fn to_index(index: f64) -> i32 {
     #[expect(clippy::cast_possible_truncation, reason = "cut to the range")]
     let whole = index.clamp(-MAX_CELL_INDEX, MAX_CELL_INDEX) as i32;
     whole

@@ -75,7 +75,8 @@ fn leads_straight_out(at: Xy, bar: Xy, cuts: &[(Curve, f64)]) -> bool {
 
 /// Whether a straight line leads from a point to the border of the plate without meeting a cut.
 fn can_escape(at: Xy, sweeps: &[SweptLine]) -> bool {
-    let Some(mut hidden) = sweeps.iter().map(|sweep| sweep.seen_from(at)).collect::<Option<Vec<_>>>() else {
+    let Some(mut hidden) = sweeps.iter().map(|sweep| sweep.angles_seen_from(at)).collect::<Option<Vec<_>>>()
+    else {
         return false;
     };
     hidden.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
@@ -130,7 +131,7 @@ fn turn(centre: Xy, from: Xy, to: Xy) -> f64 {
 impl SweptLine {
     /// Returns the range of directions in which the sweep is seen from a point. It begins between -pi and pi, and may be a little larger than needed.
     /// `None` if the sweep covers the point.
-    fn seen_from(&self, at: Xy) -> Option<(f64, f64)> {
+    fn angles_seen_from(&self, at: Xy) -> Option<(f64, f64)> {
         let radius = self.radius + MAX_SAGITTA;
         if Curve::Line(self.line).distance_to(at) <= radius {
             return None;

@@ -329,9 +329,9 @@ fn strip_number(place: f64) -> u64 {
 
 /// Returns the bucket of a square. The upper bits of a product depend on all bits of its factors.
 fn bucket_of(Square(column, row): Square, count: usize) -> usize {
-    const ODD: u64 = 0x9E37_79B9_7F4A_7C15;
-    let mixed = column.wrapping_mul(ODD).rotate_left(32) ^ row;
-    (mixed.wrapping_mul(ODD) >> 32) as usize & (count - 1)
+    const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;
+    let mixed = column.wrapping_mul(MULTIPLIER).rotate_left(32) ^ row;
+    (mixed.wrapping_mul(MULTIPLIER) >> 32) as usize & (count - 1)
 }
 
 #[cfg(test)]

@@ -55,13 +55,13 @@ impl Writer<'_> {
                 self.machine.forget(&[Register::Z]);
                 Ok(())
             }
-            JobStep::SpindleOff { coolant } => self.rest(*coolant),
+            JobStep::SpindleOff { coolant } => self.switch_spindle_off(*coolant),
             JobStep::Comment(text) => self.write_comment(text, " "),
         }
     }
 
     /// Switches off the spindle, and the coolant if `coolant`, unless they are off.
-    fn rest(&mut self, coolant: bool) -> WriteResult {
+    fn switch_spindle_off(&mut self, coolant: bool) -> WriteResult {
         if self.machine.spindle != Some(Turning::Off) {
             self.write_named_section(Section::SpindleOff)?;
             self.end_line();

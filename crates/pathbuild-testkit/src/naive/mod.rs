@@ -88,7 +88,7 @@ impl Model {
         }
         found.extend(self.q_projects(&numbers));
         found.extend(self.second_definitions(&numbers));
-        each_once(found)
+        without_duplicates(found)
     }
 
     /// Returns PB504 for each path that two of these drawings define, if a project beside one of them finds both. It is reported at the first of the
@@ -118,7 +118,7 @@ impl Model {
         let path = path.take_while(|(raw, _)| *raw.name != PathName::new(name)).count();
         let mut found = self.drawings[number].faults();
         found.extend(self.check_path(number, path));
-        each_once(found)
+        without_duplicates(found)
     }
 
     /// Returns the paths of the drawings in a directory and below, as file and name.
@@ -257,7 +257,7 @@ impl Finding {
 }
 
 /// Sorts findings and removes duplicates.
-fn each_once(mut found: Vec<Finding>) -> Vec<Finding> {
+fn without_duplicates(mut found: Vec<Finding>) -> Vec<Finding> {
     found.sort();
     found.dedup();
     found
@@ -266,13 +266,13 @@ fn each_once(mut found: Vec<Finding>) -> Vec<Finding> {
 /// Returns the findings of the model that the program does not report, and the reverse.
 pub fn differences(model: &[Finding], program: &[Finding]) -> Vec<String> {
     let mut open: Vec<Finding> = model.iter().cloned().map(Finding::without_chain).collect();
-    open = each_once(open);
+    open = without_duplicates(open);
     let mut program: Vec<Finding> = program.to_vec();
     for found in program.iter_mut().filter(|found| found.code == "PB509") {
         found.words.clear();
     }
     let mut differences = Vec::new();
-    for found in each_once(program) {
+    for found in without_duplicates(program) {
         // Choose the most specific match, since other findings may match the less specific ones.
         let meant = (0..open.len()).filter(|place| open[*place].agrees_with(&found));
         match meant.max_by_key(|place| open[*place].words.concat().len()) {

@@ -203,7 +203,7 @@ impl WatchedDirectories {
     /// Whether the set of directories to watch changes with this event. Ordinary files do not affect the set, nor do changes inside a directory, for
     /// example when programs are written into it.
     pub(super) fn are_changed(&self, kind: EventKind, path: &EventPath, system: &dyn System) -> bool {
-        if comes_or_goes(kind) {
+        if is_creation_or_removal(kind) {
             return self.names.contains(&path.reported) || self.names.contains(&path.resolved);
         }
         self.refused.contains(&path.reported) && system.list(&path.reported).is_ok()
@@ -258,7 +258,7 @@ fn is_root(directory: &Utf8Path) -> bool {
     directory.has_root() && directory.parent().is_none()
 }
 
-fn comes_or_goes(kind: EventKind) -> bool {
+fn is_creation_or_removal(kind: EventKind) -> bool {
     matches!(kind, EventKind::Create(_) | EventKind::Remove(_) | EventKind::Modify(ModifyKind::Name(_)))
 }
 

@@ -23,7 +23,7 @@ pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
     show(context, args, |graph, words| tree(graph, Direction::Down, words))
 }
 
-fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, &Words) -> String) -> ExitStatus {
+fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, &GraphTexts) -> String) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
@@ -61,12 +61,12 @@ fn finish(context: &Context, GraphOutcome { diagnostics, incomplete, .. }: Graph
     context.conclude(diagnostics)
 }
 
-fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph, &Words) -> String) {
+fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph, &GraphTexts) -> String) {
     match context.format {
         Format::Dot => context.printer.result(dot(graph)),
         Format::Mermaid => context.printer.result(mermaid(graph)),
         Format::Json => context.row("graph", json(context, graph)),
-        _ => context.printer.result(text(graph, Words::of(context.lang()))),
+        _ => context.printer.result(text(graph, GraphTexts::of(context.lang()))),
     }
 }
 
@@ -104,7 +104,7 @@ fn with_values(name: &str, bindings: &Bindings) -> String {
 }
 
 /// Formats a tree for each root.
-fn tree(graph: &Graph, direction: Direction, words: &Words) -> String {
+fn tree(graph: &Graph, direction: Direction, words: &GraphTexts) -> String {
     let neighbours = graph.neighbours(direction);
     let mut text = String::new();
     let mut is_shown = vec![false; graph.nodes.len()];
@@ -154,14 +154,14 @@ impl Step {
 }
 
 /// Texts of lists and trees in one language.
-struct Words {
+struct GraphTexts {
     times: &'static str,
     shown: &'static str,
     example: &'static str,
     errors: &'static str,
 }
 
-impl Words {
+impl GraphTexts {
     fn of(lang: Lang) -> &'static Self {
         match lang {
             Lang::En => {
@@ -193,7 +193,7 @@ impl Words {
 
 /// Formats one line per embedding, such as `8001.1P > 2051.1P :A0,5`, sorted by the embedding path. Paths without any embeddings get a
 /// line of their own.
-fn list(graph: &Graph, words: &Words) -> String {
+fn list(graph: &Graph, words: &GraphTexts) -> String {
     let (below, above) = (graph.neighbours(Direction::Down), graph.neighbours(Direction::Up));
     let mut text = String::new();
     for (index, node) in graph.nodes.iter().enumerate() {

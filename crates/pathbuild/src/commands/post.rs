@@ -165,7 +165,7 @@ fn findings(
         Ok(verifier) => {
             let mut found = verifier.findings(program);
             found.retain(|problem| !is_judged_in_output(problem));
-            found.iter_mut().for_each(tell_left_out);
+            found.iter_mut().for_each(report_as_left_out);
             let is_bent = |problem: &&mut Diagnostic| problem.message == &gcode::BENT_RAPID;
             for bent in found.iter_mut().filter(is_bent).filter(|_| target.is_some()) {
                 bent.severity = Severity::Error;
@@ -198,7 +198,7 @@ fn file_to_write(args: &PostArgs) -> Option<&Utf8Path> {
 }
 
 /// Replaces the message that a word is not checked with the message that it is left out, because the post does not write it either.
-fn tell_left_out(problem: &mut Diagnostic) {
+fn report_as_left_out(problem: &mut Diagnostic) {
     if problem.message == &gcode::FOREIGN_WORD {
         problem.message = &gcode::WORD_LEFT_OUT;
     }

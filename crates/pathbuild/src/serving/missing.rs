@@ -35,7 +35,7 @@ impl Server {
         match *self {}
     }
 
-    pub(crate) fn waits(&self) -> bool {
+    pub(crate) fn waits_for_fixes(&self) -> bool {
         match *self {}
     }
 }

@@ -27,7 +27,7 @@ use routes::Routes;
 /// A running server. It outlives changes of the configuration.
 pub(crate) struct Server {
     hub: Arc<Hub>,
-    waits: bool,
+    waits_for_fixes: bool,
 }
 
 impl Server {
@@ -52,7 +52,7 @@ impl Server {
             );
             context.printer.status(format_args!("{advice} ({error})"));
         }
-        Ok(Some(Self { hub, waits: args.until_closed }))
+        Ok(Some(Self { hub, waits_for_fixes: args.until_closed }))
     }
 
     /// Returns the listener that updates the page while one configuration is in force.
@@ -71,8 +71,8 @@ impl Server {
     }
 
     /// Whether to wait for fixes if the configuration is invalid at the beginning, because the user only sees the page.
-    pub(crate) fn waits(&self) -> bool {
-        self.waits
+    pub(crate) fn waits_for_fixes(&self) -> bool {
+        self.waits_for_fixes
     }
 }
 
