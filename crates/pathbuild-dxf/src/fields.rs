@@ -25,16 +25,19 @@ pub(crate) struct Value<'a> {
 pub(crate) enum BadGroup<'a> {
     /// A required group is missing.
     Missing {
+        /// The code of the group.
         code: i32,
     },
     /// The value of a group is not a number.
     Number {
+        /// The code of the group.
         code: i32,
         value: Value<'a>,
         reason: NotANumber,
     },
     /// The value of a group is not a positive length.
     NotPositive {
+        /// The code of the group.
         code: i32,
         value: Value<'a>,
     },
