@@ -106,10 +106,9 @@ pub struct HeaderForm {
     read: fn(&str) -> Option<Statement>,
 }
 
-/// Declares the known forms: name, source, sample, signature if there is one, function.
 macro_rules! header_forms {
     ($($name:literal, $source:literal, $sample:literal, $($signature:literal)? => $read:ident;)*) => {
-        /// The known forms. All samples are written to the form, not copied from programs.
+        /// The known forms. All samples were made up to fit the form, not copied from programs.
         ///
         /// Estlcam, `SheetCam` and dxf2gcode name tools by free text only, so nothing is read from their programs.
         pub static FORMS: &[HeaderForm] = &[$(HeaderForm {
@@ -215,7 +214,7 @@ impl HeaderReader {
         self.events.extend(found.map(|(_, statement)| (line, Event::Statement(statement))));
     }
 
-    /// Returns what the whole program states. `inch` is ten times the G code that selects inches (200 for G20).
+    /// Returns the tools and the stock that all comments of the program describe. `inch` is ten times the G code that selects inches (200 for G20).
     pub fn finish(self, inch: u16) -> Header {
         let has_insertions = self.events.iter().any(|(_, event)| matches!(event, Event::Insert(_)));
         let has_selections = self.events.iter().any(|(_, event)| matches!(event, Event::Select(_)));
@@ -265,7 +264,7 @@ pub struct Header {
     pub tools: Vec<CuttingTool>,
     /// The height of the stock's upper face in mm.
     pub surface: Option<f64>,
-    /// Whether the surface was stated by pathbuild.
+    /// Whether a comment written by pathbuild states the height of the stock's upper face.
     pub is_of_pathbuild: bool,
     /// Contradictions between comments.
     pub problems: Vec<Diagnostic>,
@@ -619,7 +618,7 @@ fn kiri_moto_tool(comment: &str) -> Option<Statement> {
     Some(tool(Scope::Number(number), diameter, Tip::Unknown, unit))
 }
 
-/// Parses the size of a cutter of pcb2gcode, for outlines or for isolation; the latter is often pointed.
+/// Parses the size of a pcb2gcode cutter, which is either for outlines or for isolation. Cutters for isolation are often pointed.
 fn pcb2gcode_tool(comment: &str) -> Option<Statement> {
     let text = comment.strip_prefix("MSG, Change tool bit to ")?;
     let size = text.strip_prefix("cutter diameter ").or_else(|| text.strip_prefix("mill diameter "))?;
@@ -640,7 +639,6 @@ fn after_key<'c>(comment: &'c str, key: &str) -> Option<&'c str> {
     found.trim().eq_ignore_ascii_case(key).then_some(fields)
 }
 
-/// Parses a comma-separated list of numbers; `None` if a field is not a number.
 fn numbers(fields: &str) -> Option<Vec<f64>> {
     fields.split(',').map(number).collect()
 }

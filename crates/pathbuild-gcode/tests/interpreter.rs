@@ -358,7 +358,7 @@ fn a_centre_of_the_third_axis_may_be_0_where_it_is_ignored() {
     assert_eq!(wrong(Grbl, "G18\nG0 X10 Y0 Z0\nG3 X10 Z0 I-10 J0 F10"), FINE);
 }
 
-/// Programs that Vectric posts for Mach3 begin like this.
+/// Programs from Vectric's post for Mach3 begin like this.
 #[test]
 fn mach3_ends_cycles_beside_a_motion_and_has_two_words_for_each_unit() {
     assert_eq!(wrong(Mach3, "G00G21G17G90G40G49G80\nG71G91.1\nX1Y1"), FINE);
@@ -645,7 +645,7 @@ fn named_places_are_known_from_the_configuration() {
 fn machine_coordinates_go_with_absolute_straight_moves() {
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG91 G53 G0 X0"), ["3 conflicting-words"]);
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG53 G80\nG90"), ["3 conflicting-words"]);
-    // GRBL takes them with G91 as well, and counts from the machine's zero.
+    // GRBL accepts G53 with G91 as well, and counts from the machine's zero.
     let moved = |words: &str| format!("G0 X1 Y1 Z1\n{words} G53 G0 Z-5\nG90 G0 Z1");
     assert_eq!(wrong(Grbl, &moved("G91")), FINE);
     assert_eq!(run(Grbl, &moved("G91")), run(Grbl, &moved("G90")));

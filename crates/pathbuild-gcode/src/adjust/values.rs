@@ -23,7 +23,6 @@ use crate::native::f3;
 #[derive(Debug)]
 pub(super) struct ProbeLine<'a> {
     pub(super) line: Line<'a>,
-    /// The number after `#`.
     pub(super) probe: u32,
     pub(super) place: ProbePoint,
     /// Position in the emitted drawing; missing in files of PathDxf2GCode and of old versions of pathbuild.
@@ -35,7 +34,7 @@ pub(super) struct ProbeLine<'a> {
     pub(super) value_at: (Line<'a>, Range<usize>),
 }
 
-/// The value after the `=`.
+/// The value after the `=` in a line of the file of values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum EnteredValue {
     Nothing,
@@ -167,7 +166,6 @@ pub(super) fn is_header(line: &[u8]) -> bool {
     matches!(line.first(), None | Some(b'(' | b'%' | b';'))
 }
 
-/// Parses the probe listed in a line of the header; `None` if the line lists none.
 pub(super) fn entry_of_line(line: &[u8]) -> Option<(u32, ProgramProbe)> {
     let comment = line.trim_ascii_end().strip_prefix(b"(")?.strip_suffix(b")")?;
     probe_entry(str::from_utf8(comment).ok()?)
@@ -193,7 +191,6 @@ static LOG_REPORT: LazyLock<bytes::Regex> = LazyLock::new(|| {
         .expect("a constant pattern")
 });
 
-/// A height that a sender logged for one probing move.
 #[derive(Debug)]
 struct LoggedHeight<'a> {
     line: Line<'a>,

@@ -11,7 +11,7 @@ pub struct Words {
     pub g_own: &'static [u16],
     /// Accepted M codes, in ascending order.
     pub m: &'static [u16],
-    /// Accepted M codes with a meaning of their own that moves or jumps; the interpreter reports them and does not execute them.
+    /// Accepted M codes that move the machine or jump, with a meaning of their own; the interpreter reports them and does not execute them.
     pub m_own: &'static [u16],
     /// M codes that the control accepts but ignores.
     pub m_ignored: &'static [u16],
@@ -81,7 +81,6 @@ const fn inert(letter: char, code: u16, values: &'static [u8]) -> InertWord {
     InertWord { letter, code, values, harmless: &[], needs: &[] }
 }
 
-/// Creates an inert word that needs one of these letters.
 const fn needing(letter: char, code: u16, values: &'static [u8], needs: &'static [u8]) -> InertWord {
     InertWord { letter, code, values, harmless: &[], needs }
 }

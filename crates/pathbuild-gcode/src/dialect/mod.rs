@@ -18,7 +18,6 @@ pub use rules::{
     SystemNumbers, UnitChange,
 };
 
-/// Declares the dialects, each with its name on the command line and its rules.
 macro_rules! dialects {
     ($(#[$doc:meta] $dialect:ident $name:literal $rules:ident;)*) => {
         /// The supported kinds of G-code.

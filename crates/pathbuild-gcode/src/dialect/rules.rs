@@ -27,7 +27,7 @@ pub struct Rules {
     pub units: UnitChange,
     /// Whether M6 selects a layer, and moves and S apply to the selected layer.
     pub layers: bool,
-    /// Whether a motion word applies only to its own line; coordinates alone repeat it, with a warning.
+    /// Whether a motion word applies only to its own line. A line that has coordinates but no motion word repeats the last motion, with a warning.
     pub motion_is_stated: bool,
     /// Rules for the time of G4.
     pub dwell: DwellRules,
@@ -35,7 +35,7 @@ pub struct Rules {
     pub one_command: bool,
     /// Whether a line may have only one G and one M word.
     pub one_word_each: bool,
-    /// How many M codes a line may have.
+    /// Number of M codes that a line may have.
     pub m_limit: MCodeLimit,
     /// Whether M0 and M1 also switch spindle and coolant off, which then stay off.
     pub stop_is_complete: bool,
@@ -49,9 +49,9 @@ pub struct Rules {
     pub absolute_machine_coordinates: bool,
     /// Whether rapid moves are straight. Otherwise each axis moves at its own speed, and an axis with less distance to cover arrives early.
     pub straight_rapids: bool,
-    /// When M codes of the spindle and the coolant take effect in the line of a move.
+    /// The order of a move and the M codes for the spindle and the coolant in its line.
     pub m_order: MCodeOrder,
-    /// Whether M6 is a tool changer, above everything. Elsewhere an operator may change the tool where it stands.
+    /// Whether M6 uses a tool changer, which raises the tool above everything. On other controls, the operator may change the tool where it is.
     pub has_changer: bool,
     /// Whether rapid moves use the feed F, as all other moves do.
     pub rapids_at_feed: bool,
@@ -80,31 +80,31 @@ pub struct Rules {
     pub lifts_to_start: bool,
     /// Whether G80 may stand beside a motion word, which then applies.
     pub ends_cycles_beside_motion: bool,
-    /// Whether drilling cycles and G80 are a modal group of their own, so that G80 leaves the motion in effect that was before the cycle.
+    /// Whether drilling cycles and G80 are a modal group of their own, so that G80 restores the motion that was in effect before the cycle.
     pub cycles_are_apart: bool,
     /// Rules for the tool length in effect where the program does not set one.
     pub lengths: LengthRules,
 }
 
-/// When M codes of the spindle and the coolant take effect in the line of a move.
+/// The order of a move and the M codes for the spindle and the coolant in its line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MCodeOrder {
-    /// Before the move.
+    /// The M codes take effect before the move.
     First,
-    /// M5 and M9 after the move, the others before it.
+    /// M5 and M9 take effect after the move, the others before it.
     StopsLast,
-    /// After the move.
+    /// The M codes take effect after the move.
     Last,
 }
 
-/// How many M codes a line may have.
+/// The number of M codes that a line may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MCodeLimit {
-    /// Several.
+    /// Any number.
     Unlimited,
-    /// One on older controls, which ignore the others.
+    /// One on older controls, which ignore further M codes.
     OneOnSome,
-    /// One: the control refuses the line.
+    /// One: the control refuses lines with more.
     One,
 }
 
@@ -113,7 +113,7 @@ pub enum MCodeLimit {
 pub enum UnitChange {
     /// The values keep their lengths: the control stores them in a unit of its own, or converts them.
     Converts,
-    /// The values keep their numbers, or it is not known what they keep.
+    /// The values keep their numbers, or the effect is not known.
     Unknown,
     /// The control refuses any other unit than the one that it is set to.
     Refused,
@@ -142,7 +142,7 @@ pub struct ReferenceRules {
 pub struct OptionalWords {
     /// G codes (times ten) that need a special setting.
     pub g: &'static [u16],
-    /// Whether P, the number of turns of an arc, needs a special setting too.
+    /// Whether the number of turns of an arc (P) needs a special setting too.
     pub turns: bool,
 }
 
@@ -215,7 +215,7 @@ pub enum RadiusTolerance {
         most: f64,
         /// Differences below this, in mm, are always permitted.
         least: f64,
-        /// Share of the radius.
+        /// Permitted difference as a share of the radius.
         share: f64,
     },
 }
@@ -611,7 +611,7 @@ pub struct Spelling {
     pub percent: Percent,
     /// Meaning of `/` at the beginning of a line.
     pub slash: Slash,
-    /// Whether a digit after that `/` numbers the switch, as in `/2 G0 Z5.`.
+    /// Whether a digit after `/` at the beginning of a line numbers the switch, as in `/2 G0 Z5.`.
     pub slash_numbers: bool,
     /// Maximum length of a line; `None` if the dialect has none.
     pub line_length: Option<LineLength>,
@@ -623,7 +623,7 @@ pub struct Spelling {
     pub checksums: bool,
     /// The syntax of `[ ]` and `#`, if they are supported.
     pub grammar: Option<Grammar>,
-    /// Whether the control has macros (`#1=0`, `IF[#1LT3]GOTO10`), which are not followed.
+    /// Whether the control has macros (`#1=0`, `IF[#1LT3]GOTO10`), which are reported and not executed.
     pub macros: bool,
     /// Whether numbers may have a decimal comma, which causes a warning.
     pub decimal_comma: bool,

@@ -45,7 +45,6 @@ pub(super) struct Runner<'r, 'i> {
     left: Box<str>,
     /// Flags of earlier `break` and `continue` words that LinuxCNC has not cleared yet.
     stale: StaleFlags,
-    /// The number of calls and loops that are being executed.
     depth: usize,
     /// Number of lines that calls and loops have executed.
     lines: u32,

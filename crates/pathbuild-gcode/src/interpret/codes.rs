@@ -78,7 +78,7 @@ pub(super) enum FeedUnit {
     PerTurn,
 }
 
-/// G92.1 and similar words.
+/// The effects of G92.1, G92.2 and G92.3 on the offset that G92 has set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
     /// G92.1: clears the offset.

@@ -101,7 +101,7 @@ impl Interpreter<'_> {
         over
     }
 
-    /// Reports the first hole of a cycle that was on before a tool change.
+    /// Reports the first hole of a cycle that was in effect before a tool change.
     fn check_change_within_cycle(&mut self, block: &Block<'_>) {
         let Some(line) = self.state.change_within_cycle.take() else { return };
         let word = codes::name('G', self.state.motion_code);

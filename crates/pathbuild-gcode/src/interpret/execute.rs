@@ -211,7 +211,7 @@ impl<'i> Interpreter<'i> {
     }
 }
 
-/// Whether a rapid move leads upwards, which lifts the tool from what it has cut.
+/// Whether a rapid move goes up, which lifts the tool out of the cut.
 fn rises(movement: &Move) -> bool {
     let known = movement.from.known.and(movement.to.known);
     movement.homes_z() || known.has(Axes::Z) && movement.to.z() > movement.from.z()
@@ -270,7 +270,7 @@ pub(super) struct Values {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Slot {
     pub(super) value: f64,
-    /// Number of digits after the decimal point; for expressions as many as a double has.
+    /// Number of digits after the decimal point; for expressions, the largest `u8`.
     pub(super) decimals: u8,
     pub(super) span: Span,
     /// Amount, in the program's unit, that the word's formula adds to the value as a correction.

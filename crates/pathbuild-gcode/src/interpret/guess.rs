@@ -40,13 +40,14 @@ pub struct Evidence {
 pub enum EvidenceKind {
     /// The program's header names the dialect.
     Header,
-    /// A line has a sign that only this dialect has.
+    /// A line has a feature that only this dialect has.
     Feature,
     /// The dialect knows the program's words, but other dialects may know them as well.
     Words,
 }
 
-/// Guesses the dialect of a file from features that only one dialect has, otherwise from the dialect that accepts most of its words.
+/// Guesses the dialect that the program's header names, or else one with a feature that no other dialect has. If there is neither, guesses the
+/// dialect that accepts most words of the program.
 pub fn guess(text: &[u8]) -> Guess {
     let head = &text[..text.len().min(INSPECTED_BYTES)];
     let whole_lines = memchr::memrchr(b'\n', head).filter(|_| head.len() < text.len());
@@ -119,7 +120,7 @@ fn guess_by_feature(head: &[u8]) -> Option<Guess> {
     })
 }
 
-/// Replaces Fanuc by another control whose programs have a number, if only that one takes every line of the program.
+/// Replaces Fanuc by another control whose programs have a number if that control accepts every line of the program and Fanuc does not.
 fn with_all_words(head: &[u8], guess: Guess) -> Guess {
     if takes_every_line(head, guess.dialect) {
         return guess;
@@ -150,8 +151,8 @@ fn states_modes(head: &[u8]) -> bool {
     false
 }
 
-/// Guesses the dialect with the fewest unknown words; among equals, the first. If it does not take every line of the program, the first dialect that
-/// does.
+/// Guesses the dialect with the fewest unknown words; among equals, the first. If that dialect does not accept every line of the program, guesses the
+/// first one that does.
 fn guess_by_words(head: &[u8]) -> Guess {
     let candidates = [Dialect::Rs274, Dialect::LinuxCnc, Dialect::Grbl];
     let strangers = candidates.map(|dialect| unknown_words(head, dialect));
@@ -190,7 +191,7 @@ fn is_unknown(code: Code) -> bool {
     matches!(code, Code::UnknownWord | Code::UnknownCharacter | Code::InvalidComment)
 }
 
-/// Whether a control of the dialect knows all words of the program, uses them, and refuses no line because of two that exclude each other.
+/// Whether a control of the dialect knows and uses all words of the program, and refuses no line for containing two words that exclude each other.
 fn takes_every_line(head: &[u8], dialect: Dialect) -> bool {
     let problems = interpret_each(head, dialect, &Options::default(), &mut |_| {});
     let is_taken = |code| !is_unknown(code) && !matches!(code, Code::UnusedWord | Code::ConflictingWords);

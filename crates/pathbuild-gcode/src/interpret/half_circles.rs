@@ -18,9 +18,9 @@ const MOST_DECIMALS: u8 = 9;
 /// The arcs of a program that may be doubtful.
 #[derive(Debug, Default)]
 pub(super) struct HalfCircles {
-    /// The most decimals of a length so far.
+    /// The largest number of decimals of a length so far.
     finest: u8,
-    /// The arcs by the number of decimals from which on they are not doubtful.
+    /// The problems of arcs, by the number of decimals from which on an arc is no longer doubtful.
     found: BTreeMap<u8, Problems>,
 }
 
@@ -29,19 +29,17 @@ pub(super) struct HalfCircles {
 pub(super) struct ArcByRadius {
     pub(super) radius: f64,
     pub(super) half_chord: f64,
-    /// The unit of the program.
+    /// Length of the program's unit.
     pub(super) unit: f64,
     /// The number of decimals with which R is written.
     pub(super) decimals: u8,
 }
 
 impl HalfCircles {
-    /// Takes note of the decimals of a length.
     pub(super) fn add_length(&mut self, decimals: u8) {
         self.finest = self.finest.max(decimals);
     }
 
-    /// Takes note of an arc.
     pub(super) fn add_arc(&mut self, arc: ArcByRadius, at: SourcePosition<'_>) {
         if arc.half_chord > arc.radius {
             return;

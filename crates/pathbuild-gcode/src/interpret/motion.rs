@@ -81,7 +81,8 @@ impl Interpreter<'_> {
         self.state.motion_code = code;
     }
 
-    /// Returns the motion that a word puts into effect. Where cycles are a group of their own, G80 leaves the motion that was before the cycle.
+    /// Returns the motion that a word puts into effect. Where cycles are a modal group of their own, G80 restores the motion that was in effect
+    /// before the cycle.
     fn beside_cycles(&mut self, motion: Motion, code: u16) -> (Motion, u16) {
         let present = (self.state.motion, self.state.motion_code);
         let is_in_cycle = matches!(present.0, Motion::Cycle(_));

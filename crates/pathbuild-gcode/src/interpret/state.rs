@@ -27,7 +27,7 @@ pub(super) struct State {
     pub(super) motion: Motion,
     /// Code of the motion (times ten), for messages.
     pub(super) motion_code: u16,
-    /// The motion before the drilling cycle with its code.
+    /// The motion that was in effect before the drilling cycle, and its code (times ten).
     pub(super) motion_before_cycle: (Motion, u16),
     pub(super) plane: Plane,
     pub(super) incremental: bool,
@@ -52,7 +52,7 @@ pub(super) struct State {
     /// Feed of the last rapid move in mm/min, if it depends on F.
     pub(super) rapid_feed: Option<f64>,
     pub(super) retract_to_r: bool,
-    /// The line of a tool change since the last motion word, which left a drilling cycle on.
+    /// The line of a tool change at which a drilling cycle was in effect, if there has been no motion word since then.
     pub(super) change_within_cycle: Option<u32>,
     /// Where the program stated the active G52 or G92.
     pub(super) shift_stated: Option<StatedLength>,
@@ -249,7 +249,7 @@ impl Offsets {
         }
     }
 
-    /// Whether it is unknown along an axis by how much the current tool length differs from the length at the tool's first cut.
+    /// Whether the difference along an axis between the current tool length and the length at the tool's first cut is unknown.
     pub(super) fn is_length_unknown(&self, axis: usize) -> bool {
         self.length.at_cut.is_some_and(|lengths| lengths[axis].is_none())
     }

@@ -468,14 +468,14 @@ impl Interpreter<'_> {
         per_minute
     }
 
-    /// Reports an F in the other unit once, until the next F.
+    /// Reports the use of an F that was stated before the unit changed; once, until the next F.
     fn check_unit_of_feed(&mut self, block: &Block<'_>) {
         let Some(stated) = self.state.feed_stated.filter(|stated| self.may_misread(*stated)) else { return };
         self.state.feed_stated = None;
         self.report_other_unit(block, &say::FEED_IN_OTHER_UNIT, stated, |d| d);
     }
 
-    /// Reports a move that counts from an offset in the other unit once, until the next offset.
+    /// Reports a move that counts from an offset stated before the unit changed; once, until the next offset.
     pub(super) fn check_unit_of_shift(&mut self, block: &Block<'_>) {
         let Some(stated) = self.state.shift_stated.filter(|stated| self.may_misread(*stated)) else { return };
         self.state.shift_stated = None;

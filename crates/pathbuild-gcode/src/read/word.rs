@@ -86,7 +86,6 @@ impl Line<'_> {
         self.fault(message, Span::new(start, self.bytes.len()), |d| d)
     }
 
-    /// Whether a statement of a macro begins here.
     fn begins_macro(&self, start: usize) -> bool {
         let rest = &self.bytes[start..];
         let is_there = |keyword: &&[u8]| {

@@ -1,7 +1,8 @@
-//! Finds rapid moves that are clear on a straight line, but not on the way of a control that moves each axis at its own speed. (book: program/reading)
+//! Finds rapid moves that are clear on a straight line, but not on the path taken by a control that moves each axis at its own speed.
+//! (book: program/reading)
 //!
-//! Such a control goes at 45 degrees until the axis with the shorter way arrives, and then along the other axis. Back along a slanting slot, it leaves
-//! the slot.
+//! Such a control goes at 45 degrees until the axis with less distance to cover arrives, and then along the other axis. When the tool returns along a
+//! slanting slot, this path leads out of the slot.
 
 use std::collections::BTreeSet;
 
@@ -47,7 +48,7 @@ impl<'c> BentRapidRules<'c> {
         self.moves += 1;
     }
 
-    /// Reports the found moves whose bent way leads through material. If no moves were found, the program is not processed again.
+    /// Reports the found moves whose bent path leads through material. If no moves were found, the program is not processed again.
     pub fn finish(self, program: &(impl Program + ?Sized)) -> Vec<Diagnostic> {
         let Self { dialect, stock, found, frames, .. } = self;
         if found.is_empty() {

@@ -24,8 +24,8 @@ pub struct CornerRules {
 }
 
 impl CornerRules {
-    /// Creates the rule for parts that may differ from their drawing by `part_tolerance` mm. Less than the rounding of the built-in posts is never
-    /// demanded.
+    /// Creates the rule for parts that may differ from their drawing by `part_tolerance` mm. The limit is never lower than the rounding of the
+    /// built-in posts.
     pub fn new(part_tolerance: f64) -> Self {
         Self { limit: part_tolerance.max(BUILT_IN_ROUNDING), corners: None, largest: None, has_limit: true }
     }

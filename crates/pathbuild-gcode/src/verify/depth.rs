@@ -43,7 +43,7 @@ impl DepthRules {
         }
     }
 
-    /// Forgets the cuts of another coordinate system.
+    /// Forgets the cuts so far if the step begins another coordinate system whose position relative to the previous one is not known.
     fn leave_frame(&mut self, step: &Step) {
         if self.frames.step(step) {
             self.depths.cut = None;

@@ -6,7 +6,8 @@ use pathbuild_motion::{Action, Axes, Step, WorkSystem};
 
 use crate::interpret::Program;
 
-/// The frames in which a program moves: pass every step to [`step`](Self::step).
+/// The frames in which a program moves. Coordinate systems whose positions relative to each other are known share a frame. Pass every step to
+/// [`step`](Self::step).
 #[derive(Debug, Default)]
 pub(super) struct Frames {
     current: WorkSystem,

@@ -1,4 +1,5 @@
-//! Finds cuts with the length of another tool, or without any length, and with a tool that was to be changed. (book: program/reading, "Tool lengths")
+//! Finds cuts with the length of another tool, cuts without any length, and cuts with a tool that was not replaced by the one that T had selected.
+//! (book: program/reading, "Tool lengths")
 //!
 //! On every control with G43 the length in effect survives M6, so a program must set the length of each tool. A program that never uses G43 works
 //! with one zero per tool and is not checked.

@@ -126,7 +126,7 @@ struct Reach {
     is_entering: bool,
     /// The extents in the frames with moves, in the order of use. Positions in different frames cannot be compared.
     frames: Vec<(WorkSystem, Extent)>,
-    /// The extent of positions in machine coordinates, which includes machine zero: that is within the travel of every machine.
+    /// The extent of positions in machine coordinates. It includes machine zero, because that is within the travel of every machine.
     machine: Extent,
     said: [[bool; 2]; 3],
 }

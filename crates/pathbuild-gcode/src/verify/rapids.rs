@@ -181,7 +181,6 @@ fn sides(movement: &Move) -> Sides {
     [across, up].map(|side| side.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)))
 }
 
-/// Number of cells along a side of the grid.
 const CELLS_PER_SIDE: usize = 64;
 
 /// A grid over the cut area with the highest surface of the stock in each cell.

@@ -331,7 +331,7 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// Reports a stop with the tool in the material. At the end of a program, that is [`end`](Self::end)'s finding.
+    /// Reports a stop with the tool in the material. At the end of a program, [`check_end`](Self::check_end) reports it instead.
     fn report_stop(&mut self) {
         let Some(line) = self.stop_at_depth.take() else { return };
         let z = self.at.z();

@@ -32,7 +32,7 @@ pub struct PostWords {
     pub(super) rapid_feed: Option<f64>,
     /// Words that the post writes but the translation by its definition omits.
     others: BTreeSet<String>,
-    /// The name of the post's definition, if it names no dialect.
+    /// The name of the post's definition, if the definition names no dialect.
     definition: Option<String>,
     /// Whether the post lets the control round corners without limit.
     pub(super) rounds_freely: bool,

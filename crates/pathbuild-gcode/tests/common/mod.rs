@@ -62,7 +62,6 @@ pub(crate) fn words(dialect: Dialect, program: &str) -> Vec<String> {
     blocks
 }
 
-/// Returns the problems that the reader alone reports.
 pub(crate) fn reading_faults(dialect: Dialect, program: &[u8]) -> Vec<String> {
     let mut reader = BlockReader::new(program, dialect.rules());
     while reader.next_block().is_some() {}

@@ -50,8 +50,8 @@ pub(crate) fn ask(program: &Path, text: &str) -> Oracle {
     Oracle { calls: calls_of(&String::from_utf8_lossy(&output.stdout)), refusal }
 }
 
-/// Asks for several programs with one start of rs274, which costs more CPU time than reading a program. Between two programs, everything that the
-/// first one has set is reset. If the programs do not begin and end alike, or if one of them is refused, each is asked for by itself.
+/// Runs several programs in one process of rs274, because starting it costs more CPU time than reading a program. The state that one program has set
+/// is reset before the next. If the programs do not begin and end alike, or if one of them is refused, each is run by itself.
 #[allow(dead_code, reason = "not every test that has this oracle asks for many programs")]
 pub(crate) fn ask_all(program: &Path, texts: &[String]) -> Vec<Oracle> {
     let by_itself = || texts.iter().map(|text| ask(program, text)).collect();

@@ -34,7 +34,7 @@ pub(super) const CHORD_TOLERANCE: f64 = 0.01;
 #[derive(Debug)]
 pub(super) struct CutComparison<M: Iterator<Item = (u32, Move)>> {
     expected: Peekable<M>,
-    /// The peck depth of the expected moves from a number on.
+    /// Peck depths in mm, each with the number of the expected move from which it applies; `None` if the tool may go down in one stroke.
     pecks: Vec<(u32, Option<f64>)>,
     /// The fraction of the next expected move that the program has already made.
     done: f64,
@@ -177,8 +177,8 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
         }
     }
 
-    /// Whether a cut goes once more to the bottom of the hole that the program has just finished. A cycle whose pecks reach the bottom exactly does so
-    /// after rounding.
+    /// Whether a cut goes once more to the bottom of the hole that the program has just finished. Because of rounding, a cycle may do so if its pecks
+    /// reach the bottom exactly.
     fn repeats_last_stroke(&mut self, movement: &Move) -> bool {
         let Some(plunge) = self.finished_plunge else { return false };
         let highest = self.chain.highest();

@@ -24,7 +24,8 @@ use setup::Setup;
 pub struct ExpectedProgram<M> {
     /// The expected moves, beginning at `start`.
     pub moves: M,
-    /// The depth of each peck in mm with which holes must be drilled, from a number of the moves on; `None` if the tool may go down in one stroke.
+    /// Depths in mm of the pecks with which holes must be drilled, each with the number of the move from which it applies; `None` if the tool may go
+    /// down in one stroke.
     pub pecks: Vec<(u32, Option<f64>)>,
     /// The position at which the moves begin: above the path's zero at the height `clearance`, unless a definition begins elsewhere.
     pub start: Position,
