@@ -39,7 +39,7 @@ impl Finding {
         self.diagnostic.code().name()
     }
 
-    /// Whether the finding is an error; otherwise it is a warning. The configuration can change that for a code.
+    /// Whether the finding is an error; otherwise it is a warning. The configuration can change the severity of a code.
     pub fn is_error(&self) -> bool {
         self.diagnostic.is_error()
     }

@@ -310,7 +310,7 @@ impl Library {
         self.ask_traced(self.workspace.keeps_results(), work)
     }
 
-    /// Like [`ask`](Self::ask). `is_traced` is whether the session must trace inputs.
+    /// Like [`ask`](Self::ask). `is_traced` says whether the session must trace inputs.
     fn ask_traced<R: Send + 'static>(
         &self,
         is_traced: bool,

@@ -162,7 +162,7 @@ pub struct PostBuild {
 pub struct OutputFile {
     /// Name of the file, relative to the library's directory if it lies below it.
     pub file: String,
-    /// Name of the path whose program the file contains.
+    /// Whether the file is the program itself. Otherwise, the file accompanies the program, as a setup sheet does.
     pub path: String,
     /// Whether the file is the program itself. Otherwise, it belongs to it, as a setup sheet does.
     pub is_program: bool,

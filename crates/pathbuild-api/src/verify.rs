@@ -178,7 +178,7 @@ pub struct ProgramCheck {
     pub detail: String,
     /// The values with which the check was made, even if not for all moves; `None` for a check without values.
     pub values: Option<String>,
-    /// What would make the check possible; `None` if it was made.
+    /// Advice on how to make the check possible; `None` if it was made.
     pub advice: Option<String>,
     /// Number of moves for which a check with values was not made; `None` if it was made for all moves, or for none.
     pub open_moves: Option<usize>,

@@ -80,7 +80,7 @@ pub struct Options {
     pub lang: Language,
 }
 
-/// Language of those texts in answers that are given in one language only.
+/// Language of the texts that answers contain in one language only.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Language {
@@ -95,7 +95,7 @@ pub struct LostPath {
     /// The path or drawing that was being processed.
     #[serde(flatten)]
     pub place: Place,
-    /// The reason, with its fields at the same level in JSON.
+    /// The reason. In JSON, its fields are at the same level as those of the place.
     #[serde(flatten)]
     pub why: LossReason,
 }

@@ -162,7 +162,7 @@ impl Context {
         self.machine_view().raw_name(file).into_owned()
     }
 
-    /// Names the date of the run if it decided since the last call that a waiver with an end holds.
+    /// Tells the user the date of the run if, since the last call, a waiver with an end has held because of that date.
     pub(crate) fn name_date(&self) {
         if self.is_date_decisive.swap(false, Ordering::Relaxed)
             && let Some(date) = self.settings.date

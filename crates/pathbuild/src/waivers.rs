@@ -8,7 +8,6 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::text::counted;
 
-/// Returns the options for the baseline.
 pub(crate) fn options(args: &WaiverArgs) -> BaselineOptions {
     let options = args.baseline.iter().fold(BaselineOptions::new(), BaselineOptions::file);
     match (args.update_baseline, args.accept) {

@@ -1,5 +1,5 @@
-//! Checks that the public items are those of `public-items.txt`. `PATHBUILD_UPDATE=1 cargo test -p pathbuild-api` writes that file: read what
-//! changed.
+//! Checks that the public items are those of `public-items.txt`. `PATHBUILD_UPDATE=1 cargo test -p pathbuild-api` writes that file anew; review
+//! what has changed in it.
 
 use std::fmt::Write;
 use std::fs;

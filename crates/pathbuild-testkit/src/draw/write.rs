@@ -361,7 +361,6 @@ fn owned_without_handle(record: &Record<'_>) -> Record<'static> {
     record
 }
 
-/// Writes ASCII DXF.
 pub(crate) fn ascii(pairs: &[Pair<'_>], options: &Options) -> Vec<u8> {
     let line_end: &[u8] = match options.line_ends {
         LineEnds::CrLf => b"\r\n",

@@ -52,7 +52,7 @@ impl Cursor {
         Err(self.error(format!("the line ends here; expected {expected}")))
     }
 
-    /// Takes the next word if it is `word`.
+    /// Takes the next word if it is `word`, and returns whether it is.
     pub(crate) fn take(&mut self, word: &str) -> bool {
         let found = self.peek_word() == Some(word);
         if found {

@@ -23,8 +23,8 @@ use super::adjust;
 use crate::environment::named_lang;
 use crate::german;
 
-/// Options of the original tools with the options of pathbuild that replace them in every command. `/x` and `/m` are not among them,
-/// because what replaces them depends on the command.
+/// Options of the original tools with the options of pathbuild that replace them in every command. `/x` and `/m` are not among them, because their
+/// replacement depends on the command.
 const VALUES: &[(char, &str)] = &[
     ('f', "--feed"),
     ('v', "--rapid"),

@@ -75,7 +75,7 @@ fn path(node: &Node) -> String {
     with_values(node.name.as_str(), &node.bindings)
 }
 
-/// Returns the drawing that contains a path.
+/// Returns the file name of the drawing that contains a path, escaped for the terminal.
 fn file(node: &Node) -> Cow<'_, str> {
     shown::line(node.file.as_str())
 }

@@ -32,7 +32,6 @@ fn write(command: &Command, page: &mut Vec<u8>) -> io::Result<()> {
     man.render_extra_section(page)
 }
 
-/// Translates the headings of a manual page.
 fn with_german_headings(page: String) -> String {
     let headings = [
         ("SYNOPSIS", "ÜBERSICHT"),

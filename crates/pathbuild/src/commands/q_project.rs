@@ -143,7 +143,6 @@ fn names(first: &PathName, count: usize, is_free: impl Fn(&PathName) -> bool) ->
     (names.len() >= count).then_some(names)
 }
 
-/// Maximum number of names that are tried.
 const MAX_TRIED_NAMES: u64 = 1000;
 
 /// Returns the diagnostics of a drawing and of all its paths, including PB513 if it has none.

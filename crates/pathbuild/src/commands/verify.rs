@@ -82,10 +82,6 @@ fn with_standard_input(
     Ok(options.text(STANDARD_INPUT, read_standard_input(context)?))
 }
 
-/// Reads a program from standard input.
-///
-/// # Errors
-/// Standard input cannot be read, or is too large.
 fn read_standard_input(context: &Context) -> Result<Vec<u8>, Box<Diagnostic>> {
     let limit = context.settings.limits.file_size.value;
     let mut text = Vec::new();

@@ -128,7 +128,6 @@ enum Format {
 }
 
 impl Format {
-    /// Chooses the format by the extension of a file.
     #[cfg(feature = "pictures")]
     fn of(extension: &str) -> Option<Self> {
         Some(match extension {

@@ -78,7 +78,8 @@ fn material(sheet: &Sheet, words: Words) -> String {
     words.choose(format!("Material is ready: {facts}"), format!("Material liegt bereit: {facts}"))
 }
 
-/// Describes the shims on which the material of embedded paths lies (H), one sentence for each height. The paths that a raised path embeds lie on its shims.
+/// Describes the shims on which the material of embedded paths lies (H), one sentence for each height. The paths that a raised path embeds lie on
+/// its shims.
 fn shims(sheet: &Sheet, words: Words) -> Vec<String> {
     let raised: Vec<(&EmbeddedPath, f64)> = sheet.scene.paths.iter().flat_map(raised_paths).collect();
     let text = |height: f64| {

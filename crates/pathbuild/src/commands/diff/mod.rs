@@ -128,7 +128,7 @@ pub(super) struct ComparedProgram {
     pub(super) path: ScenePath,
     /// The states of the machine; `None` for the program of a path.
     pub(super) states: Option<MachineStates>,
-    /// Whether all words that may move the tool are followed.
+    /// Whether pathbuild interprets all words of the program that may move the tool.
     pub(super) are_moves_known: bool,
     pub(super) problems: Vec<Diagnostic>,
 }

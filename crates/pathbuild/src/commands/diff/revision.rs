@@ -187,7 +187,7 @@ fn is_needed(name: &str) -> bool {
         || matches!(name.file_name(), Some(".gitignore" | ".ignore"))
 }
 
-/// Whether a link leads to something below the root, even if it passes through other links. Its target must first go up, through real
+/// Whether a link points to something below the root, even if its target passes through other links. The target must first go up, through real
 /// directories, and then only down.
 fn stays_inside(link: &str, target: &str) -> bool {
     let depth = Utf8Path::new(link).components().count() - 1;
