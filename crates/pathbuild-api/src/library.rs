@@ -364,7 +364,6 @@ fn whole_library(workspace: &Workspace) -> Inputs {
     Inputs::places(directory)
 }
 
-/// Reads a Git revision.
 fn revision_files<'w>(
     workspace: &'w Workspace,
     inputs: &Inputs,

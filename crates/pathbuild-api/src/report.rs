@@ -188,7 +188,7 @@ pub enum FileState {
     Current,
     /// The file was compared and is not current.
     Outdated,
-    /// The file should be compared, but does not exist.
+    /// There is no file on disk to compare with.
     Missing,
     /// The content of the file was requested instead of writing it.
     Printed,

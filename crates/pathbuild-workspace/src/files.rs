@@ -133,7 +133,6 @@ pub const FILE_NAME: &str = "pathbuild.toml";
 /// The file extensions of G-code programs; the first is that of native ones. A post definition may choose another extension.
 pub(crate) const PROGRAM_EXTENSIONS: [&str; 6] = ["gcode", "nc", "ngc", "tap", "cnc", "din"];
 
-/// Whether the extension of a file is one of G-code programs.
 pub(crate) fn is_program(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|own| PROGRAM_EXTENSIONS.iter().any(|known| own.eq_ignore_ascii_case(known)))
 }

@@ -373,7 +373,6 @@ impl PostFiles for RecordedFiles<'_> {
     }
 }
 
-/// Upper bound on the size of an inserted file in bytes.
 const MAX_INSERTED_BYTES: u64 = 1 << 24;
 
 impl PostFiles for DirectoryFiles<'_> {

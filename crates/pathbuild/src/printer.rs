@@ -265,7 +265,6 @@ fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, text: &s
 
 /// Time after which a progress bar appears. Shorter work shows none.
 const BAR_DELAY: Duration = Duration::from_millis(500);
-/// Interval at which the progress bar is redrawn.
 const REDRAW_INTERVAL: Duration = Duration::from_millis(100);
 /// Width of the progress bar in columns.
 const BAR_WIDTH: usize = 30;

@@ -248,7 +248,7 @@ fn kind_of(note: &Note, options: &Options) -> NoteKind {
     }
 }
 
-/// Finds the element to which an ordinary text of the drawing belongs, and records that it has a text.
+/// Finds the element to which an ordinary text of the drawing belongs, and records that the element has a text.
 fn take_for_text(seats: &mut TextPositions<'_>, entity: &Entity, kind: NoteKind) {
     let is_kind = match entity.shape {
         Shape::Text(_) => kind == NoteKind::Text,

@@ -12,7 +12,7 @@ use super::{Drawing, Finding, Instance, Model, directory, stem};
 /// Maximum depth of embedding below the checked path.
 const MAX_EMBEDDING_DEPTH: usize = 10;
 
-/// The most serious error of a path and everything that it embeds. It decides whether a path that embeds it reports an error of its own.
+/// The most serious error of a path and everything that it embeds. It determines whether an embedding path reports an error of its own.
 #[derive(Clone, PartialEq)]
 pub(super) enum Errors {
     /// Neither the path nor anything that it embeds has errors.

@@ -44,7 +44,7 @@ export interface ProgramRecord {
   /** Cutter diameters in mm that the program itself states. */
   cutters: { line: number; diameter: number }[];
   surface: number | null;
-  /** Dwells, stops and tool changes, which are in no time. */
+  /** Description of dwells, stops and tool changes, which the times do not include. */
   waits?: { en: string; de: string };
 }
 

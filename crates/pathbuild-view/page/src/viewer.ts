@@ -179,13 +179,12 @@ function whose(path: Path | undefined): void {
   $("whose").textContent = visible(isNative && path?.native ? `${say("nativeText", lang)} ${file}` : file);
 }
 
-/** Hides the scene. */
 export function hide(): void {
   isOpen = false;
   if (frame) play();
 }
 
-/** The path and the element of a step, and the number of earlier steps on that element. The step is found again by them after an edit. */
+/** The path and the element of a step, and the number of earlier steps on that element. After an edit, these values identify the step again. */
 interface Mark {
   path: string;
   handle: string;

@@ -29,7 +29,6 @@ macro_rules! choice {
 
 /// A configuration value from a fixed list.
 pub(crate) trait Choice: Copy + PartialEq + 'static {
-    /// All values with their texts.
     const ALL: &[(&str, Self)];
 }
 
@@ -46,7 +45,6 @@ impl Choice for ZModel {
     const ALL: &[(&str, Self)] = &[("idw4", Self::Idw4), ("plane", Self::Plane), ("tin", Self::Tin)];
 }
 
-/// The directions in which a tool may turn, as the configuration writes them.
 impl Choice for Turning {
     const ALL: &[(&str, Self)] = &[("cw", Self::Clockwise), ("ccw", Self::CounterClockwise)];
 }

@@ -83,7 +83,6 @@ impl StateKind {
 /// The states of a machine while it runs a program.
 #[derive(Debug, Default)]
 pub struct MachineStates {
-    /// Number of cuts in the program.
     cuts: usize,
     /// The states in effect at cuts, and the events, by kind.
     stated: [Vec<StatedWords>; StateKind::ALL.len()],

@@ -93,7 +93,6 @@ pub fn write_settings(settings: &Settings) -> WriteSettings {
     }
 }
 
-/// Returns the options for writing native programs.
 fn write_options(settings: &Settings) -> WriteOptions {
     let general = &settings.general;
     let rapid = general.rapid.value.unwrap_or_default();

@@ -46,7 +46,7 @@ pub fn sheet_bytes(sheet: &Sheet, format: SheetFormat, lang: Lang) -> Result<Vec
     }
 }
 
-/// Collects the data of a job's sheet.
+/// Collects the data of a job's sheet; returns `None` if one of its drawings has changed in the meantime.
 pub(super) fn sheet(
     db: &Database,
     job: &Job,

@@ -244,7 +244,6 @@ struct FormerFile<'a> {
     provenance: &'a Provenance,
 }
 
-/// A value computed on first use.
 type Lazy<'a, T> = LazyCell<T, Box<dyn FnOnce() -> T + 'a>>;
 
 struct StaleSearch<'a> {
@@ -375,10 +374,8 @@ fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
     native::is_title(title, drawing, &job.path)
 }
 
-/// Ending of the names of setup sheets, without extension.
 const SHEET_SUFFIX: &str = "_Sheet";
 
-/// Endings of program names, without extension.
 const PROGRAM_SUFFIXES: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
 /// Whether a program has the name that `emit` gives to a program with this title: that of the drawing or of the path, without any R.

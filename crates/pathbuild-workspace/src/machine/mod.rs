@@ -179,7 +179,6 @@ pub fn read(
     }
 }
 
-/// Returns PB612 for a description that is broken at this line.
 fn broken_description(reason: &str, line: usize) -> Box<Diagnostic> {
     let problem = Diagnostic::new(&say::BROKEN_DESCRIPTION).with("reason", Shown::foreign(reason));
     Box::new(problem.at_line(u32::try_from(line).unwrap_or(u32::MAX), None))

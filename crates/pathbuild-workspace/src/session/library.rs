@@ -284,7 +284,6 @@ pub fn compare_paths(a: &Utf8Path, b: &Utf8Path) -> cmp::Ordering {
     differing.map_or_else(|| a.len().cmp(&b.len()), |(x, y)| rank(*x).cmp(&rank(*y)))
 }
 
-/// Number of bytes compared at once.
 const COMPARED_BYTES: usize = 8;
 
 fn too_many_entries(directory: &Utf8Path, limit: u64) -> Diagnostic {

@@ -167,7 +167,6 @@ pub(crate) fn drawn_source<'db>(
     }
 }
 
-/// Returns the finished parts that the program of a target cuts.
 pub(crate) fn finished_parts(db: &Database, target: Target) -> Vec<FinishedPart> {
     let part = |part: PlacedPart<'_>| {
         view::finished_part(&PartSource {
