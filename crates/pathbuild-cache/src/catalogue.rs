@@ -168,7 +168,6 @@ pub(crate) fn is_file_name(name: &str) -> bool {
     })
 }
 
-/// Extension of results files.
 const EXTENSION: &str = ".results";
 /// Number of hexadecimal digits of the query's hash in a file name.
 const NAME_DIGITS: usize = 24;

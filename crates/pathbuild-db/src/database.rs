@@ -240,7 +240,7 @@ impl fmt::Debug for Database {
 /// Records that a drawing has changed and abandons the query.
 pub(crate) fn abandon_query(db: &dyn Db, file: SourceFile) -> ! {
     db.note_changed(file);
-    // Bypasses the panic hook: this is not a bug.
+    // `resume_unwind` bypasses the panic hook, since this is not a bug.
     resume_unwind(Box::new(DriftPanic))
 }
 
@@ -346,7 +346,6 @@ impl fmt::Debug for ScratchPool {
 #[derive(Debug, Default)]
 pub(crate) struct Listings(Mutex<FxHashMap<Directory, ListingState>>);
 
-/// A listing that no query has taken yet.
 #[derive(Debug)]
 enum ListingState {
     Known(Names),

@@ -16,7 +16,6 @@ use rstar::{AABB, RTree};
 
 /// Everything on all layers of a drawing. The drawing is read again when it is first needed.
 pub(super) struct LayerEnds<'a> {
-    /// Reads all layers of the drawing.
     read: &'a dyn Fn() -> Drawing,
     all: OnceCell<AllLayers>,
     /// Indices of the first start marker and the first end marker on layers without a path.

@@ -176,8 +176,8 @@ impl<'db> PlacedProgram<'db> {
         gouges.chain(bars).collect()
     }
 
-    /// Returns PB214 for cuts of components into parts that are drawn in the project's own drawing. A part that shows a component's part once more,
-    /// or the sheet around it, is none.
+    /// Returns PB214 for cuts of components into parts that are drawn in the project's own drawing, except for parts that only show a component's
+    /// part once more, or the sheet around it.
     fn cuts_into_own_parts(&self) -> Vec<Diagnostic> {
         let Some((project, components)) = self.paths.split_first().filter(|_| !self.is_joined) else {
             return Vec::new();
@@ -260,7 +260,8 @@ impl<'db> PlacedProgram<'db> {
         std::iter::successors(Some(path), |inner| self.paths[*inner].parent.map(|(outer, _)| outer))
     }
 
-    /// Returns the innermost path that contains both an element and another path, and the element of that path that leads to the given one.
+    /// Returns the innermost path that contains both an element and another path, and the element of the innermost path that is, or embeds, the given
+    /// element.
     fn innermost_common_path(&self, mut path: usize, element: u32, other: usize) -> (usize, &'db Origin) {
         let around: Vec<usize> = self.path_and_embedders(other).collect();
         let mut origin = &self.paths[path].cuts.cuts.elements[element as usize].origin;

@@ -118,7 +118,7 @@ pub fn remaining_layers(db: &dyn Db, file: SourceFile) -> Arc<Drawing> {
     Arc::new(read_layers(db, file, &is_other))
 }
 
-/// Gives the fold access to the paths of a closure without errors.
+/// The paths of a closure without errors, in the form in which the fold accesses them.
 pub(super) struct ClosurePaths<'db> {
     pub(super) db: &'db dyn Db,
 }
@@ -156,7 +156,8 @@ pub(super) struct Occurrences<'t> {
 }
 
 impl<'t> Occurrences<'t> {
-    /// Returns the innermost path that contains both an element and another path, and the element of that path that leads to the given one.
+    /// Returns the innermost path that contains both an element and another path, and the element of the innermost path that is, or embeds, the given
+    /// element.
     pub(super) fn innermost_common_path(self, mut at: StepOrigin, other: u32) -> (u32, Option<u32>) {
         let around_other: Vec<u32> = self.path_and_embedders(other).collect();
         while !around_other.contains(&at.occurrence) {

@@ -35,7 +35,7 @@ pub(super) fn read<R>(
     file: SourceFile,
     work: impl FnOnce(&[u8], Stamp, &mut Drawing) -> R,
 ) -> Result<R, Box<Diagnostic>> {
-    // Read before the bytes, so that salsa knows about the dependency.
+    // The revision is read before the bytes, so that salsa knows about the dependency.
     file.revision(db);
     let reading = Settings::get(db).reading(db);
     let (path, limit) = (file.path(db), reading.file_size);

@@ -31,7 +31,7 @@ fn settled(world: &mut World, role: &Role) -> (Vec<String>, bool, u32) {
 fn a_program_is_made_of_the_drawing_that_was_checked() {
     let mut world = World::new(&[(FILE, &component("1111.1P", "0"))]);
     assert!(world.judge("path", FILE, "1111.1P", Role::Emitted).is_empty());
-    // The path is now too deep, and the database is not notified.
+    // The cut now ends above the material, and the database is not notified.
     world.put_unnoticed(FILE, &component("1111.1P", "9"));
     assert_eq!(settled(&mut world, &Role::Emitted), (vec!["PB203".to_owned()], false, 2));
 }

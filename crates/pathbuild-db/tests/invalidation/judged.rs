@@ -7,7 +7,7 @@ use salsa::Setter;
 use crate::embedding::component;
 use crate::world::{LIMITS, World};
 
-/// A path that is correct with B0; with B9 the tool mills through the table.
+/// A path that is correct with B0. B9 is above the upper face of the material (T5), which is an error.
 const WITH_VARIABLE: &str = "layer 1114.1P\nstart 0,0 \"T5 O3 I1 Mx :B0,9\"\nmill 0,0 20,0 \"B=B\"\nend 20,0";
 
 fn project(path: &str, segment: &str) -> String {

@@ -15,9 +15,7 @@ pub(crate) struct Drawing {
     pub(crate) path: usize,
     /// The parameter B in tenths of a millimetre.
     pub(crate) bottom: u32,
-    /// Numbers of the embedded paths.
     pub(crate) embeds: Vec<usize>,
-    /// Number of remarks before the path.
     pub(crate) remarks: u32,
 }
 

@@ -69,7 +69,7 @@ fn a_notch_that_a_closed_contour_passes_is_left() {
     let notched = closed.replace("1,1 41,1 41,26", &format!("1,1 41,1 {wide} 41,26"));
     let mut left = PartTest::default().diagnostics(&[("1234.1P.dxf", &notched)]);
     left.retain(|found| found.code().to_string() == "PB215");
-    // The longest of the three sides, apart from the corner; the cut ends 4 mm from there, of which some samples are less far away.
+    // The finding is at the longest of the notch's three sides. The cut ends 4 mm away from this side; some samples are nearer to the cut.
     let (thickness, length) = (number(&left[0], "thickness"), number(&left[0], "length"));
     assert!((3.7..4.0).contains(&thickness), "{}", left[0].text(Lang::En));
     assert!((length - 4.0).abs() < 0.01, "{}", left[0].text(Lang::En));
@@ -484,7 +484,7 @@ fn a_hole_that_the_part_lacks_is_a_gouge() {
     assert!((number(found, "depth") - 6.0).abs() < 1e-6, "{found:?}");
 }
 
-/// A thread around a hole is not an island, and a hole in the thread is not a missing one.
+/// Of two circles inside each other, such as a hole and its thread, the path must cut only one, whichever it is.
 #[test]
 fn of_rings_in_each_other_one_must_be_cut() {
     let drawing = plate("bars") + "circle 31,13 d 5\n";
@@ -630,7 +630,7 @@ fn a_marked_hole_is_not_made() {
     assert_eq!(codes(&drawing("mark circle 24,20 d 2 \"D1.8\"")), ["PB215"]);
 }
 
-/// An embedded path cuts across the outline that the project draws round its part: that is the sheet, and only for the project's own cuts.
+/// The outline that the project draws round an embedded part is the sheet. The embedded path may cut across it, but the project itself must not.
 #[test]
 fn outlines_of_a_project_round_components_are_for_its_own_cuts() {
     let component = component();
@@ -645,7 +645,7 @@ fn outlines_of_a_project_round_components_are_for_its_own_cuts() {
     assert!(gouged(drawing("sweep 30,24 2,0\nmill 2,0 28,0 \"I1 B0\"\nsweep 28,0 30,24\nend 30,24")));
 }
 
-/// A part in the project's drawing that is neither a component's nor the sheet around one is not to be cut by components. The contour of the lower
+/// A part in the project's drawing that is neither a component's nor the sheet around one must not be cut by components. The contour of the lower
 /// component covers y from -13 to -11.
 #[test]
 fn components_do_not_cut_into_parts_of_the_project() {

@@ -122,7 +122,6 @@ fn messages(drawing: &str) -> Vec<String> {
     found.iter().map(|found| format!("{} {}", found.code(), found.text(Lang::En))).collect()
 }
 
-/// Returns the value of a numeric argument of a finding.
 fn number(found: &Diagnostic, name: &str) -> f64 {
     let value = found.arguments.iter().find(|(known, _)| *known == name).map(|(_, value)| value);
     match value {

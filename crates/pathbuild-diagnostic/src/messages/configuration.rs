@@ -125,7 +125,7 @@ messages! {
         help_en: "remove one of the two: case makes no difference in the names of line types",
         help_de: "einen der beiden Namen entfernen: bei Linientypen zählt Groß- und Kleinschreibung nicht",
     }
-    /// An entry for a line type that stands for that of the layer or of the block.
+    /// An entry for a name such as BYLAYER, which stands for the line type of the layer or of the block.
     INHERITED_LINE_TYPE: InvalidConfiguration {
         en: "`{key}` has {name}, which stands for the line type of the layer or of the block",
         de: "`{key}` enthält {name}, das für den Linientyp des Layers oder des Blocks steht",
@@ -160,7 +160,7 @@ messages! {
         help_en: "escape literal characters with a backslash or brackets: [.]",
         help_de: "Zeichen, die wörtlich gemeint sind, mit einem Backslash oder in eckigen Klammern schreiben: [.]",
     }
-    /// More patterns than permitted. Their number is limited because they would use an unlimited amount of memory.
+    /// More patterns than permitted. Without a limit, patterns could take any amount of memory.
     TOO_MANY_PATTERNS: InvalidConfiguration {
         en: "the file has more than {most} {what}",
         de: "die Datei hat mehr als {most} {what}",
@@ -314,7 +314,7 @@ messages! {
 words! {
     /// Permitted values: any number.
     NUMBER: "a number", "eine Zahl";
-    /// Permitted values of measures, without extreme ones, which can only be mistakes.
+    /// Permitted values of measures. Values beyond these bounds can only be mistakes.
     MEASURE: "a number from 0.001 to 1000000", "eine Zahl von 0.001 bis 1000000";
     /// Permitted values: numbers greater than 0.
     POSITIVE: "a number greater than 0", "eine Zahl größer als 0";

@@ -454,7 +454,7 @@ messages! {
         help_en: "save the drawing again; the file is damaged",
         help_de: "die Zeichnung noch einmal speichern; die Datei ist beschädigt",
     }
-    /// A section that is read after ENTITIES, in a file that has it there.
+    /// A section that follows ENTITIES, although it is only read before ENTITIES.
     SECTION_MISPLACED: InvalidDxf {
         en: "a section {found} follows the section ENTITIES; what it contains would be ignored",
         de: "auf den Abschnitt ENTITIES folgt ein Abschnitt {found}; sein Inhalt würde nicht beachtet",

@@ -342,7 +342,7 @@ messages! {
         help_en: "write numbers, or read the file as another dialect with --dialect",
         help_de: "Zahlen schreiben oder die Datei mit --dialect als anderen Dialekt lesen",
     }
-    /// A macro statement of a control whose macros are not followed.
+    /// A macro statement of a control whose macros are not interpreted.
     MACRO_NOT_FOLLOWED: WordNotFollowed {
         en: "macros of {dialect} are not followed; the line is left out",
         de: "Makros von {dialect} werden nicht verfolgt; die Zeile bleibt unbeachtet",
@@ -370,7 +370,7 @@ messages! {
         help_en: "write the cycle out as moves",
         help_de: "den Zyklus als einzelne Bewegungen schreiben",
     }
-    /// An O word (subroutine or branch) that is not followed.
+    /// An O word (subroutine or branch) that is not interpreted.
     O_WORD: WordNotFollowed {
         en: "this O word is not followed; the lines below are read once, in the order of the file",
         de: "dieses O-Wort wird nicht verfolgt; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
@@ -391,7 +391,7 @@ messages! {
         help_en: "remove one of them, or give it another number",
         help_de: "eines davon entfernen oder anders nummerieren",
     }
-    /// A subprogram that calls itself, which is not followed again.
+    /// A subprogram that calls itself. That call is not interpreted.
     CALLED_BY_ITSELF: WordNotFollowed {
         en: "the subprogram {name} calls itself; this call is not followed",
         de: "das Unterprogramm {name} ruft sich selbst auf; dieser Aufruf wird nicht verfolgt",
@@ -536,7 +536,7 @@ messages! {
         help_en: "the value must be {limits}",
         help_de: "erlaubt: {limits}",
     }
-    /// A drilling cycle with too many moves to follow.
+    /// A drilling cycle of more moves than the limit.
     TOO_MANY_STROKES: ValueOutOfRange {
         en: "this line drills with {count} moves; pathbuild follows at most {most}",
         de: "diese Zeile bohrt mit {count} Bewegungen; pathbuild folgt höchstens {most}",
@@ -604,14 +604,14 @@ messages! {
         help_en: "state the unit: the control keeps that of the previous program",
         help_de: "die Einheit angeben: die Steuerung behält die des vorigen Programms",
     }
-    /// A cut with an F that was stated before a change of the unit, on a control that may keep the number of F.
+    /// A cut with an F that was stated before a change of the unit, on a control that may read its number in the new unit.
     FEED_IN_OTHER_UNIT: UnitChanged {
         en: "this cut uses the F of line {line}, which is in {unit}: after the change of the unit, {dialect} may read its number as {other}",
         de: "dieser Schnitt nimmt das F aus Zeile {line}, das in {unit} angegeben ist: nach dem Wechsel der Einheit kann {dialect} die Zahl als {other} lesen",
         help_en: "write F again in the new unit",
         help_de: "F in der neuen Einheit noch einmal angeben",
     }
-    /// A move with a G52 or G92 that was stated before a change of the unit, on a control that may keep its numbers.
+    /// A move with a G52 or G92 that was stated before a change of the unit, on a control that may read its numbers in the new unit.
     OFFSET_IN_OTHER_UNIT: UnitChanged {
         en: "this move counts from the offset of line {line}, which is in {unit}: after the change of the unit, {dialect} may read its numbers as {other}",
         de: "diese Bewegung zählt ab der Verschiebung aus Zeile {line}, die in {unit} angegeben ist: nach dem Wechsel der Einheit kann {dialect} die Zahlen als {other} lesen",

@@ -236,7 +236,7 @@ messages! {
         help_en: "draw it from the path's start to its end",
         help_de: "sie vom Anfang des Pfads zu seinem Ende zeichnen",
     }
-    /// A Q-project that needs several paths, although its name permits no further names.
+    /// A Q-project that needs several paths, although no further names can be derived from its name.
     NO_NAME_FOR_CUTTER: CannotWrite {
         en: "the drawing's paths use several cutters (O), so the Q-project needs a path for each, but no further names can be derived from {name}",
         de: "die Pfade der Zeichnung verwenden mehrere Fräser (O); das Q-Projekt braucht für jeden einen Pfad, aber aus {name} lassen sich keine weiteren Namen bilden",
