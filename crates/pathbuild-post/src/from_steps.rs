@@ -315,7 +315,7 @@ impl Builder {
         self.operation()
     }
 
-    /// Refuses a cut with the length of another tool, or with a length where the tool has cut without: a post writes G43 with the number of
+    /// Refuses a cut with the length of another tool, or with a length although the tool has cut without one: a post writes G43 with the number of
     /// the tool, once for each tool.
     fn check_length(&mut self) {
         let is_other = self.length_tool.is_none() || self.length_tool != self.state.tool;

@@ -433,7 +433,6 @@ impl JobStep {
         }
     }
 
-    /// Whether all numbers of the step are finite.
     pub(super) fn is_finite(&self) -> bool {
         match self {
             Self::Move(movement) => movement.is_finite(),

@@ -35,7 +35,7 @@ pub struct PostOptions<'a> {
     pub program_number: Option<u32>,
     /// Whether the operator switches the spindle, so that the spindle macros of the definition write nothing.
     pub manual_spindle: bool,
-    /// Whether a definition that switches the spindle requires a speed, without which it would not turn.
+    /// Whether a definition that switches the spindle requires a speed, without which the spindle would not turn.
     pub needs_speed: bool,
     /// Whether the machine counts P of dwells in milliseconds. Only for controls where this is a setting.
     pub milliseconds: bool,
@@ -43,7 +43,7 @@ pub struct PostOptions<'a> {
     pub spin_up: f64,
     /// Capabilities of the machine, if they are known.
     pub machine: Option<Machine>,
-    /// How far cuts may miss the outline of a part, in mm. (`part-tolerance`)
+    /// Maximum distance in mm by which cuts may miss the outline of a part. (`part-tolerance`)
     pub part_tolerance: f64,
     /// Access to the files that the definition inserts.
     pub files: &'a dyn PostFiles,

@@ -30,7 +30,7 @@ pub(super) struct ReadBackOptions<'a> {
     pub(super) tolerance: Option<Tolerance>,
     /// Capabilities of the machine, if they are known.
     pub(super) machine: Option<&'a Machine>,
-    /// How far cuts may miss the outline of a part, in mm.
+    /// Maximum distance in mm by which cuts may miss the outline of a part.
     pub(super) part_tolerance: f64,
     /// The translation to RS274 of a text without a target.
     pub(super) translated: Option<&'a TranslatedText>,

@@ -66,7 +66,7 @@ impl Target {
         Some(end.map_or(text.len(), |end| open + end + close.len()))
     }
 
-    /// Length of the part of a line that contains code. In lines with M0 or M117, a text for the display follows the code.
+    /// Returns the length of the part of a line that contains code. In lines with M0 or M117, a text for the display follows the code.
     pub(crate) fn code_length(&self, line: &str) -> usize {
         let digits = line
             .strip_prefix('M')

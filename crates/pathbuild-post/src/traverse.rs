@@ -521,7 +521,7 @@ mod tests {
         check(ways)
     }
 
-    /// Whether a text passes that differs from the job in the rapids from the first cut to the second.
+    /// Whether a text is accepted if these are its rapids from the first cut to the second, and all others are those of the job.
     #[track_caller]
     fn may_go(between: &str) -> bool {
         is_allowed([JOB[0], between, JOB[2]])

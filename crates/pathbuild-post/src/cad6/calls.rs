@@ -352,8 +352,8 @@ impl<'a> Builder<'a> {
         self.ways.iter().map(|way| way[2]).fold(start, f64::max)
     }
 
-    /// Height in mm at which the tool travels to the end of the pending rapids: their highest point if they lead there in a straight line,
-    /// otherwise the clearance plane.
+    /// Returns the height in mm at which the tool travels to the end of the pending rapids: their highest point if they lead there in a straight
+    /// line, otherwise the clearance plane.
     fn height(&self) -> f64 {
         let (from, to) = (self.at, self.pending_end());
         let is_straight = |way: &Point| {
@@ -420,7 +420,7 @@ impl<'a> Builder<'a> {
         self.is_open = false;
     }
 
-    /// Marks the last element of the contour.
+    /// Marks the last element as the end of the contour.
     fn finish_contour(&mut self) {
         self.is_first = true;
         let last = self.last_element.map(|index| &mut self.calls[index].content);

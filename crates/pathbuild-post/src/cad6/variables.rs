@@ -83,7 +83,6 @@ impl Variable {
     }
 }
 
-/// Declares the variables set by pathbuild, in the order in which they are documented.
 macro_rules! variables {
     ($($name:literal $kind:ident $presence:ident, $en:literal, $de:literal;)*) => {
         /// All variables set by pathbuild, in the order in which they are documented.
@@ -267,7 +266,7 @@ pub(super) const MAX_TEXTS: usize = 0xFE00;
 /// First of the 256 placeholder characters that stand for bytes.
 const FIRST_BYTE: u32 = 0x0010_FE00;
 
-/// Whether a character is a placeholder, whether for a variable, a text or a byte.
+/// Whether a character is a placeholder for a variable, a text or a byte.
 pub(super) fn is_private(c: char) -> bool {
     u32::from(c) >= FIRST_TEXT
 }

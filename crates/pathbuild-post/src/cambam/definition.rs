@@ -132,7 +132,8 @@ impl Definition {
         self.options.number_format.most_decimals()
     }
 
-    /// Returns the name of a section for moves whose text is empty or only a comment; `None` if both write something.
+    /// Returns the name of the first section, of those for rapid moves and for feed moves, whose text is empty or only a comment; `None` if there is
+    /// none.
     pub(crate) fn empty_motion(&self) -> Option<&'static str> {
         let is_mark = |what: &Macro| matches!(what, Macro::Section(Section::Comment | Section::EndComment));
         let is_empty = |section: &Section| {

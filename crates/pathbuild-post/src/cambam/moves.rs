@@ -432,8 +432,8 @@ fn can_be_canned(hole: &Hole) -> bool {
     at_least(hole.exit, hole.level)
 }
 
-/// Number of steps in the group at the beginning of `steps`. A group consists of holes between which the tool stays at the same level, and
-/// comments among them.
+/// Returns the number of steps in the group at the beginning of `steps`. A group consists of holes between which the tool stays at the same level,
+/// and comments among them.
 fn group_length(steps: &[JobStep]) -> usize {
     let mut length = 0;
     let mut last: Option<&Hole> = None;

@@ -464,8 +464,8 @@ impl Line {
         }
     }
 
-    /// Removes the blanks at the end of the line in place of an omitted macro. The blanks after it are dropped as well; one blank remains
-    /// if there were blanks on both sides.
+    /// Removes the blanks at the end of the line, where a macro was omitted. The blanks after the macro are dropped as well; one blank remains if
+    /// there were blanks on both sides.
     pub(super) fn omit_value(&mut self) {
         let length = self.text.trim_end_matches([' ', '\t']).len();
         self.gap = Some(length < self.text.len());

@@ -46,7 +46,7 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
     let lines = written(DIN, &high(steps));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
     assert_eq!(lines[over - 1], "G00 Z+30", "{lines:?}");
-    // The tool is also retracted if the way leads beyond the end of the path or before its beginning, in X or in Y.
+    // The tool is also retracted if the rapid moves lead beyond the end of the path or before its beginning, in X or in Y.
     for (beyond, end) in [
         ([70.0, 0.0], [60.0, 0.0]),
         ([5.0, 0.0], [60.0, 0.0]),
@@ -204,7 +204,7 @@ fn a_tool_is_changed_above_where_the_tool_is() {
     let change = lines.iter().position(|line| line.starts_with("T2")).expect("a tool change");
     assert_eq!(lines[change + 1], "G00 Z+25", "{lines:?}");
     assert_eq!(lifts(&lines[..change]).last(), Some(&"+25"), "{lines:?}");
-    // If the program itself descends before, the text still begins at the height at which the text of the contour ended.
+    // Even if the program itself descends first, the text begins at the height at which the text of the contour ended.
     let mut job = job;
     job.operations[0].steps.push(rapid(1.0, 0.0, 4.0));
     let lines = written(DIN, &job);

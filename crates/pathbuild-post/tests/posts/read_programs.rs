@@ -157,7 +157,7 @@ fn a_zero_that_a_probe_has_found_is_an_error() {
     for (word, name) in [("G10 L20 P1 Z15", "G10"), ("G10 L20 P0 Z15", "G10"), ("G92 Z15", "G92")] {
         for dialect in [Dialect::LinuxCnc, Dialect::Grbl] {
             is_zero_refused(&format!("{probe}{word}\nG0 Z30\n{CUT}"), dialect, 5, name);
-            // A program that only finds a zero does nothing through a post either.
+            // A program that only sets a zero is refused as well, because a post would not write that.
             is_zero_refused(&format!("{probe}{word}\nM30"), dialect, 5, name);
             // The probe was along Z, and after an absolute height Z is known again.
             let known = word.replace("Z15", "X50");
@@ -543,7 +543,7 @@ fn a_new_tool_never_goes_down_where_the_old_one_ended() {
             "{deep}: {found:?}"
         );
     }
-    // At the surface the tool hits nothing. To another depth, the program itself moves by a rapid move.
+    // At the surface, the tool hits nothing. In the other cases, a rapid move of the program itself first leads to another height.
     for fine in ["G0 X20 Z0\nG1 Z-3", "G0 Z5\nG0 X20\nG1 Z-3", "G0 X20 Z-1\nG1 Z-3"] {
         let lines = errors(fine).unwrap_or_else(|errors| panic!("{fine}: {errors:?}"));
         assert!(!after_change(&lines).iter().any(|line| line.contains("Z-2.0")), "{fine}: {lines:?}");
