@@ -83,7 +83,7 @@ pub struct StatedWord {
     pub code: u16,
     /// Modal group of a G word.
     pub group: Option<Group>,
-    /// How much of the word's effect other steps show.
+    /// Extent to which other steps show the word's effect.
     pub effect: WordEffect,
 }
 

@@ -103,7 +103,7 @@ impl<P: FoldPaths> Fold<'_, P> {
         self.travel(Tip { at: end, z: place.sweep_height }, place.surface, place.sweep_height, place.feed);
     }
 
-    /// Mills to and fro in the groove without leaving it.
+    /// Mills back and forth in the groove without leaving it.
     fn mill_in_groove(&mut self, place: &PlacedPath<'_>, strands: &[ChainEdge<'_>]) {
         let runs = strands.iter().map(|strand| strand.depths.len()).max().unwrap_or(0);
         let (start, end) = (strands[0].curve.start(), strands[strands.len() - 1].curve.end());

@@ -17,7 +17,7 @@ pub struct Correction {
     pub longest: f64,
 }
 
-/// A point outside the probes at which the program mills.
+/// A point at which the program mills outside the area of the probes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnprobedPoint {
     /// The point in program coordinates.

@@ -15,7 +15,7 @@ use crate::program::{
     PlannedMove, ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace,
 };
 
-/// Provides the paths to be joined: the emitted path and all paths it embeds.
+/// Source of the paths to be joined: the emitted path and all paths that it embeds.
 pub trait FoldPaths {
     /// Identifier of a path with given values of its variables.
     type Id: Copy;

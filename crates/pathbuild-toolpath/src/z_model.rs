@@ -40,7 +40,8 @@ enum Model {
 }
 
 impl ZModel {
-    /// Whether these positions of probes lie on a line or at one place, across which the model then knows no slope.
+    /// Whether the model needs a slope that the probes at these positions do not determine, because they lie on a line or at a single point. False if
+    /// there are no probes.
     pub(super) fn lacks_slope(self, places: &[Xy]) -> bool {
         self != Self::Idw4 && !places.is_empty() && !Scatter::new(places).is_wide()
     }
