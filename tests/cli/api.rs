@@ -1,5 +1,5 @@
-//! What the program prints about the example library is what the fields of `pathbuild-api` say. The program asks a library on its own configuration and
-//! cache, this one is opened by its directory.
+//! Tests that the program prints about the example library what the fields of `pathbuild-api` contain. The program runs in the library's directory,
+//! with its configuration and a cache; the tests open the library by its directory.
 
 use std::fs;
 
@@ -289,7 +289,7 @@ fn two_paths() -> Place {
         )
 }
 
-/// Every option of `emit` has the same effect in the library: on the files, and on what is said about them.
+/// Every option of `emit` has the same effect in the library: on the files, and on what is reported about them.
 #[test]
 fn emit_and_the_library_have_the_same_options() {
     let [by_program, by_library] = [two_paths(), two_paths()];

@@ -50,7 +50,7 @@ impl Emitted {
     }
 }
 
-/// Returns another program, if it is installed.
+/// Returns a command for a program; `None` if the program is not installed.
 fn command(name: &str) -> Option<Command> {
     let is_there = Command::new(name).arg("--version").output().is_ok_and(|it| it.status.success());
     if !is_there {

@@ -226,7 +226,7 @@ fn the_working_directory_s_configuration_holds_for_a_program_from_elsewhere() {
     assert!(diff.status == Some(0) && diff.stdout.contains("0 of 1 path changed"), "{diff}");
 }
 
-/// Each command that reads a program uses the limits of the working directory, or those of the program's tree if it is another one.
+/// Each command that reads a program uses the limits of the working directory or, if the program is in another tree, those of that tree.
 #[test]
 fn a_program_in_another_tree_has_the_configuration_of_that() {
     let small = "[limits]\nfile-size = 100\n";

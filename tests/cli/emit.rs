@@ -510,7 +510,7 @@ fn copies_of_programs_are_never_removed() {
     let place = copies
         .iter()
         .fold(place, |place, name| place.file(&format!("projects/{name}"), text.replace("F150", "F120")));
-    // While the drawing is there, and after it was removed.
+    // Test while the drawing is there, and after it was removed.
     for is_there in [true, false] {
         if !is_there {
             fs::remove_file(place.path().join("projects/8001 a b.dxf")).unwrap();
@@ -522,7 +522,7 @@ fn copies_of_programs_are_never_removed() {
         }
         assert_eq!(place.path().join("projects/8001 a b_Milling.gcode").exists(), is_there, "{run}");
     }
-    // A program under the name of its path, as drawings with several paths have it.
+    // The program has the name of its path, as programs of drawings with several paths do.
     let place = place.file("projects/8001.1P_Milling.gcode", text);
     let run = place.run("emit --remove-stale");
     assert!(run.stderr.contains("8001.1P_Milling.gcode: stale, removed"), "{run}");

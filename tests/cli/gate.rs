@@ -66,7 +66,7 @@ fn a_program_passes_or_is_kept_out_of_the_way() {
     assert!(has(&place, "a wrong & (2).nc") && !has(&place, "a wrong & (2).nc.rejected"));
 }
 
-/// A script whose variable is not set names no program, or the directory.
+/// If a script's variable is not set, the command names no program, or the directory.
 #[test]
 fn nothing_and_a_directory_do_not_pass() {
     let place = Place::new().file("jobs/a.nc", wrong());

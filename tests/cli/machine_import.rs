@@ -367,7 +367,7 @@ fn a_broken_line_of_a_tool_table_is_named() {
     assert!(broken.status == Some(1) && broken.stderr.contains("tool.tbl:2: error[PB612]"), "{broken}");
 }
 
-/// A measured diameter does not make another tool, and neither does another description of the same tool.
+/// A tool with a measured diameter, or with another description, is still the same tool.
 #[test]
 fn a_number_that_gets_another_tool_is_a_warning() {
     let import = |line: &str| {

@@ -46,7 +46,6 @@ struct Served<'a> {
     port: u16,
 }
 
-/// An answer of the server: its status, header and body.
 struct Answer {
     status: u16,
     head: String,

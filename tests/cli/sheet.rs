@@ -84,7 +84,7 @@ fn a_page_has_picture_measures_checklist_and_facts() {
     assert_snapshot!(texts(&place.read("sheet.svg")).join("\n"));
 }
 
-/// Material on shims (H) is not that of the plate: without the shims, the cutter would mill air, or not through.
+/// Material on shims (H) lies higher than on the plate: without the shims, the cutter would mill air, or would not cut through.
 #[test]
 fn shims_are_in_the_checklist() {
     let checks = |h: &str| {

@@ -13,9 +13,7 @@ pub(crate) struct Run {
     pub(crate) case: PathBuf,
     /// Number of the run within the case.
     pub(crate) number: usize,
-    /// The action that was recorded.
     pub(crate) what: What,
-    /// The kind of results that are expected.
     pub(crate) form: Form,
     /// The reason why the expected result differs from the recorded one.
     by_specification: Option<String>,

@@ -32,7 +32,7 @@ const OF_RS274: [(&str, Dialect); 7] = [
     ("din", Dialect::Din),
 ];
 
-/// Number of programs that one start of rs274 reads.
+/// Number of programs that one process of rs274 reads.
 const PROGRAMS_PER_START: usize = 60;
 
 #[test]

@@ -63,7 +63,7 @@ impl Known {
 fn a_translation_has_the_findings_of_its_program() {
     let mut different = Vec::new();
     for known in PROGRAMS.iter().filter(|known| !is_refused(known)) {
-        // The programs are written without the settings of the machine, which could refuse them, and in spite of their rapid moves.
+        // The programs are written in spite of their rapid moves, and without the settings of the machine, which might cause them to be refused.
         let lowered = "[severity]\nPB740 = \"warning\"\nPB741 = \"warning\"\n";
         let place = Place::new().file("good.nc", known.text()).file("broken.nc", known.broken());
         let place = place.file("pathbuild.toml", lowered);

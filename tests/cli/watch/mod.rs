@@ -45,7 +45,7 @@ struct Watch<'a> {
     place: &'a Place,
     child: Child,
     lines: StderrLines,
-    /// The output up to the line that says that it is watching.
+    /// The output up to the line that reports that `watch` has begun to watch.
     beginning: Vec<String>,
 }
 
