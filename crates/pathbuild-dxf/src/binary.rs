@@ -140,7 +140,6 @@ impl BinaryGroups<'_> {
     }
 }
 
-/// Storage type of a value.
 #[derive(Clone, Copy, Debug)]
 enum ValueType {
     String,

@@ -22,14 +22,13 @@ use crate::pairs::{Pair, Pairs, Stop};
 pub(crate) struct Blocks<'a> {
     /// Blocks by folded name: of several with the same name, the first.
     by_name: HashMap<SmolStr, BlockId>,
-    /// The further blocks of a name, by the first one.
+    /// Further blocks with the name of an earlier block, by that block.
     namesakes: BTreeMap<BlockId, Vec<BlockId>>,
     all: Vec<Block<'a>>,
     /// The wanted layers on which an insertion draws, by the inserted block and the layer of the insertion.
     wanted: BTreeMap<BlockOnLayer, Rc<[LayerId]>>,
 }
 
-/// A block, and the layer on which it is inserted.
 type BlockOnLayer = (BlockId, LayerId);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -66,7 +66,6 @@ pub(crate) fn value_excerpt(value: &[u8]) -> String {
 
 const MAX_EXCERPT_BYTES: usize = 60;
 
-/// A fault of an entity.
 #[derive(Clone, Debug)]
 pub(crate) enum EntityError<'a> {
     /// A broken group: PB002.

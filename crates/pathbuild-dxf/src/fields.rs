@@ -83,7 +83,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Reads the entity that begins with code 0 on this line. `repeats` has a bit for each code that the entity repeats, and `want` is called once
-    /// its layer is known. Returns the first pair of the next entity, and whether this entity was kept.
+    /// the entity's layer is known. Returns the first pair of the next entity, and whether this entity was kept.
     #[inline]
     pub(crate) fn fill(
         &mut self,

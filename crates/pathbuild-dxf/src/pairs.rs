@@ -201,7 +201,6 @@ pub(crate) enum SectionEnd<'a> {
 }
 
 impl<'a> Pairs<'a> {
-    /// Skips to the end of the current section.
     pub(crate) fn skip_section(&mut self) -> SectionEnd<'a> {
         let from = self.consumed();
         let bytes = self.bytes();

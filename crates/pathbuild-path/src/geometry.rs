@@ -232,7 +232,8 @@ impl Curve {
         }
     }
 
-    /// Returns the interior points of this curve that may be nearest to `other`. There are none to try if `other` is a line: the ends suffice.
+    /// Returns the interior points of this curve that may be nearest to `other`. None if `other` is a line: the ends of both curves and the
+    /// candidates on `other` then suffice.
     fn nearest_candidates(&self, other: &Self) -> Vec<Xy> {
         match (self, other) {
             (Self::Line(line), Self::Arc(arc)) => vec![line.nearest(arc.centre)],
@@ -250,7 +251,7 @@ impl Curve {
     }
 }
 
-/// Distance in mm from a line up to which a point lies on it: coordinates that were rotated are rounded by less.
+/// Distance in mm from a line up to which a point counts as lying on it. Rotating coordinates rounds them by less.
 const ON_LINE_DISTANCE: f64 = 1e-9;
 
 impl Line {

@@ -54,7 +54,6 @@ impl GivenNumber {
         }
     }
 
-    /// Returns this value, or `other` if this one is absent.
     pub(crate) fn or_value(self, other: Self) -> Self {
         if self == Self::Absent { other } else { self }
     }

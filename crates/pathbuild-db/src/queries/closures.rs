@@ -161,7 +161,7 @@ struct ClosureWalk<'db> {
     moves: u64,
     /// The errors of a path and of everything that it embeds. The depth is part of the key because embedding may be too deep at one depth only.
     visited: FxHashMap<(Instance<'db>, u32), PathErrors<'db>>,
-    /// Height in mm of the highest point of a path and everything it embeds, above the plane it lies on.
+    /// Height in mm of the highest point of a path and of everything that the path embeds, above the plane of the path.
     tops: FxHashMap<Instance<'db>, f64>,
     seen: FxHashSet<Instance<'db>>,
     /// The embeddings that lead to the path being visited.

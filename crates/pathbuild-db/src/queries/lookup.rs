@@ -60,7 +60,7 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     }
 }
 
-/// Returns PB001 for a directory that cannot be listed, since it may define the path.
+/// Returns PB001 for a directory that cannot be listed, since the path may be defined there.
 pub fn listing_error(db: &dyn Db, directory: Directory) -> Option<Diagnostic> {
     let fault = name_table(db, directory).fault.as_ref()?;
     Some(unlistable_error(directory.path(db), fault))

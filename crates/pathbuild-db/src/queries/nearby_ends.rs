@@ -329,7 +329,6 @@ fn box_of(geometry: &Geometry) -> Rectangle<[f64; 2]> {
     }
 }
 
-/// Returns the ends of a line or arc.
 fn ends_of(geometry: &Geometry) -> Option<[Xy; 2]> {
     match geometry {
         Geometry::Line(line) => Some([Xy::new(line.start.x, line.start.y), Xy::new(line.end.x, line.end.y)]),

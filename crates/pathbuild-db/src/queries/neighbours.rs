@@ -368,7 +368,6 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     all
 }
 
-/// Returns the cuts of a program.
 fn milled_moves(traced: &TracedProgram) -> Vec<TipMove> {
     let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
     milled.filter_map(|(_, movement)| tip_move(&movement)).collect()

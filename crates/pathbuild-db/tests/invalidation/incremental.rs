@@ -18,7 +18,7 @@ const PATHS: usize = 6;
 /// An edit. Numbers are taken modulo the number of candidates, so that any part of a sequence is a valid sequence.
 #[derive(Clone, Debug)]
 enum Step {
-    /// Lowers B of a path.
+    /// Raises B of a path by 0.1 mm.
     Deepen(usize),
     /// Inserts a remark before a path.
     Remark(usize),

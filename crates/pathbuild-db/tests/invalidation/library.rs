@@ -22,7 +22,7 @@ pub(crate) struct Drawing {
 /// The result for a path according to the specification.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Prediction {
-    /// All depths of a valid path, in the order of milling.
+    /// The values of B of a valid path and of everything that it embeds, in tenths of a millimetre and in the order of milling.
     Milled(Vec<u32>),
     /// The codes of the path's errors.
     Wrong(BTreeSet<&'static str>),

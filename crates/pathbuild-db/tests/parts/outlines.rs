@@ -79,7 +79,6 @@ fn a_gap_in_a_line_across_the_part_does_not_matter() {
     assert_eq!(codes(&beside(&format!("{whole}\nline 0,1 38,19"))), [""; 0]);
 }
 
-/// A line from the open outline to the hole changes nothing.
 #[test]
 fn a_line_from_an_open_outline_to_its_hole_does_not_close_it() {
     let found = messages(&beside(&format!("line 2,1 40,1\n{SIDES}\n{CIRCLE}\nline 40,20 22.5,10")));

@@ -242,7 +242,7 @@ fn a_stray_cut_is_found_where_it_is_deepest() {
         let away = direction(random.between(0.0, 360.0));
         let aside = direction(random.between(0.0, 360.0));
         let (begin, wrong) = (Xy::origin() + away * 45.0, random.between(0.03, 2.0));
-        // The cut ends where its distance from the edge is right, less the error.
+        // The cut ends where its distance from the part is too small by `wrong`.
         let mut reach = 45.0;
         while part.signed(Xy::origin() + away * reach) > TOOL / 2.0 - wrong {
             reach -= 0.1;

@@ -47,7 +47,6 @@ fn direction(piece: &Geometry, part: f64) -> XY {
     [(b[0] - a[0]) / length, (b[1] - a[1]) / length]
 }
 
-/// Returns the distance of a point from a piece.
 fn to_piece(point: XY, piece: &Geometry) -> f64 {
     let to_ends = distance(point, at(piece, 0.0)).min(distance(point, at(piece, 1.0)));
     match piece {
@@ -76,7 +75,6 @@ fn deviation(pieces: &[Geometry], curve: impl Fn(f64) -> XY) -> f64 {
     points.iter().map(to_pieces).fold(0.0, f64::max)
 }
 
-/// Returns the distance of a point from a polygon.
 fn to_polygon(point: XY, polygon: &[XY]) -> f64 {
     let to_side = |side: &[XY]| {
         let [dx, dy] = [side[1][0] - side[0][0], side[1][1] - side[0][1]];

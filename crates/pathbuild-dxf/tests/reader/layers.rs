@@ -122,7 +122,6 @@ fn of_several_records_of_a_name_the_first_counts() {
     }
 }
 
-/// There are very many records with almost the same name.
 #[test]
 fn records_are_found_among_thousands_that_are_almost_the_same() {
     const BITS: usize = 11;

@@ -47,7 +47,6 @@ pub(crate) fn file(header: &str, tables: &str, blocks: &str, entities: &str) -> 
         + "  0\nEOF\n"
 }
 
-/// Reads a file and keeps all layers.
 pub(crate) fn read_all(file: impl AsRef<[u8]>) -> Drawing {
     read(file.as_ref(), &options())
 }

@@ -13,7 +13,8 @@ use crate::text::TextId;
 use crate::values::check_bar;
 
 impl Binder<'_> {
-    /// Adds the cut of a segment in a milling chain. Returns the segment's order among those that meet at a point, and the cut's index in the path.
+    /// Adds the cut of a segment in a milling chain. Returns the segment's order among the segments that meet at a point, and the cut's index in the
+    /// path.
     pub(super) fn cut(
         &mut self,
         element: &Element,

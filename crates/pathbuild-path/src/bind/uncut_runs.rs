@@ -54,8 +54,8 @@ impl UncutRun<'_> {
     }
 }
 
-/// Returns the connected groups of several segments that are together at least as long as P + U although none of them has a gap: among all
-/// segments, and among those of polylines and of approximated curves.
+/// Returns the runs of two or more connected segments that are together at least as long as P + U although none of them has a gap. Runs are sought
+/// among all segments, and again within polylines and approximated curves.
 pub(super) fn uncut_runs<'a>(segments: &[SupportSegment<'a>]) -> Vec<UncutRun<'a>> {
     if segments.iter().all(SupportSegment::has_gap) {
         return Vec::new();

@@ -210,7 +210,6 @@ impl Ord for PathName {
     }
 }
 
-/// Returns a layer name with `_` replaced by `.`.
 fn with_points(layer: &str) -> Cow<'_, str> {
     if layer.contains('_') { Cow::Owned(layer.replace('_', ".")) } else { Cow::Borrowed(layer) }
 }

@@ -253,7 +253,6 @@ impl DefaultPattern {
         }
     }
 
-    /// Returns the match if the text matches as a whole.
     fn whole(self, text: &str) -> Option<Match> {
         self.at(text, 0).filter(|found| found.range.end == text.len())
     }

@@ -22,7 +22,7 @@ use crate::read::rings::{
 /// larger gaps.
 const MAX_RELATIVE_GAP: f64 = 0.1;
 
-/// Minimum share of the length of chains that must lie between the points where they cross, for them to form an outline with overlong ends.
+/// Minimum share of the length of crossing chains that must lie between their crossings, so that the chains count as an outline with overlong ends.
 const MIN_CHAIN_SHARE: f64 = 0.9;
 
 /// An outline that cannot be compared with cuts.

@@ -23,7 +23,7 @@ pub(crate) struct Candidate {
     pub(crate) is_taken: bool,
 }
 
-/// The owner of a text that belongs to a candidate.
+/// The part of a path that a candidate stands for. It gets the text that is assigned to the candidate.
 #[derive(Clone, Copy)]
 pub(crate) enum Owner {
     Start,
@@ -187,7 +187,6 @@ pub(crate) fn nearest_miss(
     nearest
 }
 
-/// Returns the kind of overlap and the distance if a text overlaps a shape.
 fn overlap(text: &TextCircle, shape: &Shape) -> Option<(OverlapKind, f64)> {
     match shape {
         Shape::Circle { centre, radius } => {

@@ -9,7 +9,6 @@ use crate::approx::above;
 use crate::element::{Source, diagnostic_point};
 use crate::geometry::{Arc, Curve, Line, Xy, direction};
 
-/// A text of the drawing with its source.
 #[derive(Clone, Copy)]
 pub(super) struct FoundText<'d> {
     pub(super) source: Source,
@@ -155,7 +154,7 @@ impl TextCircle {
     }
 }
 
-/// Lengths in characters of the rows of a text line, wrapped at spaces as in a CAD program.
+/// Iterator over the lengths, in characters, of the rows into which a CAD program wraps a line of text at spaces.
 struct Rows<'t> {
     words: std::str::Split<'t, char>,
     /// The width of a row in characters.

@@ -76,7 +76,7 @@ fn another_pattern_holds_in_place_of_the_default() {
     for name in ["gear", "GEAR", "x12"] {
         assert!(pattern.layer(name).is_some(), "{name}");
     }
-    // The pattern matches as a whole, either of its alternatives, and not `^[a-z]+` or `x([0-9]+)$`.
+    // Either alternative must match the whole name: the pattern does not mean `^[a-z]+` or `x([0-9]+)$`.
     for name in ["gear1", "yx12", "2913.2P"] {
         assert!(pattern.layer(name).is_none(), "{name}");
     }

@@ -213,7 +213,6 @@ fn at_takes_everything_that_the_other_start_says() {
     assert_eq!(show(own), show(borrowed));
 }
 
-/// Problems with borrowed parameters are reported at the lending path.
 #[test]
 fn faults_of_borrowed_parameters_are_reported_with_the_path_they_belong_to() {
     let file =

@@ -77,7 +77,6 @@ fn over_a_hole_nothing_is_done_and_a_helical_circle_raises_the_tool() {
     );
 }
 
-/// A hole in a chain also ends the chain in which the tool returns.
 #[test]
 fn a_hole_on_the_way_ends_the_chain_of_the_way_back() {
     let walked =
