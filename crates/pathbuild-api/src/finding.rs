@@ -129,7 +129,6 @@ impl Finding {
         Self::reported_and_accepted(workspace.findings(diagnostics)).0
     }
 
-    /// Returns the findings to report, and separately those that are accepted.
     pub(crate) fn reported_and_accepted(findings: Findings) -> (Vec<Self>, Vec<Self>) {
         let accepted = findings.waived.into_iter();
         let accepted =

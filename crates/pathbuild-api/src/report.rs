@@ -162,9 +162,9 @@ pub struct PostBuild {
 pub struct OutputFile {
     /// Name of the file, relative to the library's directory if it lies below it.
     pub file: String,
-    /// Whether the file is the program itself. Otherwise, the file accompanies the program, as a setup sheet does.
+    /// Name of the path whose program the file contains.
     pub path: String,
-    /// Whether the file is the program itself. Otherwise, it belongs to it, as a setup sheet does.
+    /// Whether the file is the program itself. Otherwise, the file accompanies the program, as a setup sheet does.
     pub is_program: bool,
     /// Outcome of writing or comparing the file.
     pub state: FileState,

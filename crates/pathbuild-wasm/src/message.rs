@@ -136,7 +136,6 @@ impl From<Value> for Answer {
 }
 
 impl Answer {
-    /// Serializes the answer as one message.
     pub(crate) fn message(self) -> Vec<u8> {
         let mut message = self.head.to_string().into_bytes();
         message.push(b'\n');

@@ -195,13 +195,13 @@ impl Program {
         Self { file: file.to_owned(), text, dialect, evidence, shown, read, by_definition, options }
     }
 
-    /// Returns ten times the number of the G code that selects inches: 200 for G20.
+    /// Returns the program at its nominal heights, without the correction formulas.
     pub fn at_nominal_heights(&self) -> Text<'_> {
         let options = Options { heights: Heights::Nominal, ..self.options.clone() };
         Text { text: self.code(), dialect: self.dialect, options }
     }
 
-    /// Returns ten times the G code that selects inches.
+    /// Returns ten times the number of the G code that selects inches: 200 for G20.
     pub fn inch_word(&self) -> u16 {
         self.options.unit_words(self.dialect.rules())[0]
     }

@@ -34,12 +34,10 @@ pub(crate) fn number(record: &Record, code: i32) -> f64 {
     value(record, code).unwrap().trim().parse().unwrap()
 }
 
-/// Returns the entities of a drawing in text form.
 pub(crate) fn entities(text: &str) -> Vec<Record> {
     section(&records(&dxf(text)), "ENTITIES")
 }
 
-/// Converts a drawing in text form to DXF.
 pub(crate) fn dxf(text: &str) -> Vec<u8> {
     pathbuild_testkit::sheet(text).unwrap().to_dxf()
 }

@@ -67,7 +67,6 @@ impl Canvas {
         self.raw(&format!("<title>{}</title>", escaped(text)));
     }
 
-    /// Defines a rectangle for clipping.
     pub(super) fn clip(&mut self, id: &str, [[x, y], [right, bottom]]: [Point; 2]) {
         self.raw(&format!(
             "<clipPath id=\"{id}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>",

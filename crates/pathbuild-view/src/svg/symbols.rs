@@ -295,7 +295,6 @@ pub(super) fn reserve_symbols(path: &ScenePath, place: &PageTransform, room: &mu
     }
 }
 
-/// Returns the start and end markers of a path.
 fn markers(path: &ScenePath) -> [Option<&Element>; 2] {
     let marker = |kind| path.elements.iter().find(|element| element.path == 0 && element.kind == kind);
     [marker(ElementKind::Start), marker(ElementKind::End)]

@@ -83,7 +83,6 @@ pub(in crate::config) const PART_TOLERANCE: ValueType<f64> = ValueType {
 /// Smallest value of [`PART_TOLERANCE`], in mm.
 const MIN_PART_TOLERANCE: f64 = 0.005;
 
-/// A positive whole number.
 pub(in crate::config) const COUNT: ValueType<u64> = ValueType {
     read: |value, reader| {
         reader.require(whole_number(value).filter(|count| *count > 0), &messages::COUNT, value)

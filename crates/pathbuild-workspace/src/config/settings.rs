@@ -107,7 +107,7 @@ impl Settings {
         options.find(|option| option.name == name).map_or(Origin::Default, |option| option.origin)
     }
 
-    /// Adds the configuration's file and line to a diagnostic if the value with this origin was set there.
+    /// Adds the configuration's file and line to a diagnostic if the configuration sets the value with this origin.
     pub(crate) fn locate(&self, problem: Diagnostic, origin: Origin) -> Diagnostic {
         match (&self.file, origin.line()) {
             (Some(file), Some(line)) => problem.in_file(file).at_line(line, None),

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Text;
 use pathbuild_gcode::interpret::code_name;
 use pathbuild_motion::{Action, Change, Coolant, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem};
 
-/// A kind of statement in a program other than a move.
+/// A kind of change that a program makes to the machine's state, or of event, in addition to its moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum StateKind {
@@ -19,7 +19,7 @@ pub enum StateKind {
     Dwell,
 }
 
-/// The first difference between two programs in one kind of statement.
+/// The first difference between two programs in one [`StateKind`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StateChange {
     /// The kind of the difference.
@@ -139,7 +139,8 @@ impl MachineStates {
         self.stated[kind as usize].push(StatedWords { cut: self.cuts, words, line });
     }
 
-    /// Returns the first difference of each kind. If the programs have different numbers of cuts, only the order of the words is compared.
+    /// Returns the first difference of each kind. If the programs have different numbers of cuts, their words are compared in order, whatever the
+    /// cuts at which they stand.
     pub fn changes(&self, new: &Self) -> Vec<StateChange> {
         StateKind::ALL.into_iter().filter_map(|kind| self.first_change(new, kind)).collect()
     }
@@ -158,7 +159,7 @@ impl MachineStates {
         let words = [0, 1].map(|side| match found[side] {
             Some(stated) => stated.words.clone(),
             None if kind.is_event() => String::new(),
-            // The words before still apply.
+            // The words stated before still apply.
             None => at.checked_sub(1).map_or_else(String::new, |before| sides[side][before].words.clone()),
         });
         Some(StateChange { kind, words, line: found[1].map(|stated| stated.line) })

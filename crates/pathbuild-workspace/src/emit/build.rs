@@ -216,7 +216,6 @@ fn write_native(
     job.files.iter().map(output).filter_map(Result::transpose).collect()
 }
 
-/// Returns PB609 for each probe that corrects no move.
 fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Item = Diagnostic> {
     let unused = native::unused_probes(program, correction).into_iter();
     unused.map(|probe| Diagnostic {

@@ -229,7 +229,7 @@ impl Emitter<'_> {
         format!("emit {:?} {identity}", post_processor.file())
     }
 
-    /// Adds to the recorded inputs of the plan what was read to build its program, and the generated files.
+    /// Completes the recorded inputs of a plan with the files that its program inserts and the generated files.
     fn complete_inputs(&self, answer: &mut Answer<Plan>) {
         let Some(inputs) = &mut answer.inputs else { return };
         let job = answer.value.remaining_job();

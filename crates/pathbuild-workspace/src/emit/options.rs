@@ -47,7 +47,7 @@ pub fn missing_values(context: &Workspace, names: impl IntoIterator<Item = &'sta
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Returns a sentence about a configuration that exists but does not apply to this run, so that users do not set keys in it in vain.
+/// Returns a sentence about a configuration that exists but does not apply to this run, because keys that users set in it would have no effect.
 fn no_configuration(context: &Workspace) -> Option<String> {
     if context.settings.file.is_some() {
         return None;

@@ -38,8 +38,8 @@ pub(super) struct Job {
     /// The paths in milling order; never empty.
     #[serde(skip)]
     pub(super) targets: Vec<Target>,
-    /// The drawings that were read for the paths, starting with the first path's own. Includes drawings that were searched in vain for an embedded
-    /// path.
+    /// The drawings that were read for the paths, starting with the first path's own. Includes drawings that were searched for an embedded path
+    /// without finding it.
     #[serde(skip)]
     pub(super) sources: Vec<SourceFile>,
     /// Name of the path as the drawing spells it, or the name of the joined program.
@@ -91,7 +91,6 @@ impl Plan {
 }
 
 impl Job {
-    /// Returns the drawing of the first path.
     pub(super) fn drawing(&self, db: &Database) -> SourceFile {
         self.targets[0].file(db)
     }

@@ -29,7 +29,7 @@ pub struct Change {
 pub struct EditedConfiguration {
     /// The new text.
     pub text: String,
-    /// Each value with the previous one.
+    /// The inserted values, each with the value that it replaces.
     pub changes: Vec<Change>,
     /// Warnings about tools that seem to replace others.
     pub problems: Vec<Diagnostic>,

@@ -37,7 +37,6 @@ pub(super) struct Entries {
 }
 
 impl Entries {
-    /// Creates entries for a format in which the first entry of each name is in force.
     pub(super) fn with_first_effective() -> Self {
         Self { is_first_effective: true, ..Self::default() }
     }

@@ -48,7 +48,6 @@ const FORMAT: &str = "LinuxCNC";
 
 static UNIT: Text = Text { en: "mm or inch", de: "mm oder inch" };
 
-/// Returns the unit of lengths, if the file names a known one.
 pub(super) fn length_unit(text: &str) -> Option<LengthUnit> {
     named_unit(&entries(text).ok()?.take("TRAJ/LINEAR_UNITS")?.value)
 }

@@ -109,7 +109,6 @@ impl ArgumentMatches {
 }
 
 impl Argument {
-    /// Whether no drawing and no directory matches a name.
     fn is_unknown(&self) -> bool {
         matches!(self, Self::Name { candidates, drawing: None, directory: None, .. } if candidates.is_empty())
     }
@@ -352,7 +351,6 @@ impl Session<'_> {
     }
 }
 
-/// Returns an argument as a pattern, if it contains wildcards.
 fn pattern_of(name: &str) -> Option<Pattern> {
     name.contains(['*', '?', '[']).then(|| Pattern::new(name).ok()).flatten()
 }

@@ -165,7 +165,7 @@ struct Directory {
 }
 
 impl Directory {
-    /// Returns a directory with unknown contents, because listing it triggered a bug.
+    /// Returns a directory whose contents are unknown because listing it triggered a bug.
     fn unreadable(directory: &Utf8Path, bug: Diagnostic) -> Self {
         let problems = vec![bug.in_file(or_current_directory(directory))];
         Self { problems, listing: Listing { is_doubtful: true, ..Listing::default() }, ..Self::default() }

@@ -42,7 +42,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     _ = Settings::new(db, reading, Arc::new(language), file_pattern, search, restrictions, fold, limits);
 }
 
-/// Returns the tools that posts choose for paths.
+/// Returns the configured tools, from which a post chooses one for each path.
 fn path_tools(context: &Workspace) -> PathTools {
     let tool = |tool: &types::Tool| PathTool {
         name: (&*tool.name).into(),

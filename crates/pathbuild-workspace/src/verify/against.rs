@@ -268,7 +268,6 @@ fn other_line(message: &'static Message, other: OtherLine) -> Diagnostic {
     Diagnostic::new(message).quoting("expected", other.expected).at_line(other.line, None)
 }
 
-/// Resolves an argument to a single path.
 fn target(session: &Session<'_>, name: &str) -> Result<Target, Failure> {
     session.one_path(name, Role::Emitted).map_err(|not_one| match not_one {
         NotOnePath::Wrong(found) => Failure::Found(found),

@@ -227,7 +227,6 @@ impl CheckRecord {
         }
     }
 
-    /// Returns the error for a check that is required but was not made.
     pub(super) fn missing_check_error(&self, required: &[Requirement]) -> Option<Diagnostic> {
         let may_be_assumed = required.contains(&Requirement::AssumedRapids);
         let is_rapids = self.requirement == Requirement::Rapids;

@@ -114,7 +114,7 @@ pub struct Verifier<'w> {
     against: Option<ReferenceProgram>,
     table: ToolTable,
     machine: Option<Machine>,
-    /// The known words of each dialect, for programs written by a post-processor and for others.
+    /// The known words, by dialect and by whether a post-processor wrote the program.
     words: Mutex<Vec<(Dialect, bool, Arc<PostWords>)>>,
 }
 

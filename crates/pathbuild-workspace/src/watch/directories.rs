@@ -25,7 +25,6 @@ pub(super) struct WatchedDirectories {
     names: BTreeSet<Utf8PathBuf>,
     /// Directories that the system refuses to watch because they cannot be listed.
     refused: BTreeSet<Utf8PathBuf>,
-    /// Symbolic and hard links among the drawings.
     links: Links,
     /// Directories and files that are watched because links point to them.
     linked: BTreeSet<Utf8PathBuf>,
@@ -235,7 +234,7 @@ impl WatchedDirectories {
         // The directory itself is watched already, because the system adds it before its subdirectories.
         for name in listing.directories.iter().filter(|_| mode == RecursiveMode::Recursive) {
             let below = join(directory, name);
-            // A symbolic link may lead back to a directory that has been seen.
+            // A symbolic link may point to a directory that has been seen.
             if seen.insert(system.canonical(&below)) {
                 self.watch_one(source, system, &below, mode, seen)?;
             }

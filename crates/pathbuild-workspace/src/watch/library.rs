@@ -206,7 +206,6 @@ impl<'a> Library<'a> {
         std::mem::take(&mut self.unfollowed)
     }
 
-    /// Whether drawings are still to be checked.
     pub(super) fn has_backlog(&self) -> bool {
         !self.open.is_empty()
     }
@@ -435,7 +434,7 @@ fn has_other_content(before: &DrawingResult, now: &DrawingResult) -> bool {
     before.names != now.names || content(before) != content(now)
 }
 
-/// Returns the directory that a diagnostic is about, in which `.` stands for the working directory.
+/// Returns the directory that a diagnostic names; the empty path for `.`, the working directory.
 fn or_dot(directory: &Utf8Path) -> &Utf8Path {
     if directory == "." { Utf8Path::new("") } else { directory }
 }

@@ -55,7 +55,6 @@ impl<'a> Writer<'a> {
         self.post_processor.as_ref()
     }
 
-    /// Returns the drawings that contain target paths.
     pub(super) fn target_drawings(&self, session: &Session<'_>, files: &[SourceFile]) -> Vec<SourceFile> {
         let mut configured = TargetPatterns::new(&self.workspace.settings);
         let mut is_written = |file: &&SourceFile| {
@@ -65,7 +64,6 @@ impl<'a> Writer<'a> {
         if self.is_on { files.iter().filter(|file| is_written(file)).copied().collect() } else { Vec::new() }
     }
 
-    /// Returns the files that make up the post-processor.
     pub(super) fn sources(&self) -> Vec<Utf8PathBuf> {
         self.post_processor.as_ref().map(PostProcessor::sources).unwrap_or_default()
     }

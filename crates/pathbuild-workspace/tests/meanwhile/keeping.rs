@@ -120,8 +120,8 @@ fn results_of_drawings_that_are_gone_go() {
     assert_eq!(size(&place), size(&alone));
 }
 
-/// Two names mean the same drawing if their directories have the same real path. If a link now leads to copies with the same names and
-/// bytes, one drawing becomes two.
+/// Two names mean the same drawing if their directories have the same real path. If a link now points to copies with the same names and bytes, one
+/// drawing becomes two.
 #[cfg(unix)]
 #[test]
 fn a_link_that_leads_to_a_copy_makes_drawings_ambiguous() {

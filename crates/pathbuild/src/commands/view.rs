@@ -114,7 +114,6 @@ struct Output {
     shown: VisibleParts,
 }
 
-/// The formats of scenes.
 #[derive(Clone, Copy)]
 enum Format {
     Svg,

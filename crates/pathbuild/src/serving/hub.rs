@@ -47,7 +47,7 @@ struct PublishedDrawing {
 /// A request of a page for a scene or a picture, to be answered by the watching thread.
 pub(super) struct Question {
     pub(super) subject: Subject,
-    /// Receives the answer; `None` means that there is no such path.
+    /// Channel to which the answer is sent; `None` means that there is no such path.
     pub(super) answer: oneshot::Sender<Option<String>>,
 }
 

@@ -95,7 +95,7 @@ fn shims(sheet: &Sheet, words: Words) -> Vec<String> {
     distinct(raised.iter().map(|(_, raise)| *raise)).into_iter().map(text).collect()
 }
 
-/// Returns the paths that their embedding raises, with the height in mm by which it raises them.
+/// Returns the paths that are raised above the path that embeds them, each with the difference in height in mm.
 fn raised_paths(path: &ScenePath) -> impl Iterator<Item = (&EmbeddedPath, f64)> {
     path.embedded.iter().filter_map(|embedded| {
         let embedder = &path.elements[embedded.by? as usize];

@@ -145,7 +145,7 @@ pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f
 pub(super) struct RapidHeights {
     /// Heights of moves in the plane, in ascending order.
     pub(super) across: Vec<f64>,
-    /// Number of these heights that are below the upper face of the material, where moves cross areas already milled.
+    /// Number of heights in `across` that are below the upper face of the material, where moves cross areas already milled.
     pub(super) inside: usize,
     /// Lowest end of the moves straight down.
     pub(super) down: Option<f64>,
