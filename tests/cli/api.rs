@@ -31,7 +31,7 @@ fn rows(place: &Place, kind: &str, arguments: &str) -> Vec<Json> {
     let run = place.run(&format!("{arguments} --format json"));
     let is_printed = arguments.ends_with("-o -");
     let document = if is_printed { run.stderr } else { run.stdout };
-    // Beside the document, stderr has lines about the status of the run.
+    // Besides the document, stderr contains lines about the status of the run.
     let lines = document.lines().filter(|line| !is_printed || line.starts_with('{'));
     let lines = lines.map(|line| serde_json::from_str::<Json>(line).unwrap());
     lines.filter(|line| line["type"] == kind).collect()

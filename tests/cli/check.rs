@@ -38,7 +38,7 @@ fn a_check_ends_with_one_line() {
     assert_snapshot!(timeless(&library().run("check --lang de --format concise")));
 }
 
-/// Directories with ignore files are walked in a different way, which must name drawings alike.
+/// Directories with ignore files are walked in a different way, which must give drawings the same names.
 #[test]
 fn drawings_are_named_alike_with_and_without_rules() {
     let (plain, ruled) = (library(), library().file("parts/.ignore", "nothing\n"));

@@ -74,7 +74,7 @@ fn each_feed_of_a_program_is_compared() {
     assert_eq!(lines("G1 X10 F600\nS9000\nG1 X20"), [9], "the same feed at another speed");
 }
 
-/// The tool of a native program, which always selects T1, is that of its path and its O.
+/// A native program always selects T1, so its tool is determined by its path and its O.
 #[test]
 fn feeds_of_a_native_program_are_compared() {
     let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 MX F600\"\nmill 0,0 40,0\nend 40,0\n";

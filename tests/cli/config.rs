@@ -4,7 +4,6 @@ use crate::support::{Place, Run, runs};
 use insta::assert_snapshot;
 use pathbuild_testkit::sheet;
 
-/// Runs `config show --origin` with this configuration.
 fn show(text: &str, arguments: &str) -> Run {
     Place::new().file("pathbuild.toml", text).run(&format!("config show --origin {arguments}"))
 }

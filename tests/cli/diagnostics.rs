@@ -8,7 +8,6 @@ use pathbuild_testkit::Fixture;
 /// Codes without an example: it would require a bug, or a block, which examples do not contain.
 const WITHOUT_EXAMPLE: &[&str] = &["PB006", "PB525"];
 
-/// Returns the codes with their examples.
 fn examples() -> impl Iterator<Item = (String, Option<&'static str>)> {
     Code::ALL.iter().map(|code| (code.to_string(), code.example()))
 }

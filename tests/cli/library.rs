@@ -7,7 +7,6 @@ use std::process::{Command, Output};
 
 use pathbuild_testkit::sheet;
 
-/// The three folders of the library.
 const FOLDERS: [&str; 3] = ["components", "projects", "mistakes"];
 
 fn library() -> PathBuf {

@@ -153,7 +153,7 @@ fn in_plane(it: &Value) -> f64 {
 /// Tolerance in mm for numbers with three decimals, and for arcs in pieces of half a degree.
 const DIGITS: f64 = 0.005;
 
-/// Returns points of a move; for an arc, many.
+/// Returns the ends of a move and, for an arc, many points along it.
 fn points(it: &Value) -> Vec<[f64; 3]> {
     let place = |end: &str| [0, 1, 2].map(|axis| number(it, end, axis));
     let (from, to) = (place("from"), place("to"));

@@ -449,7 +449,7 @@ fn the_offset_of_the_workpiece_is_taken_off() {
     assert_eq!(problems, ["sender.log:2:1 PB602", "sender.log:4:1 PB602"]);
 }
 
-/// A zero that is set anew between two probes would tilt the plane.
+/// Setting the zero again between two probes would tilt the plane.
 #[test]
 fn all_results_of_a_log_have_the_same_zero() {
     let with_second = |offset: &str| {
@@ -462,7 +462,7 @@ fn all_results_of_a_log_have_the_same_zero() {
     assert_eq!(refused(with_second("-5.000,-5.000,-49.999")), ["sender.log:4:1 PB601"]);
 }
 
-/// All results may be shifted by the same offset, because a log need not state it, but not relative to each other.
+/// A log need not state the offset of the workpiece, so all results may be shifted by the same amount, but not relative to each other.
 #[test]
 fn the_results_of_a_log_are_at_the_places_of_the_probes() {
     let values =

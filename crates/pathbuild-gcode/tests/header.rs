@@ -136,7 +136,7 @@ fn a_description_holds_while_its_tool_is_in_use() {
     // T alone only selects the next tool, unless the program has no M6.
     assert_eq!(tools(&format!("{two}T1 M6\nT2\n{CUT}")), ["4: T1 6 flat 6"]);
     assert_eq!(tools(&format!("{two}T2\n{CUT}")), ["4: T2 3 flat 3"]);
-    // Without a tool change, a description belongs to the tool only if it is the only one.
+    // Without a tool change, a description belongs to the tool only if there is no other description.
     assert_eq!(tools(&format!("{two}{CUT}")), ["0: - unknown"]);
     assert_eq!(tools(&format!("(T1 D=6 CR=0 - ZMIN=-1 - flat end mill)\n{CUT}")), ["0: T1 6 flat 6"]);
 }

@@ -1074,7 +1074,7 @@ fn a_cycle_may_be_stored_without_drilling() {
             run(dialect, &program(zero))[1..],
             ["4 rapid to 3 0 5", "4 rapid to 3 0 1", "4 feed 100 to 3 0 -2", "4 rapid to 3 0 5"]
         );
-        // With X or Y, the tool goes there: around a clamp, for example.
+        // If the line has X or Y, the tool moves there without drilling, for example around a clamp.
         let around = program(&format!("X1. {zero}"));
         assert_eq!(wrong(dialect, &around), FINE);
         assert_eq!(run(dialect, &around)[1..3], ["3 rapid to 1 0 5", "4 rapid to 3 0 5"]);

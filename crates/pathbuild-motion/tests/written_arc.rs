@@ -41,7 +41,7 @@ fn a_centre_beside_the_nearest_one_fits_both_ends() {
         assert!(difference(&arc, [0.0; 2]) > 0.002);
         let by = arc.centre_correction().unwrap();
         assert!(difference(&arc, by) < 0.001 && by.iter().all(|by| by.abs() <= 0.001), "{by:?}");
-        // In inches with four decimals everything is the same, but 2.54 times as coarse.
+        // Numbers in inches with four decimals are 2.54 times as coarse, so the same applies to arcs that are larger by this factor.
         let large = |point: [f64; 2]| point.map(|at| at * 2.54);
         let inches = |length: f64| libm::round(length / 25.4 * 10_000.0) / 10_000.0;
         let [from, to, centre] = [large(from), large(to), large(centre)];

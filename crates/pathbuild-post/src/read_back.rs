@@ -182,8 +182,8 @@ fn is_of_modes(problem: &Diagnostic) -> bool {
     [&gcode::UNITS_NOT_STATED, &gcode::MODES_NOT_STATED].contains(&problem.message)
 }
 
-/// Returns errors about the rapid moves of a text that lead through material because the control does not go straight. They are judged only if all
-/// cutters and the surface are known.
+/// Returns errors about the rapid moves of a text that lead through material because the control does not move in a straight line. These moves are
+/// examined only if all cutters and the surface are known.
 fn bent_rapids(steps: &[Step], job: &Job, cuts: &[MatchedCut], target: &Target) -> Vec<Diagnostic> {
     let Some(stock) = stock(job, cuts) else { return Vec::new() };
     let Some(mut rules) = BentRapidRules::new(target.reader, &stock) else { return Vec::new() };

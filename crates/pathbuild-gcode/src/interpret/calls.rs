@@ -160,7 +160,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         self.loops.last().is_some_and(|open| open.is_do && *open.name == *name)
     }
 
-    /// Runs a subprogram. `Repeated` means that the lines after the call are next.
+    /// Runs a subprogram. If the result is `Repeated`, execution continues after the call.
     fn call(
         &mut self,
         reader: &mut BlockReader<'_>,

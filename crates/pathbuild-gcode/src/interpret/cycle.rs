@@ -110,7 +110,7 @@ impl Interpreter<'_> {
         });
     }
 
-    /// Reports the first hole whose R, Z or Q was stated in the other unit. LinuxCNC keeps these numbers: `Z-2` in mm becomes `Z-2` in inches.
+    /// Reports the first hole whose R, Z or Q was stated before the unit changed. LinuxCNC keeps these numbers: `Z-2` in mm becomes `Z-2` in inches.
     fn check_unit_of_cycle(&mut self, block: &Block<'_>, is_z_given: bool) {
         let CycleState { r, z, q, stated, .. } = self.state.cycle;
         let Some(stated) = stated.filter(|stated| stated.unit != self.state.unit) else { return };

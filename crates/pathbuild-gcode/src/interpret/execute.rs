@@ -201,7 +201,7 @@ impl<'i> Interpreter<'i> {
         self.begins_subprogram = false;
     }
 
-    /// Converts a height or coordinate to mm.
+    /// Converts a height or coordinate to mm. If the options ask for nominal heights, its correction is subtracted.
     pub(super) fn millimetres(&self, slot: Slot) -> f64 {
         let value = match self.options.heights {
             Heights::Nominal => slot.value - slot.correction,

@@ -37,7 +37,7 @@ pub(super) struct State {
     pub(super) feed_unit: FeedUnit,
     /// F in the unit given by [`feed_unit`](Self::feed_unit), with lengths in mm.
     pub(super) feed: f64,
-    /// Where the program stated F, unless F is inverse time.
+    /// The line that stated F, with the unit in effect there; `None` if F is an inverse time, or the line has been reported.
     pub(super) feed_stated: Option<StatedLength>,
     /// Line and code (times ten) of the feed mode word that cleared F.
     pub(super) feed_cleared: Option<(u32, u16)>,
@@ -54,7 +54,7 @@ pub(super) struct State {
     pub(super) retract_to_r: bool,
     /// The line of a tool change at which a drilling cycle was in effect, if there has been no motion word since then.
     pub(super) change_within_cycle: Option<u32>,
-    /// Where the program stated the active G52 or G92.
+    /// The line that stated the active G52 or G92, with the unit in effect there.
     pub(super) shift_stated: Option<StatedLength>,
     pub(super) cycle: CycleState,
     pub(super) offsets: Offsets,

@@ -12,9 +12,8 @@ use pathbuild_diagnostic::Text;
 pub(super) struct Variable {
     /// Name of the variable without tildes.
     pub(super) name: &'static str,
-    /// Whether its value is a text instead of a number.
+    /// Whether the value of the variable is a text; otherwise it is a number.
     pub(super) is_text: bool,
-    /// Control texts in which the variable is available.
     pub(super) presence: Presence,
     /// Meaning of the value, for the book.
     pub(super) about: Text,

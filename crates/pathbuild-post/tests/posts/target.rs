@@ -1,4 +1,4 @@
-//! Tests which outputs the target of a post accepts, and what happens otherwise.
+//! Tests which outputs the target of a post accepts, and how others are refused.
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang};
