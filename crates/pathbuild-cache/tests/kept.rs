@@ -47,7 +47,6 @@ fn catalogue(base: &Utf8Path, stamp: Stamp, bytes: &[u8]) -> Catalogue {
     }
 }
 
-/// Stores a catalogue and loads it again.
 fn stored(catalogue: &Catalogue) -> Catalogue {
     let (_directory, base) = place();
     let place = cache(&base);

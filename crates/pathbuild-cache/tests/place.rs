@@ -188,7 +188,6 @@ fn a_directory_without_a_mark_may_be_anybodys() {
     }
 }
 
-/// If the directory of one tree belongs to another user, those of other trees are still pruned.
 #[test]
 fn one_directory_that_is_refused_keeps_no_other_from_being_pruned() {
     let (_directory, base) = world();

@@ -259,7 +259,7 @@ pub(crate) struct CodeEnd {
     last: u8,
     /// Length of a group-code line of three characters, including its line end.
     length: usize,
-    /// The line end as it stands behind three characters, and the mask that covers the whole line.
+    /// The line end, shifted to its place after three characters, and the mask that covers the whole line.
     line_end_after_three: u64,
     mask: u64,
 }

@@ -96,7 +96,6 @@ fn is_finite(geometry: &Geometry) -> bool {
     }
 }
 
-/// A modification of a file.
 #[derive(Clone, Debug)]
 enum Mutation {
     Cut(prop::sample::Index, usize),

@@ -91,7 +91,6 @@ fn what_is_no_regular_file_is_refused() {
     assert_eq!(pipe, refused);
 }
 
-/// Returns the entries of a directory, sorted by name.
 #[cfg(unix)]
 fn entries(directory: &Utf8Path) -> Vec<(String, bool, EntryKind)> {
     let mut entries = Vec::new();

@@ -183,7 +183,8 @@ impl<'db> PlacedProgram<'db> {
             return Vec::new();
         };
         let file = project.instance.file(self.db);
-        // Components in the project's drawing have their parts there, too: beside themselves, and not where they are embedded.
+        // Components that are drawn in the project's own drawing have their parts there, too. Those parts lie at the drawn components, not where the
+        // components are embedded.
         let parts = if components.iter().any(|component| component.instance.file(self.db) == file) {
             parts_of(self.db, project.instance)
         } else {

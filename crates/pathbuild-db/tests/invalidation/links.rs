@@ -18,7 +18,6 @@ fn codes(drawing: &Utf8Path, path: &str) -> Vec<String> {
     check_target(&db, target).map(|found| found.code().to_string()).collect()
 }
 
-/// A drawing that has two names counts as one definition.
 #[test]
 fn a_link_to_a_drawing_is_no_second_definition() {
     let directory = tempfile::tempdir().unwrap();

@@ -154,7 +154,6 @@ impl World {
         self.touch(file, is_new);
     }
 
-    /// Removes a file and notifies the database.
     pub(crate) fn remove(&mut self, file: &str) {
         self.system.remove(file.into()).unwrap();
         self.touch(file, true);

@@ -115,7 +115,7 @@ fn overlong_ends_are_a_crossing_and_no_gap() {
 
 #[test]
 fn an_outline_in_the_shape_of_an_eight_crosses_itself() {
-    // Either the two halves have the same area, or one is larger.
+    // The two halves of the figure have the same area, or one half is larger.
     for right in ["40,20 40,1", "40,24 40,1"] {
         let found = messages(&beside(&format!("polyline 0,1 {right} 0,20 closed\ncircle 5,10 d 2")));
         assert!(found.len() == 1 && found[0].contains("crosses itself at ("), "{found:?}");
@@ -163,7 +163,6 @@ fn dangling_lines_and_lines_across_the_part_are_dropped() {
     assert_eq!(codes(&beside(&format!("{whole}\nline 0,1 40,1"))), [""; 0], "drawn twice");
 }
 
-/// A line from the outer edge to an opening belongs to neither.
 #[test]
 fn a_line_between_two_rings_is_dropped() {
     let drawing =

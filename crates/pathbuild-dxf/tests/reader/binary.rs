@@ -12,7 +12,6 @@ enum Codes {
     TwoBytes,
 }
 
-/// Converts an ASCII file to binary form.
 fn binary(ascii: &str, codes: Codes) -> Vec<u8> {
     let mut bytes = SENTINEL.to_vec();
     let lines: Vec<&str> = ascii.lines().collect();

@@ -445,7 +445,7 @@ fn a_block_that_draws_on_unread_layers_only_is_left_out() {
     assert_eq!(layers, ["X", "Z"]);
 }
 
-/// One element on the layer is enough, and neither texts nor annotations need to be on it.
+/// A block is complete if one of its elements is on the layer of the insertion. Texts and annotations may be on any layer.
 #[test]
 fn a_block_that_draws_on_its_layer_or_nothing_is_complete() {
     let on = |layer: &str| LINE.replace("8 P", &format!("8 {layer}"));

@@ -267,7 +267,6 @@ fn spline(degree: usize, knots: &[f64], points: &[[f64; 3]], groups: &str) -> St
     entities(&format!("0 SPLINE\n8 A\n71 {degree}\n{}\n{}\n{groups}", knots.join("\n"), points.join("\n")))
 }
 
-/// Compares a spline with its definition.
 fn check_spline(degree: usize, knots: &[f64], points: &[[f64; 3]], tolerance: f64) -> usize {
     let drawing = approximated(&spline(degree, knots, points, ""), tolerance);
     let [from, to] = [knots[degree], knots[points.len()]];

@@ -170,7 +170,7 @@ fn an_attribute_definition_is_left_out_where_it_is_visible() {
     assert_eq!(drawing.left_out, []);
 }
 
-/// The first point of a hatch is its elevation, and the last ones need not lie on it.
+/// The first point of a hatch is its elevation, and its last points need not lie on its boundary.
 #[test]
 fn of_a_hatch_a_point_of_its_boundary_is_kept() {
     let boundary = "10 0\n20 0\n30 0\n91 1\n93 2\n10 3\n20 4\n10 5\n20 6\n98 1\n10 0\n20 0";

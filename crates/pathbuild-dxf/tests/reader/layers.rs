@@ -186,7 +186,7 @@ fn layers_that_differ_in_one_character_are_not_the_same() {
     let of_length = |length: usize| (0..=length).map(move |place| with_other(length, place));
     for lengths in (1..=18).map(|length| length..=length).chain([1..=18]) {
         let layers: Vec<_> = lengths.flat_map(of_length).collect();
-        // Each layer occurs a second time, when all are cached.
+        // Each layer occurs a second time, when all of them are already in the cache.
         let twice: Vec<_> = layers.iter().chain(&layers).map(String::as_str).collect();
         let drawing = circles(&twice, "");
         assert_eq!(names(&drawing), layers.iter().map(|layer| (layer.as_str(), false)).collect::<Vec<_>>());

@@ -133,7 +133,7 @@ fn variables_behind_the_header_count() {
     );
 }
 
-/// What follows the entities is not read, so nothing that counts may be there.
+/// Nothing after ENTITIES is read, so a section that is needed must not be there.
 #[test]
 fn a_section_that_is_read_may_not_follow_the_entities() {
     let behind = |name: &str| {

@@ -24,8 +24,8 @@ const MAX_LISTED_LAYERS: usize = 3;
 const MAX_EXAMINED_FOR_HINTS: usize = 1_000_000;
 
 impl Texts<'_> {
-    /// Assigns each text to its element; PB107 if there is none. `margin`: minimum difference in mm between the distances from this element
-    /// and from another one; PB116 if it is less.
+    /// Assigns each text to its element. Reports PB107 for a text without an element, and PB116 if another element is nearer, or less than `margin`
+    /// mm farther away.
     pub(crate) fn assign(&mut self, path: &mut PathCollector<'_>, margin: f64) {
         let budget = SearchBudget::new(MAX_EXAMINED_ELEMENTS);
         for layer in &mut self.layers {

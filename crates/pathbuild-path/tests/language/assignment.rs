@@ -26,7 +26,6 @@ fn owners(statements: &str) -> Vec<String> {
     raw.drawn.elements.iter().map(owner).collect()
 }
 
-/// Whether a text is assigned to an element.
 fn finds(statements: &str, text: &str) -> bool {
     !codes(&drawing(&format!("{statements}\n{text}")).diagnostics).contains(&"PB107".to_owned())
 }

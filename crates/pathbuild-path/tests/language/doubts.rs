@@ -176,7 +176,7 @@ fn markers_are_no_rivals_of_elements() {
     assert_eq!(said(""), [""; 0]);
 }
 
-/// With such a text, the subpath would be an error, so the text does not belong to it.
+/// The subpath does not accept F, so a text with F cannot belong to it.
 #[test]
 fn an_element_that_does_not_know_the_letters_is_no_rival() {
     let both = "mill 0,0 40,0\nsubpath 0,3 40,3";
@@ -258,7 +258,7 @@ fn an_outline_that_has_lost_its_bars_is_doubtful() {
     }
 }
 
-/// A disc is cut out along arcs, and the cutter closes the gap of an outline.
+/// Among the outlines are a disc that is cut out along arcs, and an outline with a gap that the cutter closes.
 #[test]
 fn rims_that_have_lost_their_bars_are_doubtful() {
     const BARS: &str = "T5 O2 I1 B-0.3 D2 P3 U15 A50";

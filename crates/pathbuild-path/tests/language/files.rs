@@ -11,7 +11,6 @@ fn holds(stem: &str, name: &str) -> bool {
     holds_with(FilePattern::DEFAULT, PathPattern::DEFAULT, stem, name)
 }
 
-/// Returns those of the given paths that a file of this name may define.
 fn definable_paths<'a>(stem: &str, names: &[&'a str]) -> Vec<&'a str> {
     names.iter().copied().filter(|name| holds(stem, name)).collect()
 }

@@ -8,7 +8,6 @@ fn definition(text: &str) -> Definition {
     Definition::parse(text).unwrap_or_else(|problem| panic!("{text}: {problem:?}"))
 }
 
-/// Returns those of the values that a definition permits.
 fn allowed<'a>(text: &str, values: &[&'a str]) -> Vec<&'a str> {
     let definition = definition(text);
     values.iter().copied().filter(|value| definition.allows(value)).collect()
@@ -206,7 +205,6 @@ fn a_path_is_not_emitted_without_values_of_its_variables() {
     assert_eq!(missing(&[]), ["PB302", "PB302"]);
 }
 
-/// Bindings are equal regardless of their order.
 #[test]
 fn bindings_compare_without_order() {
     let bindings =

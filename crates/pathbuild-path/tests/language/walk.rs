@@ -182,7 +182,7 @@ fn joined_items(drawn: &str) -> (Vec<String>, Vec<String>) {
     (items_of(&compiled), compiled.found.iter().map(place).collect())
 }
 
-/// What is drilled or embedded is not moved to the end of the line before it.
+/// Holes, circles and subpaths are not moved to the end of the line before them.
 #[test]
 fn joined_holes_circles_and_subpaths_stay_where_they_are() {
     let between =
