@@ -216,7 +216,7 @@ fn a_cutter_reaches_an_arc_of_its_own_radius() {
         left.map_or(0.0, |found| number(found, "thickness"))
     };
     assert_eq!((left(20.0), left(19.981)), (0.0, 0.0));
-    // The largest distance of the edge lies between the sampled points.
+    // The point of the edge that is farthest from the cut lies between two samples.
     for missing in [0.03, 0.5] {
         assert!((left(20.0 - missing) - missing).abs() < 0.01, "{missing}: {}", left(20.0 - missing));
     }

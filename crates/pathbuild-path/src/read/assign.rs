@@ -200,7 +200,7 @@ impl<'d> LayerTexts<'d> {
     }
 }
 
-/// Whether a letter of a text is unknown to an element (PB202).
+/// Whether an element does not accept one of the letters of a text (PB202).
 fn refuses(owner: Owner, text: ParameterText<'_>, elements: &[Element]) -> bool {
     let Owner::Element(element) = owner else { return false };
     let class = elements[element].class(None);

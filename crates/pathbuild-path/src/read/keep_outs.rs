@@ -447,7 +447,7 @@ struct RingBuilder<'p> {
     is_done: Vec<bool>,
 }
 
-/// Distance in mm up to which ends may coincide and points are looked for on an outline.
+/// Search distance in mm: for ends that may coincide, and for outlines that a point of a hatch may touch.
 const END_SEARCH_RADIUS: f64 = 1e-3;
 
 impl<'p> RingBuilder<'p> {

@@ -131,7 +131,7 @@ fn the_tool_is_that_of_the_embedding_path() {
     assert!(text.contains("is drawn for a cutter of 2 mm"), "{text}");
 }
 
-/// An embedded path is in the material of the embedding path.
+/// An embedded path lies in the material of the embedding path, so it must not be thicker.
 #[test]
 fn t_of_a_segment_is_no_more_than_that_of_its_path() {
     let with = |own: &str, segment: &str| {

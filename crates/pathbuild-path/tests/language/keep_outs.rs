@@ -243,7 +243,7 @@ fn the_tool_may_go_over_a_clamp() {
 fn a_slope_counts_below_the_height() {
     let clamps = right(SQUARE);
     let ramp = |to_z| TipMove { curve: line([15.0, 5.0], [35.0, 5.0]), from_z: 35.0, to_z };
-    // The tool leaves the clamp at 21 mm, 6 mm past its start: there it is 35 - 6 / 20 * 32 = 25.4 mm high, or 24.5 mm.
+    // The tool leaves the clamp at x = 21 mm, 6 mm past the start of the ramp. There, its tip is at 35 - 6 / 20 * 32 = 25.4 mm, or at 24.5 mm.
     assert!(!enters(&clamps, &ramp(3.0)));
     assert!(enters(&clamps, &ramp(0.0)));
     let helix = |from_z: f64, to_z: f64| {

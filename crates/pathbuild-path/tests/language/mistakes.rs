@@ -236,7 +236,7 @@ fn a_line_drawn_twice_is_milled_at_two_depths() {
     assert_eq!(twice(&groove("mill 40,0 40,20\nbars 40,20 40,0")), 1);
     assert_eq!(twice(&groove("mill 40,0 40,20 \"B2\"\nmark 40,20 40,0")), 1);
     assert_eq!(twice(&groove("mill 40,0 40,20 \"B2 N1\"\nbars 40,20 40,0 \"B0 N2\"")), 0);
-    // There are three copies, and a fourth groove to return.
+    // Of three copies, the second and the third are reported.
     assert_eq!(twice(&codes_of(&format!("{}\nend 20,0", "mill 0,0 20,0\n".repeat(3)))), 2);
 }
 
