@@ -26,7 +26,7 @@ use crate::support::Place;
 const LIBRARIES: u64 = 300;
 const EDITS: usize = 10;
 
-/// Interval of library numbers at which a library is also checked by running the program, which takes longer than all other checks together.
+/// One in this many libraries is also checked by running the program, which takes longer than all other checks together.
 const OF_PROGRAM: u64 = 20;
 
 /// Kinds of faults, each of which must occur in at least 5 % of the states.

@@ -204,7 +204,7 @@ fn the_library_writes_baselines() {
     assert!(matches!(library.check_with(&["mistakes"], &missing), Err(Error::Baseline(_))));
 }
 
-/// A program need not be in a file, and the errors of a drawing to compare with are not those of the program.
+/// A program need not be in a file. Errors of the drawing to compare with are returned as an error of the call, and not as findings of the program.
 #[test]
 fn a_text_is_verified() {
     let place = example();
@@ -315,7 +315,7 @@ fn emit_and_the_library_have_the_same_options() {
         let paths: Vec<&str> = arguments.split_whitespace().take_while(|word| word.ends_with('P')).collect();
         let report = library.emit(&paths, &options).unwrap();
         let stderr = by_program.run(&format!("emit {arguments}")).stderr;
-        // The program has done that already: written files would be unchanged.
+        // The command has already been run, so the files that it wrote are now unchanged.
         let known = rows(&by_program, "output", &format!("emit {arguments}"));
         let state = |file: &OutputFile| match file.state {
             FileState::Written | FileState::Unchanged => "unchanged",

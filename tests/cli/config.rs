@@ -514,7 +514,7 @@ fn names_of_paths_that_no_file_may_have_are_refused() {
         let told = said.lines().any(|line| line.contains("error[PB004]") && line.contains(&shown));
         assert!(told, "{name}: {run}");
     }
-    // CAD programs write a bar between the name of an external reference and that of its layer: it is never part of a name.
+    // CAD programs write a vertical bar between the name of an external reference and that of its layer: it is never part of a name.
     let run = emitted("x|y");
     assert!(
         run.status == Some(0) && run.stdout.contains("y_Milling.gcode: written")

@@ -135,7 +135,7 @@ fn a_program_and_the_path_that_it_was_made_from() {
     assert_eq!(place.run("diff programs/1001.1P_Milling.gcode new").status, Some(2));
 }
 
-/// Two cuts, with everything that a program states besides moves.
+/// A program with two cuts, which also states modes, a tool and its length, spindle, coolant, a dwell and a stop.
 const TWO_CUTS: &str = "G21 G90 G17 G94 G54\nT1 M6\nG43 H1\nM3 S12000\nM8\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG4 P1\nG1 X20\nM0\nM3\nG1 X30\nG0 Z5\nM5\nM30\n";
 
 fn programs(old: &str, new: &str) -> Run {

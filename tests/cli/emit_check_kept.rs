@@ -267,7 +267,7 @@ fn an_edited_post_is_noticed() {
     assert!(run.stdout.contains(": not current\n") && run.status == Some(1), "{run}");
 }
 
-/// A file inserted by a post is an input of the programs like the post itself, whatever the post calls it, even if a macro contains the name.
+/// A file inserted by a post is an input of the programs like the post itself, however the post spells its name, even if a macro contains the name.
 #[test]
 fn an_edited_file_that_a_post_inserts_is_noticed() {
     let library = LIBRARY.replace("probe 20,20 \"LA\"\n", "");

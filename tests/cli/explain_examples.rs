@@ -1,4 +1,4 @@
-//! Checks that the examples on the pages of `explain` give exactly the noted diagnostics.
+//! Checks that the examples on the pages of `explain` give exactly the diagnostics that are noted in them.
 
 use crate::support::fixture;
 use pathbuild_diagnostic::Code;

@@ -95,7 +95,7 @@ fn a_program_whose_cuts_all_end_above_the_surface_is_not_checked() {
     assert!(above.stderr.contains("PB777") && above.stderr.contains("PB523"), "{above}");
 }
 
-/// A severity lowers the error, but the moves are unknown all the same.
+/// The configuration lowers the severity of the error, but the moves are still unknown.
 #[test]
 fn moves_after_a_word_that_is_not_followed_do_not_count_as_checked() {
     let verify = |word: &str| {

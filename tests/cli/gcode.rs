@@ -122,7 +122,7 @@ fn tools_are_those_of_the_table_where_there_is_one() {
     assert!(!elsewhere.run("verify foreign.nc --format concise").stderr.contains("PB764"));
 }
 
-/// Tools without a number have the free ones in all commands, as `emit` writes them.
+/// In all commands, tools without a number get the free numbers, as in the programs that `emit` writes.
 #[test]
 fn tools_without_a_number_have_the_free_ones() {
     let program =
@@ -148,7 +148,7 @@ fn tools_without_a_number_have_the_free_ones() {
     assert!(post("four").stderr.contains("PB764"), "{}", post("four"));
 }
 
-/// Where [tool] and the drawing disagree, the line about checks names the diameter of the drawing as that of the drawing.
+/// If [tool] and the drawing disagree, the line about checks gives the diameter of the drawing, and states that it is from the drawing.
 #[test]
 fn the_cutter_of_the_drawing_is_named_as_such() {
     let drawing = "== 1234.1P.dxf ==\nlayer 1234.1P\nstart 0,0 \"T5 O2 I1 B4\"\nmill 0,0 40,0\nend 40,0\n";
@@ -292,7 +292,7 @@ fn a_comment_that_emit_does_not_write_is_found() {
     assert!(!is_found(&place.file("pathbuild.toml", configuration)));
 }
 
-/// The cut differs by less than the rounding, but the number does not.
+/// The arc ends 0.25 mm farther along the next line. The cut itself differs by less than the rounding, but the written number differs by more.
 #[test]
 fn an_arc_that_goes_on_into_the_next_line_is_another() {
     let round = "layer 1235.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 30,0\nmill arc centre 30,10 r 10 from 270 to 0\nmill 40,10 40,40\nend 40,40\n";

@@ -128,7 +128,7 @@ fn severities_hold_for_rewritten_programs_too() {
     assert_stopped(&place, "post p.nc --dialect linuxcnc --surface 0 --post my.cbpp -o x.nc", &["524"]);
 }
 
-/// Each command whose result depends on a waiver with an end date reports the date with which that was compared.
+/// Each command whose result depends on a waiver with an end date reports the date with which the end date was compared.
 #[test]
 fn commands_name_the_date_that_decided_a_waiver() {
     let place = |until: &str| {

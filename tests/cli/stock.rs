@@ -218,7 +218,7 @@ impl ExactStock {
         exact
     }
 
-    /// Returns the exact state at a point and close beside it.
+    /// Returns the exact states at a point and at points close to it.
     fn around(&self, at: Point, away: f64) -> Vec<Exact> {
         let beside = ring(at, away).into_iter().chain(ring(at, away / 2.0));
         std::iter::once(at).chain(beside).map(|at| self.at(at)).collect()

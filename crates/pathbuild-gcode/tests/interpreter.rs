@@ -1052,7 +1052,7 @@ fn fanuc_numbers_its_switches_for_block_delete() {
     assert_eq!(wrong(LinuxCnc, "G0 X0 Y0 Z5\n/2 G0 Z6").len(), 2);
 }
 
-/// The spindle may never start if M8 is the one that an older Fanuc obeys.
+/// The spindle may never start if M8 is the only M code of the line that an older Fanuc obeys.
 #[test]
 fn haas_takes_one_m_code_per_line_and_some_fanucs_obey_one() {
     assert_eq!(wrong(Haas, "S900 M3 M8"), ["2 conflicting-words"]);
@@ -1742,7 +1742,7 @@ fn g10_l20_after_a_probe_says_where_the_tool_is() {
     for zero in ["G10 L20 P1 Z15", "G10 L20 P0 Z15", "G92 Z15"] {
         assert_eq!(rises(zero), ["5 rapid to 0 0 20", "6 rapid to 5 0 20"], "{zero}");
     }
-    // Another system gets a zero that is not known, but the tool stays where it is.
+    // The zero of another system becomes unknown, but the tool stays where it is.
     assert_eq!(rises("G10 L20 P2 Z15")[0], "5 rapid to 0 0 20");
 }
 

@@ -296,7 +296,7 @@ pub struct Move {
     pub to: Position,
     pub shape: MoveShape,
     pub pace: Pace,
-    /// The position that the program names as the target, if it does so.
+    /// The position that the program specifies by name as the target; `None` if it specifies none.
     pub named: Option<NamedPosition>,
 }
 

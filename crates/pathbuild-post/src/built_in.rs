@@ -78,7 +78,7 @@ pub fn load(name: &str) -> Result<PostDefinition, Vec<Diagnostic>> {
     PostDefinition::read(post.text.as_bytes(), Utf8Path::new(&file))
 }
 
-/// Programs that reveal which words a post writes. The first one is the simplest. A post that has no text for a feature refuses the
+/// Returns programs that reveal which words a post writes. The first one is the simplest. A post that has no text for a feature refuses the
 /// corresponding program.
 pub fn samples() -> Vec<Job> {
     let hole = |kind| {

@@ -170,7 +170,7 @@ impl<'a> Builder<'a> {
         self.push(movement);
     }
 
-    /// Adds a move, but not a rapid one that leads nowhere.
+    /// Adds a move, unless it is a rapid move to the current position.
     fn push(&mut self, movement: motion::Move) {
         if movement.pace != Pace::Rapid || !movement.is_standstill() {
             self.operation_from(movement.from.at).steps.push(JobStep::Move(movement));

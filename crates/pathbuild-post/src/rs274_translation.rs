@@ -171,7 +171,7 @@ impl Rs274Translation {
         if let Some(sign) = line.formula {
             self.report(sign.to_string(), Doubt::Dangerous);
         }
-        // An O word followed by more calls or defines a subroutine, as in `o100 call`.
+        // An O word with anything after it calls or defines a subroutine, as in `o100 call`.
         if let Some(Word { letter: 'O', number }) = line.words.first().filter(|_| line.has_more) {
             self.report(format!("O{number}"), Doubt::Dangerous);
         }

@@ -26,7 +26,7 @@ pub struct UnprobedPoint {
     pub distance: f64,
 }
 
-/// Distance in mm outside the probes up to which milling is not reported. Numbers in programs are not more precise.
+/// Distance in mm outside the area of the probes up to which milling is not reported. Numbers in programs are not more precise.
 const NEGLIGIBLE_DISTANCE: f64 = 0.001;
 
 /// Length in mm of the parts that [`Correction::farthest_unprobed_point`] examines if moves are not split.
@@ -65,8 +65,8 @@ impl Correction {
         self.model.lacks_slope(&places)
     }
 
-    /// Returns the point outside the probes, and farthest from them, at which the program mills, if there is one. `None` for models with reliable
-    /// values outside the probes.
+    /// Returns the point outside the area of the probes, and farthest from it, at which the program mills, if there is one. `None` as well for models
+    /// with reliable values outside that area.
     pub fn farthest_unprobed_point(self, program: &Program) -> Option<UnprobedPoint> {
         if program.probes.is_empty() || self.model == ZModel::Idw4 {
             return None;

@@ -41,7 +41,7 @@ impl Program {
     }
 }
 
-/// The position of the tool tip while the steps of a program are made.
+/// The position of the tool tip, which is updated by each move that is made.
 #[derive(Clone, Copy, Debug)]
 pub struct ToolTip {
     /// The current position.

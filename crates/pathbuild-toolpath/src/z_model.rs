@@ -70,7 +70,7 @@ impl Surface {
 }
 
 /// Ratio of the extent of points across their main direction to that along it, below which they are treated as collinear, because they do not
-/// determine the slope across reliably.
+/// reliably determine the slope across that direction.
 const COLLINEAR_RATIO: f64 = 0.01;
 
 /// Average distance of points from their mean in mm, below which they are treated as a single point.

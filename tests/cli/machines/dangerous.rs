@@ -37,11 +37,11 @@ const AT_ONCE: usize = 100;
 /// Interval at which reported changes are also read by an independent reader.
 const SAMPLED: usize = 10;
 
-/// Distance in mm from which on a move counts as going elsewhere. It exceeds the tolerance of any dialect that is written with arcs.
+/// Distance in mm above which a move counts as going elsewhere. It exceeds the tolerance of any dialect that is written with arcs.
 const ELSEWHERE: f64 = 0.01;
 
-/// Tolerance in mm of chords that replace a helix: the post permits 0.01 mm, and the ends are rounded. A program may stay within that even without
-/// one of two chords.
+/// Tolerance in mm of chords that replace a helix: the post permits 0.01 mm, and the ends are rounded. A program may stay within this tolerance even
+/// if one of two chords is missing.
 const CHORDS: f64 = 0.0125;
 
 /// Short paths of the library with lines, arcs, bars, helices, holes, sweeps and subpaths.
@@ -176,7 +176,7 @@ fn chords_are_as_fine_as_the_post_writes_them() {
     }
 }
 
-/// Each entry has a text of a program, a line to insert before it, the text that takes its place, and the posts in whose programs the
+/// Changes to programs: the text that is changed, the line to insert before it, the text that takes its place, and the posts in whose programs the
 /// change is found.
 const PUT_IN: [(&str, &str, &str, &[&str]); 5] = [
     ("G1 X13.7", "M0", "G1 X13.7", &["grbl", "linuxcnc", "haas", "estlcam"]),

@@ -1,5 +1,5 @@
-//! Runs a fixture (crates/pathbuild-testkit, README.md): writes its files, runs its commands, and compares the diagnostics with the noted ones.
-//! Each expected diagnostic must occur once, and no others.
+//! Runs a fixture (crates/pathbuild-testkit, README.md): writes its files, runs its commands, and compares the diagnostics with those noted in it.
+//! Each of the noted diagnostics must occur once, and no others may occur.
 
 use pathbuild_testkit::{Expect, Fixture};
 use serde_json::Value as Json;

@@ -117,8 +117,8 @@ impl Place {
         (self.to_run(&arguments, output), used.rusage.utime + used.rusage.stime)
     }
 
-    /// Runs `pathbuild` and returns whether it succeeded, and its peak memory in bytes. The memory in its resource usage is no less than
-    /// that of the process which starts it.
+    /// Runs `pathbuild` and returns whether it succeeded, and its peak memory in bytes. The system never reports less for a process than for the
+    /// process that started it.
     #[cfg(target_os = "linux")]
     pub fn peak_memory(&self, arguments: &str) -> (bool, u64) {
         let mut command = self.command(".", &arguments.split_whitespace().collect::<Vec<_>>());

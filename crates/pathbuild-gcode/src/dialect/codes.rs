@@ -85,7 +85,7 @@ const fn needing(letter: char, code: u16, values: &'static [u8], needs: &'static
     InertWord { letter, code, values, harmless: &[], needs }
 }
 
-/// The words that most dialects share; each of them overrides some fields.
+/// The words that most dialects share. Each dialect overrides some of the fields.
 const COMMON_WORDS: Words = Words {
     letters: Letters(0),
     g: &[],

@@ -25,7 +25,7 @@ pub struct Rules {
     pub unit_synonyms: Option<[u16; 2]>,
     /// The effect of a change of the unit on lengths stated before it.
     pub units: UnitChange,
-    /// Whether M6 selects a layer, and moves and S apply to the selected layer.
+    /// Whether M6 selects a layer, to which moves and S then apply.
     pub layers: bool,
     /// Whether a motion word applies only to its own line. A line that has coordinates but no motion word repeats the last motion, with a warning.
     pub motion_is_stated: bool,
@@ -49,7 +49,7 @@ pub struct Rules {
     pub absolute_machine_coordinates: bool,
     /// Whether rapid moves are straight. Otherwise each axis moves at its own speed, and an axis with less distance to cover arrives early.
     pub straight_rapids: bool,
-    /// The order of a move and the M codes for the spindle and the coolant in its line.
+    /// When the M codes for the spindle and the coolant take effect: before or after the move in their line.
     pub m_order: MCodeOrder,
     /// Whether M6 uses a tool changer, which raises the tool above everything. On other controls, the operator may change the tool where it is.
     pub has_changer: bool,
@@ -86,7 +86,7 @@ pub struct Rules {
     pub lengths: LengthRules,
 }
 
-/// The order of a move and the M codes for the spindle and the coolant in its line.
+/// The moment at which M codes for the spindle and the coolant take effect, relative to the move in their line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MCodeOrder {
     /// The M codes take effect before the move.

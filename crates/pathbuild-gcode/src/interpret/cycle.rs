@@ -91,7 +91,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the place of a hole at a height in mm.
+    /// Returns the position over a hole, at a height in mm.
     fn place_over_hole(&mut self, mut coordinates: [Option<Slot>; 3], height: f64) -> Position {
         let axis = self.state.plane.third();
         coordinates[axis] = None;

@@ -58,7 +58,7 @@ impl Interpreter<'_> {
                 value - drawn
             }
             Err(NoValue::UnknownProbe(_)) if !self.stated.is_ours => {
-                // Another tool wrote the program and did not list measured heights, which `verify` reports.
+                // Other software wrote the program and did not list measured heights, which `verify` reports.
                 number - drawn
             }
             Err(fault) => self.report_no_value(block, formula, &fault),

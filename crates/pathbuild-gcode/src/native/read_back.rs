@@ -158,7 +158,7 @@ fn difference_error(found: &Difference) -> Box<Diagnostic> {
     read_back_error(&found.diagnostic())
 }
 
-/// Reports a problem in the text as an error of pathbuild.
+/// Creates the error of pathbuild that stands for a problem in the text.
 fn read_back_error(problem: &Diagnostic) -> Box<Diagnostic> {
     let line = problem.place.line.map(|line| format!(" (line {line})")).unwrap_or_default();
     let message = problem.text(pathbuild_diagnostic::Lang::En);

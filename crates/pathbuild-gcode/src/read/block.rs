@@ -284,7 +284,7 @@ pub(crate) fn column(line: &[u8], byte: usize) -> u32 {
     u32::try_from(before + 1).unwrap_or(u32::MAX)
 }
 
-/// Returns the line with its faulty part marked. Of a long line only the surroundings are kept.
+/// Returns the line with its faulty part marked. Of a long line, only the text around that part is kept.
 pub(crate) fn fault(line: &[u8], span: Span) -> TextFault {
     let start = (span.start as usize).min(line.len());
     let end = (span.end as usize).clamp(start, line.len()).min(start + EXCERPT_BYTES);

@@ -115,7 +115,8 @@ fn is_in_circle(movement: &Move, cutter: f64, recent: &VecDeque<(u32, Move)>) ->
     let from_centre = |at: &Position| libm::hypot(at.x() - last.centre[0], at.y() - last.centre[1]);
     let radius = from_centre(&movement.from);
     let low = movement.from.z().min(movement.to.z()) + RESIDUE_HEIGHT;
-    // The angle of a cut on that circle, if the cut is deep enough for the rapid move.
+    // The angle of a cut, if the cut is on the circle around the centre of the last arc through the start of the rapid move, and deep enough for that
+    // move.
     let angle = |(_, cut): &(u32, Move)| match cut.shape {
         MoveShape::Arc(arc) => {
             let is_on_circle = [cut.from, cut.to].iter().all(|end| is_same(from_centre(end), radius));

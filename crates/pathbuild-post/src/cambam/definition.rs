@@ -132,8 +132,8 @@ impl Definition {
         self.options.number_format.most_decimals()
     }
 
-    /// Returns the name of the first section, of those for rapid moves and for feed moves, whose text is empty or only a comment; `None` if there is
-    /// none.
+    /// Returns the name of the section for rapid moves or of that for feed moves, whichever has a text that is empty or only a comment; the former if
+    /// both have one. `None` if neither has.
     pub(crate) fn empty_motion(&self) -> Option<&'static str> {
         let is_mark = |what: &Macro| matches!(what, Macro::Section(Section::Comment | Section::EndComment));
         let is_empty = |section: &Section| {

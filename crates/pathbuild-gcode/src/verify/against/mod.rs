@@ -98,7 +98,7 @@ impl ToolUse {
 /// The result of comparing a program with a drawing.
 #[derive(Clone, Debug)]
 pub struct Agreement {
-    /// All differences, ordered by line; for the moves only the first one.
+    /// All differences, ordered by line. Of the differences between moves, only the first one is included.
     pub differences: Vec<Diagnostic>,
     /// Number of the drawing's moves that the program contains before the first difference.
     pub equal: usize,
