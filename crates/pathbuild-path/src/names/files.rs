@@ -196,7 +196,7 @@ impl FromIterator<(NameRange, u32)> for RangeTable {
                 Err(other) => others.push(other),
             }
         }
-        // Sorts by cached keys, since entries are large.
+        // The small keys are sorted first; then each of the large entries is moved once.
         sorted.sort_by_cached_key(|entry| entry.from.clone());
         for index in 1..sorted.len() {
             if sorted[index - 1].latest > sorted[index].latest {

@@ -294,7 +294,7 @@ fn the_first_depth_lies_in_the_material_of_the_chain() {
         assert_eq!(codes.len(), usize::from(is_doubtful), "{first}: {codes:?}");
     }
     assert_eq!(line("T5 O2 I1 B1", "W6"), ["PB211 W6"]);
-    // W of the first segment applies to the whole chain, and so does its greatest depth.
+    // W applies to the whole chain, so it is compared with the lowest bottom of all segments, B1.
     let deeper = path("T5 O2 I1 B3 W1", "mill 0,0 20,0\nmill 20,0 40,0 \"B1\"\nend 40,0");
     assert_eq!(findings(&deeper, MACHINE), [""; 0]);
     let chains = "mill 0,0 10,0\nsweep 10,0 20,0\nmill 20,0 30,0\nend 30,0";

@@ -97,7 +97,7 @@ fn o_is_that_of_the_embedding_path() {
     assert_eq!(with("3", "O3.000003", "3.000003", false), []);
     assert_eq!(with("3", "", "3", false), []);
     assert_eq!(with("3", "O2", "2", true), warning);
-    // The segment contradicts even its own path, which is a single error as before.
+    // The segment contradicts even the path that contains it, which also gives a single error.
     assert_eq!(with("3", "O2", "3", false), error);
     assert_eq!(with("3", "O2", "3", true), error);
     assert_eq!(with("3", "O2", "1", false), error);
