@@ -47,7 +47,6 @@ fn said(text: &str, options: &[&str]) -> String {
     runs.collect::<Vec<_>>().join("\n")
 }
 
-/// Returns the lines with messages.
 fn messages(said: &str) -> Vec<String> {
     let is_message = |line: &&str| line.starts_with("  × ") || line.starts_with("  ⚠ ");
     said.lines().filter(is_message).map(str::to_owned).collect()

@@ -706,7 +706,8 @@ fn programs_of_another_library_are_not_removed() {
     assert!(!within.stderr.contains("PB520"), "{within}");
 }
 
-/// Joined paths are milled from one plate. In the program, the part of 1234.1P lies between (1, 1) and (41, 21), and its upper bars are at X14 and X28.
+/// Joined paths are milled from one plate. In the program, the part of 1234.1P lies between (1, 1) and (41, 21), and its upper bars are at X14 and
+/// X28.
 #[test]
 fn joined_paths_cut_into_no_parts_of_each_other() {
     let options = "feed = 150\nrapid = 1000\nsweep-height = 20\npart = 'Part'\nspindle = \"manual\"\n";

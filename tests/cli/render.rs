@@ -117,7 +117,6 @@ fn json_spans_count_characters() {
     assert_eq!(object["span"], serde_json::json!([9, 11]));
 }
 
-/// Returns a number of errors in different places.
 fn many(count: u32) -> Findings {
     let error =
         |line| Diagnostic::new(&files::EMPTY_FILE).in_file(Utf8Path::new("/work/a.dxf")).at_line(line, None);

@@ -59,7 +59,6 @@ impl Job {
     }
 }
 
-/// Builder that converts a program to operations.
 struct Builder<'a> {
     program: &'a Program,
     assignment: ToolAssignment,

@@ -28,7 +28,6 @@ pub(super) struct ReadBackOptions<'a> {
     pub(super) target: Option<&'a Target>,
     /// Permitted deviation of the moves from the job. `None` if the user takes responsibility for the moves.
     pub(super) tolerance: Option<Tolerance>,
-    /// Capabilities of the machine, if they are known.
     pub(super) machine: Option<&'a Machine>,
     /// Maximum distance in mm by which cuts may miss the outline of a part.
     pub(super) part_tolerance: f64,

@@ -30,7 +30,6 @@ impl Target {
         Some(Self { reader, rules: reader.rules(), spelling: &reader.rules().spelling })
     }
 
-    /// The names of all targets, for messages.
     pub(super) fn names() -> Vec<&'static str> {
         Dialect::ALL.iter().map(|dialect| dialect.name()).collect()
     }

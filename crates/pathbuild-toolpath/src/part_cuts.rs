@@ -51,7 +51,6 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
     }
 }
 
-/// Collector of the cuts of a path, element by element.
 struct CutCollector<'p> {
     path: &'p Path,
     /// The indices into `elements`, by index of the drawn element.

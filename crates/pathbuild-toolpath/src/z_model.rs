@@ -175,7 +175,6 @@ impl Plane {
     }
 }
 
-/// Number of probes used for a point.
 const PROBES_PER_POINT: usize = 4;
 
 /// Relative difference of weights below which the tree may order them wrongly, so that they are ordered by index.

@@ -18,7 +18,6 @@ use rayon::prelude::*;
 use crate::conformance::recorded::{self, Run, What};
 use crate::support;
 
-/// A program with the name of its case.
 #[derive(Clone)]
 pub(crate) struct Named {
     pub(crate) name: String,

@@ -71,8 +71,8 @@ pub struct Rules {
     pub systems: Option<SystemNumbers>,
     /// Whether P of G30 selects the reference point by its number, counted from 2.
     pub numbers_references: bool,
-    /// Whether the control refuses lines that the interpreter of RS274/NGC refuses: G53 that moves nothing unless G0 or G1 is in its line, a motion word
-    /// beside G10, G28, G30, G52 or G92 even without coordinates, and P or Q that the drilling cycle does not use.
+    /// Whether the control refuses lines that the interpreter of RS274/NGC refuses: G53 that moves nothing unless G0 or G1 is in its line, a motion
+    /// word beside G10, G28, G30, G52 or G92 even without coordinates, and P or Q that the drilling cycle does not use.
     pub refuses_idle_words: bool,
     /// Whether a drilling cycle that begins below R first rises to it and then goes to the hole, as in RS274/NGC, 3.5.16.1.
     pub rises_before_holes: bool,

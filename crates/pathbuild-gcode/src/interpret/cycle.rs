@@ -267,7 +267,6 @@ impl Interpreter<'_> {
     }
 }
 
-/// Estimates the number of moves for a hole.
 fn moves_of(hole: &Hole) -> f64 {
     5.0 + 3.0 * (hole.r - hole.bottom) / hole.step
 }

@@ -349,7 +349,6 @@ impl Values {
     }
 }
 
-/// An error in a value, with its position in the line.
 pub(super) type ValueFault = (Fault, Span);
 
 /// The name by which a control calls a subprogram.

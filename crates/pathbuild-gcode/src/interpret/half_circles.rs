@@ -31,7 +31,6 @@ pub(super) struct ArcByRadius {
     pub(super) half_chord: f64,
     /// Length of the program's unit.
     pub(super) unit: f64,
-    /// The number of decimals with which R is written.
     pub(super) decimals: u8,
 }
 

@@ -59,8 +59,8 @@ impl DepthRules {
         }
     }
 
-    /// Reports the stops and tool changes at cutting depth, and the found moves that lead through a point at which the program never cuts as deep. The
-    /// surface of `stock` is [unknown](Stock::with_unknown_surface). If no moves were found, the program is not processed again.
+    /// Reports the stops and tool changes at cutting depth, and the found moves that lead through a point at which the program never cuts as deep.
+    /// The surface of `stock` is [unknown](Stock::with_unknown_surface). If no moves were found, the program is not processed again.
     pub fn finish(self, program: &(impl Program + ?Sized), stock: &Stock) -> Vec<Diagnostic> {
         let found = &self.depths.found;
         let mut problems = self.stops;

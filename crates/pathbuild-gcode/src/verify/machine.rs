@@ -29,8 +29,8 @@ pub enum Travel {
     Size([f64; 3]),
 }
 
-/// Amount in mm by which rounding to three decimals may move a coordinate of a program. `emit` compares the exact coordinates, and `verify` those of the
-/// text; both must come to the same result.
+/// Amount in mm by which rounding to three decimals may move a coordinate of a program. `emit` compares the exact coordinates, and `verify` those of
+/// the text; both must come to the same result.
 const ROUNDING: f64 = 0.0005 + 1e-9;
 
 const AXES: [char; 3] = ['X', 'Y', 'Z'];

@@ -16,7 +16,6 @@ use crate::job::{Feeds, Hole, HoleKind, Job, Operation, Units};
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 
-/// Executor of a job's calls: it sets the variables of each call and runs its text.
 pub(super) struct Caller<'a, 'r> {
     job: &'a Job,
     /// The feeds of each operation, indexed like the job's operations.

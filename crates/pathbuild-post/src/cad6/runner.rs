@@ -26,7 +26,6 @@ pub(super) type RunResult = Result<(), Box<Diagnostic>>;
 /// Control text that prefixes each line if the definition has none for line numbers.
 const LINE_NUMBER: &str = "N{#~LineNumber~} {=LineNumber{#~LineNumber~+10}}";
 
-/// Executor of control texts, which collects the resulting lines.
 pub(super) struct Runner<'a> {
     pub(super) definition: &'a Definition,
     file: &'a Utf8Path,

@@ -90,7 +90,6 @@ const ONLY_FALSE: Text =
 /// Declares the elements that contain values. Each has its default, the function that reads its value, and its meaning for the book.
 macro_rules! element_options {
     ($($element:literal = $default:literal, $set:expr, $en:literal, $de:literal;)*) => {
-        /// All elements that contain values.
         pub(super) static OPTIONS: &[ElementOption] = &[$(ElementOption {
             element: $element,
             set: $set,

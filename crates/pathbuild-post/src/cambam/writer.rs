@@ -24,7 +24,6 @@ pub(super) type WriteResult = Result<(), Box<Diagnostic>>;
 /// Maximum nesting depth of user macros, and also of sections.
 const MAX_DEPTH: usize = 16;
 
-/// Writer that expands the templates of a plan to the text of a program.
 pub(super) struct Writer<'a> {
     pub(super) plan: &'a Plan<'a>,
     pub(super) machine: Machine,

@@ -542,7 +542,6 @@ impl ExpectedTraverse<'_> {
         matches!(movement.shape, MoveShape::Line) && (is_raised || stays) && is_height && is_place
     }
 
-    /// Returns a move to the start of the expected moves.
     fn arrival_at_start(&self) -> NumberedMove {
         let (from, to) = (self.start, self.start);
         (0, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named: None })
