@@ -100,7 +100,7 @@ impl Scatter {
         Self { count, middle: self.middle - d / count, moments }
     }
 
-    /// Whether the points span a plane.
+    /// Whether the points neither lie on a line nor coincide.
     fn is_wide(&self) -> bool {
         let (long, short) = self.principal();
         short > COLLINEAR_RATIO * COLLINEAR_RATIO * long && !self.is_point()
