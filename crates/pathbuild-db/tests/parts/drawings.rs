@@ -279,6 +279,27 @@ fn a_cut_beside_all_bars_separates_them_from_the_plate() {
     assert_eq!((found.code().to_string().as_str(), found.path.as_deref()), ("PB217", Some("1234.2P")));
 }
 
+/// A second path closes a ring that cuts off all bars, on whichever sides of the plate they are. One side of that ring is then left open.
+#[test]
+fn bars_on_any_sides_lead_nowhere_within_a_ring() {
+    for sides in 1..16 {
+        let verb = |side: u32| if sides & 1 << side == 0 { "mill" } else { "bars" };
+        let contour =
+            format!("{} 0,0 42,0\n{} to 42,27\n{} to 0,27\n{} to 0,0\n", verb(0), verb(1), verb(2), verb(3));
+        let found = |last: &str| {
+            let drawing = format!(
+                "{START}sweep -5,-5 0,0\n{contour}sweep 0,0 50,-5\nend 50,-5\nlayer Part\npolyline 1,1 41,1 41,26 1,26 closed\n\
+                 layer 1234.2P\nstart -8,-8 \"T2 O2 I0.5 B-0.2 S5\"\nsweep -8,-8 -1,-1\n\
+                 mill -1,-1 43,-1 43,28 -1,28\n{last} to -1,-1\nsweep -1,-1 60,-5\nend 60,-5\n"
+            );
+            PartTest::default().codes(&[("1234.dxf", &drawing)])
+        };
+        assert!(found("mill").contains(&"PB217".to_owned()), "sides {sides:04b}: {:?}", found("mill"));
+        let is_held = sides & 0b1000 != 0;
+        assert_eq!(!found("sweep").contains(&"PB217".to_owned()), is_held, "sides {sides:04b}");
+    }
+}
+
 /// A cut that is farther away may be made in another plate, or after the part was taken out.
 #[test]
 fn cuts_of_other_paths_count_within_twice_the_cutter_diameter() {

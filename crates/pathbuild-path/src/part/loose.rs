@@ -79,17 +79,18 @@ fn can_escape(at: Xy, sweeps: &[SweptLine]) -> bool {
     else {
         return false;
     };
+    // A range that reaches beyond pi also hides directions from -pi on.
+    let beyond = hidden.iter().filter(|(_, to)| *to > PI).map(|(from, to)| (from - TAU, to - TAU));
+    hidden.extend(beyond.collect::<Vec<_>>());
     hidden.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
-    let Some((first, _)) = hidden.first().copied() else { return true };
-    // Directions are from -pi to pi. A range may reach beyond pi and then covers the first directions again.
-    let mut end = f64::NEG_INFINITY;
-    for (from, to) in &hidden {
-        if *from > end && end > f64::NEG_INFINITY {
+    let mut end = -PI;
+    for (from, to) in hidden {
+        if from > end {
             return true;
         }
-        end = end.max(*to);
+        end = end.max(to);
     }
-    end < first + TAU
+    end < PI
 }
 
 /// Whether sweeps close a ring around a point that none of them covers.
