@@ -14,7 +14,7 @@ use pathbuild_path::PathName;
 use pathbuild_post::BUILT_IN;
 use pathbuild_view::{Scene, VisibleParts};
 use pathbuild_workspace::config::{self, Overrides};
-use pathbuild_workspace::emit::{self, FileOwners, SceneReport, ShownText, TargetPatterns};
+use pathbuild_workspace::emit::{SceneReport, ShownText, TargetPatterns, WrittenPrograms};
 use pathbuild_workspace::list::{self, ListedPath, Row, Stats, drawing_json, path_json, stats_json};
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::program_view::DroppedProgram;
@@ -212,22 +212,27 @@ impl OpenedFiles {
             |(file, name): &(SourceFile, PathName)| self.session.target_in(*file, name, Role::Emitted);
         let targets: Vec<Target> = found.iter().map(target).collect();
         let post_processor = self.post_processor.as_ref();
-        let emission =
-            match emit::write(&mut self.session, post_processor, &targets, &mut FileOwners::default()) {
-                Ok(emission) => emission,
-                Err(refusal) => return json!({ "refused": refusal, "problems": [], "files": [] }).into(),
-            };
+        let drawings: Vec<SourceFile> = found.iter().map(|(file, _)| *file).collect();
+        let mut programs = WrittenPrograms::default();
+        let outcomes = match programs.write(&mut self.session, post_processor, &drawings, &targets) {
+            (Ok(outcomes), _) => outcomes,
+            (Err(refusal), _) => {
+                return json!({ "refused": refusal, "problems": [], "files": [] }).into();
+            }
+        };
         let (mut files, mut bytes) = (Vec::new(), Vec::new());
-        for delivered in &emission.delivered {
+        for delivered in &outcomes {
             for (path, _) in delivered.files.iter().filter(|(path, _)| delivered.has_written(path)) {
                 let text = self.files.take(path);
                 files.push(json!({ "name": path.as_str(), "size": text.len() }));
                 bytes.extend(text);
             }
         }
-        // The emission reports no errors in drawings, so they are added here.
+        // Writing reports no errors in drawings, so they are added here.
         let checked = self.session.check(&targets).into_iter().flat_map(|checked| checked.diagnostics);
-        let found = workspace.findings(checked.chain(emission.diagnostics).collect());
+        let clashes = programs.leave_out_clashes(&self.session);
+        let problems = checked.chain(programs.problems(&self.session)).chain(clashes);
+        let found = workspace.findings(problems.collect());
         let problems = pathbuild_view::findings(&found.diagnostics, "");
         Answer { head: json!({ "refused": null, "problems": problems, "files": files }), bytes }
     }

@@ -17,7 +17,7 @@ use pathbuild_db::system::OsSystem;
 use pathbuild_testkit::sheet;
 use pathbuild_wasm::Compiler;
 use pathbuild_workspace::config::{self, Overrides};
-use pathbuild_workspace::emit::{self, FileOwners};
+use pathbuild_workspace::emit::WrittenPrograms;
 use pathbuild_workspace::session::{SelectedPath, Session};
 use pathbuild_workspace::{Inputs, SilentReporter, Workspace};
 use serde_json::{Value, json};
@@ -152,7 +152,9 @@ fn a_library_has_the_programs_that_are_written_from_files() {
         let file = session.file(&root.join(drawing));
         let name = pathbuild_path::PathName::new(path);
         let target = session.target(&SelectedPath { file, name }, Role::Emitted);
-        let Ok(_) = emit::write(&mut session, None, &[target], &mut FileOwners::default()) else { continue };
+        let (Ok(_), _) = WrittenPrograms::default().write(&mut session, None, &[file], &[target]) else {
+            continue;
+        };
         let (programs, _) = page.emit(&[(drawing, path)]);
         for (name, text) in programs {
             let written = place.1.join(Utf8Path::new(&name).file_name().unwrap());

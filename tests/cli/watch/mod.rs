@@ -300,8 +300,10 @@ fn changes_that_come_while_others_are_worked_on_are_not_lost() {
         place.file(&format!("library/projects/{name}.dxf"), dxf(&name, 5, &["1001.1P"]))
     });
     let watch = Watch::begin(&place, "watch --emit --format concise");
-    // Each project is wrong, including 8001. In addition, 1002 lacks a path, and so does 8002, which embeds it.
-    let wrong = i64::try_from(PROJECTS).unwrap() + 1 + 2;
+    // Each project is wrong, including 8001. In addition, 1002 lacks a path, and so does 8002, which embeds it. The programs of all projects are out
+    // of date.
+    let projects = i64::try_from(PROJECTS).unwrap() + 2;
+    let wrong = projects + 1 + projects;
     for pause in [65, 90, 120, 180, 260, 400] {
         watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
         std::thread::sleep(Duration::from_millis(pause));

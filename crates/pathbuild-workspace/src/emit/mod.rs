@@ -14,6 +14,7 @@ mod select;
 mod settle;
 mod sheet;
 mod stale_programs;
+mod written_programs;
 
 use std::collections::HashMap;
 
@@ -34,14 +35,16 @@ use crate::workspace::Workspace;
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
 pub use options::{Provenances, missing_values, write_settings};
 pub use outcome::{ProgramOutcome, State, Task};
-pub use plan::FileOwners;
-use plan::{Job, JobBuilder, Plan, leave_out_clashes, plan};
+use plan::{Job, JobBuilder, Plan, plan};
 pub use program_scenes::{SceneReport, SheetOutcome, ShownText, sheet_of};
 pub use select::TargetPatterns;
 use select::TargetSelection;
 use settle::build_and_settle;
 pub use sheet::sheet_bytes;
 use stale_programs::{EarlierPrograms, StaleOutcome};
+#[cfg(not(target_family = "wasm"))]
+pub(crate) use written_programs::Scope;
+pub use written_programs::WrittenPrograms;
 
 /// A request to emit programs.
 #[derive(Clone, Debug)]
@@ -155,7 +158,9 @@ impl Emitter<'_> {
             post_processor: self.post_processor,
             join,
             out_dir: session.out_dir(),
-            selection: &selection,
+            targets: &selection.targets,
+            covered: &|| &selection.covered,
+            directories: &selection.directories,
             jobs: &jobs,
         };
         let StaleOutcome { older, removed, outdated } =
@@ -295,54 +300,4 @@ fn is_current(delivered: ProgramOutcome) -> Result<bool, Vec<Diagnostic>> {
     }
     let is_current = |(_, state): &(_, State)| matches!(state, State::Current);
     Ok(!delivered.files.is_empty() && delivered.files.iter().all(is_current))
-}
-
-/// Writes the programs of these targets in a long-lived session, and returns the diagnostics of the programs themselves; `check` reports errors in
-/// drawings.
-///
-/// # Errors
-/// The names of missing options.
-pub fn write(
-    session: &mut Session<'_>,
-    post_processor: Option<&PostProcessor>,
-    targets: &[Target],
-    owners: &mut FileOwners,
-) -> Result<Emission, String> {
-    session.with_stable_files(|session| {
-        let context = session.workspace();
-        let checked = session.check(targets);
-        let task = Task::Write { force: false };
-        if let Some(refusal) = options::missing_options_error(context, task, &checked) {
-            return Err(refusal);
-        }
-        let sheet = task.sheets(&context.settings);
-        let builder = JobBuilder { session, post_processor, join: None, sheet };
-        let mut plans: Vec<Plan> = checked.chunks(1).map(|checked| builder.plan(checked)).collect();
-        let mut diagnostics: Vec<Diagnostic> =
-            plans.iter().flat_map(|plan| &plan.refusals).cloned().collect();
-        leave_out_clashes(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), &mut diagnostics);
-        for plan in &mut plans {
-            plan.leave_out_if_raised(context);
-        }
-        for job in plans.iter_mut().filter_map(|plan| plan.job.as_mut()) {
-            // A job that is left out claims its names, too: whether another target may write them does not depend on which was saved last.
-            if let Some(clash) = job.claim_file_names(session, owners) {
-                // A clash among these targets is reported already.
-                if !job.is_left_out {
-                    diagnostics.push(clash);
-                }
-                job.is_left_out = true;
-            }
-        }
-        build_and_settle(
-            session,
-            plans.iter_mut().filter_map(|plan| plan.job.as_mut()),
-            task,
-            post_processor,
-        );
-        diagnostics.extend(plans.iter().filter_map(|plan| plan.lowered_error(context)));
-        let delivered: Vec<ProgramOutcome> = plans.into_iter().filter_map(Plan::outcome).collect();
-        diagnostics.extend(delivered.iter().flat_map(|delivered| &delivered.problems).cloned());
-        Ok(Emission { delivered, removed: Vec::new(), outdated: Vec::new(), diagnostics })
-    })
 }

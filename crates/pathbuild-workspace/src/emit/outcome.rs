@@ -31,7 +31,7 @@ pub enum Task {
 }
 
 /// The outcome of generating and then writing, comparing or printing the files of one program.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct ProgramOutcome {
     /// Name of the path, or of the joined program.
     #[serde(skip)]
@@ -92,7 +92,7 @@ impl ProgramOutcome {
 }
 
 /// The outcome of a single file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum State {
     /// The file was written by this run.
     Written,

@@ -1,6 +1,6 @@
 //! Plans programs: determines which files the paths become. (book: reference/commands, `emit`)
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -18,9 +18,6 @@ use crate::memo::{Answer, Inputs, Memo, OutputState};
 use crate::post_processor::PostProcessor;
 use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
 use crate::workspace::Workspace;
-
-/// The targets that yield each file, by file name in lower case. A file with several targets is not written.
-pub type FileOwners = HashMap<String, Vec<Target>>;
 
 /// The plan for one program: its job, or the reasons why it has none.
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -68,6 +65,13 @@ impl Plan {
         self.job.filter(|job| !job.is_left_out)?.outcome
     }
 
+    /// Returns the diagnostics of the program itself, without those of its paths.
+    pub(super) fn program_problems(&self, workspace: &Workspace) -> Vec<Diagnostic> {
+        let outcome = self.remaining_job().and_then(|job| job.outcome.as_ref());
+        let problems = self.refusals.iter().chain(outcome.into_iter().flat_map(|outcome| &outcome.problems));
+        problems.cloned().chain(self.lowered_error(workspace)).collect()
+    }
+
     /// Leaves out the job if the configuration counts a warning as an error.
     pub(super) fn leave_out_if_raised(&mut self, workspace: &Workspace) {
         let is_wrong = workspace.has_error(self.problems());
@@ -96,7 +100,7 @@ impl Job {
     }
 
     /// Leaves out the job, and discards the outcome of an earlier run, which may have written the files.
-    fn leave_out(&mut self) {
+    pub(super) fn leave_out(&mut self) {
         self.is_left_out = true;
         self.outcome = None;
     }
@@ -104,26 +108,6 @@ impl Job {
     fn name(&self, session: &Session<'_>) -> String {
         let db = session.db();
         format!("{} ({})", self.path, self.drawing(db).path(db))
-    }
-
-    /// Claims the job's file names for its target. Returns PB514 if another target claims one of them as well.
-    pub(super) fn claim_file_names(
-        &self,
-        session: &Session<'_>,
-        owners: &mut FileOwners,
-    ) -> Option<Diagnostic> {
-        let mut other = None;
-        for (_, path) in &self.files {
-            let claimants = owners.entry(path.as_str().to_lowercase()).or_default();
-            if !claimants.contains(&self.targets[0]) {
-                claimants.push(self.targets[0]);
-            }
-            other = other.or_else(|| claimants.iter().copied().find(|claimant| *claimant != self.targets[0]));
-        }
-        let (other, db) = (other?, session.db());
-        let other = format!("{} ({})", other.name(db), other.file(db).path(db));
-        let name = self.files[0].1.file_name();
-        Some(same_output_error(name, other, self.name(session), self.drawing(db).path(db)))
     }
 }
 
@@ -379,30 +363,39 @@ pub(super) fn output_directory(out_dir: Option<&Utf8Path>, drawing: &Utf8Path) -
     out_dir.or(drawing.parent()).unwrap_or(Utf8Path::new("")).to_owned()
 }
 
-/// Leaves out jobs that would write the same file (PB514). Case is ignored, as some file systems ignore it.
+/// Leaves out jobs that would write the same file (PB514).
 pub(super) fn leave_out_clashes<'p>(
     session: &Session<'_>,
     jobs: impl Iterator<Item = &'p mut Job>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     let mut jobs: Vec<&mut Job> = jobs.collect();
-    let mut owners: BTreeMap<String, (Utf8PathBuf, Vec<usize>)> = BTreeMap::new();
+    let (clashing, problems) = clashes(session, &jobs.iter().map(|job| &**job).collect::<Vec<_>>());
+    diagnostics.extend(problems);
+    for index in clashing {
+        jobs[index].leave_out();
+    }
+}
+
+/// Returns the indices of the jobs that would write the same file, with PB514 for each clash. Case is ignored, as some file systems ignore it.
+pub(super) fn clashes(session: &Session<'_>, jobs: &[&Job]) -> (BTreeSet<usize>, Vec<Diagnostic>) {
+    let mut owners: BTreeMap<String, (&Utf8Path, Vec<usize>)> = BTreeMap::new();
     for (index, job) in jobs.iter().enumerate() {
         for (_, path) in &job.files {
-            owners.entry(path.as_str().to_lowercase()).or_insert((path.clone(), Vec::new())).1.push(index);
+            owners.entry(path.as_str().to_lowercase()).or_insert((path, Vec::new())).1.push(index);
         }
     }
+    let (mut clashing, mut problems) = (BTreeSet::new(), Vec::new());
     for (path, owners) in owners.into_values().filter(|(_, owners)| owners.len() > 1) {
         // If two jobs share several files, reporting the first one is enough.
-        if owners.iter().any(|owner| !jobs[*owner].is_left_out) {
+        if owners.iter().any(|owner| !clashing.contains(owner)) {
             let [first, second] = [owners[0], owners[1]].map(|owner| jobs[owner].name(session));
             let drawing = jobs[owners[0]].drawing(session.db()).path(session.db());
-            diagnostics.push(same_output_error(path.file_name(), first, second, drawing));
+            problems.push(same_output_error(path.file_name(), first, second, drawing));
         }
-        for owner in owners {
-            jobs[owner].leave_out();
-        }
+        clashing.extend(owners);
     }
+    (clashing, problems)
 }
 
 fn same_output_error(name: Option<&str>, first: String, second: String, drawing: &Utf8Path) -> Diagnostic {

@@ -19,7 +19,6 @@ use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 
 use super::outcome::{ProgramOutcome, State, Task};
 use super::plan::{Job, output_directory, program_name};
-use super::select::TargetSelection;
 use crate::files::{PROGRAM_EXTENSIONS, is_program};
 use crate::memo::{Answer, DrawingResult};
 use crate::post_processor::PostProcessor;
@@ -98,14 +97,19 @@ pub(super) struct EarlierPrograms<'a> {
     /// Name of the program into which all paths are joined; `None` for one program per path.
     pub(super) join: Option<&'a str>,
     pub(super) out_dir: Option<Utf8PathBuf>,
-    pub(super) selection: &'a TargetSelection,
+    /// All paths of the run.
+    pub(super) targets: &'a [Target],
+    /// Returns the drawings of which all paths were considered.
+    pub(super) covered: &'a dyn Fn() -> &'a [Answer<DrawingResult>],
+    /// Directories that were searched for drawings.
+    pub(super) directories: &'a [Utf8PathBuf],
     pub(super) jobs: &'a [&'a Job],
 }
 
-impl EarlierPrograms<'_> {
+impl<'a> EarlierPrograms<'a> {
     /// Finds programs that show another state of the drawings. Stale programs are removed if `is_removed`, and reported otherwise.
     pub(super) fn find_and_settle(
-        &self,
+        &'a self,
         is_removed: bool,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> StaleOutcome {
@@ -145,13 +149,11 @@ impl EarlierPrograms<'_> {
     }
 
     /// Finds the stale programs: among all files of the searched directories, and among former files of the jobs in other directories.
-    fn find_stale_programs(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<StaleProgram> {
-        let Self { selection, jobs, .. } = *self;
-        let is_wide = !selection.covered.is_empty() || !selection.directories.is_empty();
+    fn find_stale_programs(&'a self, diagnostics: &mut Vec<Diagnostic>) -> Vec<StaleProgram> {
+        let jobs = self.jobs;
         let directories: &[Utf8PathBuf] = match &self.out_dir {
-            _ if !is_wide => &[],
-            Some(directory) => std::slice::from_ref(directory),
-            None => &selection.directories,
+            Some(directory) if !self.directories.is_empty() => std::slice::from_ref(directory),
+            _ => self.directories,
         };
         let finding = StaleSearch {
             run: self,
@@ -181,7 +183,7 @@ impl EarlierPrograms<'_> {
     /// Finds the programs on disk of targets for which nothing was written or compared. Each becomes a separate outcome; a comparison counts it as
     /// out of date.
     fn earlier_outcomes(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<ProgramOutcome> {
-        let targets = &self.selection.targets;
+        let targets = self.targets;
         let is_done = |job: &&&Job| job.outcome.as_ref().is_some_and(|outcome| !outcome.files.is_empty());
         if let (Some(name), Some(post_processor)) = (self.join, self.post_processor) {
             let joined = targets.first().filter(|_| !self.jobs.iter().any(|job| is_done(&job)));
@@ -434,19 +436,20 @@ type Title = (Utf8PathBuf, String);
 
 impl KnownTitles {
     fn new(run: &EarlierPrograms<'_>) -> Self {
-        let EarlierPrograms { session, out_dir, selection, jobs, .. } = run;
+        let EarlierPrograms { session, out_dir, jobs, .. } = run;
+        let all_covered = (run.covered)();
         let db = session.db();
         let place = |drawing: &Utf8Path| output_directory(out_dir.as_deref(), drawing);
         let written = |drawing: &Utf8Path| (place(drawing), plain_title(file_name(drawing)));
         let path = |drawing: &Utf8Path, path: &str| (place(drawing), title(file_name(drawing), path));
         let generated: BTreeSet<Title> =
             jobs.iter().map(|job| path(job.drawing(db).path(db), &job.path)).collect();
-        let of_covered = selection.covered.iter().flat_map(|drawing| {
+        let of_covered = all_covered.iter().flat_map(|drawing| {
             drawing.value.names.iter().map(|name| path(drawing.drawing(), name.as_str()))
         });
         let is_broken =
             |drawing: &&Answer<DrawingResult>| drawing.value.diagnostics.iter().any(Diagnostic::is_error);
-        let (broken, sound): (Vec<_>, Vec<_>) = selection.covered.iter().partition(is_broken);
+        let (broken, sound): (Vec<_>, Vec<_>) = all_covered.iter().partition(is_broken);
         let covered: HashSet<&Utf8Path> = sound.iter().map(|drawing| drawing.drawing()).collect();
         let has_library = session.has_library();
         let (library, problems) = if has_library { session.library() } else { Default::default() };

@@ -13,6 +13,7 @@ use super::events::Changes;
 use crate::Inputs;
 use crate::check::check_drawings;
 use crate::common_findings::{patterns_without_layer, unused_configurations};
+use crate::emit::Scope;
 use crate::files::FILE_NAME;
 use crate::memo::{Coverage, DrawingResult, is_transient};
 use crate::session::{IGNORE_FILES, Pair, Selection, Session, is_ignore_file, q_project_pairs};
@@ -23,6 +24,10 @@ pub(super) struct Library<'a> {
     inputs: &'a Inputs,
     coverage: Coverage,
     drawings: BTreeMap<Utf8PathBuf, DrawingResult>,
+    /// Drawings that were found in directories, which excludes those that arguments name.
+    found_drawings: Vec<Utf8PathBuf>,
+    /// The directories that were searched.
+    directories: Vec<Utf8PathBuf>,
     /// Diagnostics of arguments and directories.
     problems: Vec<Diagnostic>,
     /// Diagnostics that follow from all drawings together.
@@ -58,14 +63,14 @@ pub(super) struct Batch {
     pub(super) before: Vec<Diagnostic>,
     /// Current diagnostics of the drawings in this batch.
     pub(super) now: Vec<Diagnostic>,
-    /// Diagnostics that belong to no single drawing, if they have changed.
-    pub(super) problems: Option<Vec<Diagnostic>>,
+    /// Whether diagnostics that belong to no single drawing have changed.
+    pub(super) has_other_problems: bool,
 }
 
 impl Batch {
     /// Whether there is anything to report besides the drawings still to be checked.
     pub(super) fn has_news(&self) -> bool {
-        !self.removed.is_empty() || self.problems.is_some()
+        !self.removed.is_empty() || self.has_other_problems
     }
 }
 
@@ -77,6 +82,8 @@ impl<'a> Library<'a> {
             session,
             inputs,
             drawings: BTreeMap::new(),
+            found_drawings: Vec::new(),
+            directories: Vec::new(),
             problems: Vec::new(),
             common_problems: Vec::new(),
             has_other_content: true,
@@ -112,15 +119,25 @@ impl<'a> Library<'a> {
         let db = self.session.db();
         self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
         self.unfollowed.extend(self.open.keys().cloned().chain(ignore_files(&selection)));
-        self.problems = self.problems_of(selection);
+        self.problems = self.take_selection(selection);
         Batch { now: self.problems.clone(), ..Batch::default() }
     }
 
-    /// Returns the diagnostics of arguments and directories.
-    fn problems_of(&self, selection: Selection) -> Vec<Diagnostic> {
+    /// Takes over what was selected, and returns the diagnostics of arguments and directories.
+    fn take_selection(&mut self, selection: Selection) -> Vec<Diagnostic> {
         let mut problems = selection.problems;
         problems.extend(unused_configurations(&self.session, &selection.below));
+        (self.found_drawings, self.directories) = (selection.drawings, selection.below);
         problems
+    }
+
+    /// Returns the drawings and directories that are watched.
+    pub(super) fn scope(&self) -> Scope<'_> {
+        Scope {
+            is_library: self.inputs.inputs.is_empty(),
+            drawings: &self.found_drawings,
+            directories: &self.directories,
+        }
     }
 
     /// Returns the diagnostics that belong to no single drawing.
@@ -347,11 +364,11 @@ impl<'a> Library<'a> {
             update.changed.insert(drawing.clone());
             update.removed.insert(drawing);
         }
-        let problems = self.problems_of(selection);
+        let problems = self.take_selection(selection);
         if self.problems != problems {
             update.now.extend_from_slice(&problems);
             update.before.extend(std::mem::replace(&mut self.problems, problems));
-            update.problems = Some(self.all_problems());
+            update.has_other_problems = true;
         }
     }
 
@@ -369,7 +386,7 @@ impl<'a> Library<'a> {
         if self.common_problems != found {
             update.now.extend_from_slice(&found);
             update.before.extend(std::mem::replace(&mut self.common_problems, found));
-            update.problems = Some(self.all_problems());
+            update.has_other_problems = true;
         }
     }
 

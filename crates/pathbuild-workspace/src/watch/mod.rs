@@ -16,6 +16,7 @@ mod writing;
 use std::time::Instant;
 
 use pathbuild_db::SourceFile;
+use pathbuild_diagnostic::Diagnostic;
 
 use crate::session::Session;
 use crate::workspace::Workspace;
@@ -100,16 +101,17 @@ impl WatchLoop<'_> {
             self.report_checked(&portion);
         }
         self.library.check_common(&mut found);
-        let written = self.writer.begin(self.library.session_mut(), &found.checked_files);
+        self.writer.write(self.library.session_mut(), &found.checked_files);
+        self.writer.update_problems(self.library.session(), Some(&self.library.scope()), &mut found);
         let programs = self.writer.target_drawings(self.library.session(), &found.checked_files);
         if !programs.is_empty() {
             self.report_checked(&programs);
         }
         let time = begun.elapsed();
         let (drawings, paths) = self.library.counts();
-        let diagnostics = self.library.session().with_hints([found.now, written].concat());
+        let diagnostics = self.library.session().with_hints(found.now);
         self.tally.replace(&[], &diagnostics);
-        let problems = self.library.all_problems();
+        let problems = self.common_problems();
         self.listener.first_check_done(&FirstCheck { drawings, paths, diagnostics, problems, time });
     }
 
@@ -122,7 +124,8 @@ impl WatchLoop<'_> {
         let checked_files = self.work_on(affected);
         // Checking drawings again may take as long as the time limit allows, so it must not delay the results of the change itself.
         if !self.library.has_backlog() && !self.watcher.has_news(self.library.session()) {
-            let again = self.library.mark_transient(&self.writer.with_transient_problems(), &checked_files);
+            let unwritten = self.writer.with_transient_problems(self.library.session());
+            let again = self.library.mark_transient(&unwritten, &checked_files);
             if self.library.has_backlog() || again.has_news() {
                 self.work_on(again);
             }
@@ -132,18 +135,14 @@ impl WatchLoop<'_> {
     /// Checks the remaining drawings, writes their programs, and reports the outcome. Returns the checked drawings.
     fn work_on(&mut self, mut found: library::Batch) -> Vec<SourceFile> {
         let begun = Instant::now();
-        found.before.extend(self.writer.forget(&found.removed));
-        let (session, unchecked) = (self.library.session(), self.library.unchecked_drawings());
-        let rivals = self.writer.release(session, unchecked, &found.removed);
+        let rivals = self.writer.forget(self.library.session(), &found.removed);
         self.library.check_again(rivals);
-        let mut written = Vec::new();
         self.follow_links();
         while self.library.has_backlog() {
             let portion = self.library.check_portion(DRAWINGS_PER_POLL, &mut found);
             self.follow_links();
-            let writing = self.writer.write(self.library.session_mut(), &portion);
-            found.before.extend(writing.before);
-            written.extend(writing.now);
+            let rivals = self.writer.write(self.library.session_mut(), &portion);
+            self.library.check_again(rivals);
             self.report_checked(&portion);
             // The remaining drawings may have changed in the meantime.
             if self.watcher.has_news(self.library.session()) {
@@ -152,11 +151,13 @@ impl WatchLoop<'_> {
         }
         self.library.check_common(&mut found);
         self.library.postpone_rest(&mut found);
+        let scope = (!self.library.has_backlog()).then(|| self.library.scope());
+        self.writer.update_problems(self.library.session(), scope.as_ref(), &mut found);
         let time = begun.elapsed();
-        let library::Batch { changed, checked_files, open, removed, tried_again, before, now, problems } =
-            found;
+        let problems = found.has_other_problems.then(|| self.common_problems());
+        let library::Batch { changed, checked_files, open, removed, tried_again, before, now, .. } = found;
         let session = self.library.session();
-        let (before, now) = (session.with_hints(before), session.with_hints([now, written].concat()));
+        let (before, now) = (session.with_hints(before), session.with_hints(now));
         let (new, fixed) = self.tally.replace(&before, &now);
         self.listener.batch_done(&Update {
             revision: self.revision,
@@ -173,6 +174,11 @@ impl WatchLoop<'_> {
             time,
         });
         checked_files
+    }
+
+    /// Returns the diagnostics that belong to no single drawing.
+    fn common_problems(&self) -> Vec<Diagnostic> {
+        [self.library.all_problems(), self.writer.common_problems().to_vec()].concat()
     }
 
     /// Watches the targets of links, if possible before the linked files are read.

@@ -1,13 +1,14 @@
 //! `watch --emit`: writes the programs of drawings that were checked.
 
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::BTreeSet;
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Db, Role, SourceFile, path_names};
+use pathbuild_db::{Role, SourceFile, Target, path_names};
 use pathbuild_diagnostic::{Code, Diagnostic};
 
 use super::events::{Listener, Request};
-use crate::emit::{self, FileOwners, TargetPatterns};
+use super::library::Batch;
+use crate::emit::{Scope, TargetPatterns, WrittenPrograms};
 use crate::memo::is_transient;
 use crate::post_processor::{PostArguments, PostProcessor};
 use crate::session::Session;
@@ -19,18 +20,11 @@ pub(super) struct Writer<'a> {
     listener: &'a dyn Listener,
     is_on: bool,
     post_processor: Option<PostProcessor>,
-    owners: FileOwners,
-    /// The diagnostics of writing each drawing's programs, for drawings that have any.
-    found: BTreeMap<Utf8PathBuf, Vec<Diagnostic>>,
-}
-
-/// The outcome of writing the programs of some drawings.
-#[derive(Default)]
-pub(super) struct WriteOutcome {
-    /// Previous diagnostics of the drawings' programs.
-    pub(super) before: Vec<Diagnostic>,
-    /// Current diagnostics of the drawings' programs.
-    pub(super) now: Vec<Diagnostic>,
+    programs: WrittenPrograms,
+    /// Diagnostics of programs that were reported last, except for the common ones.
+    problems: Vec<Diagnostic>,
+    /// Diagnostics of all programs together that were reported last.
+    common_problems: Vec<Diagnostic>,
 }
 
 impl<'a> Writer<'a> {
@@ -46,8 +40,17 @@ impl<'a> Writer<'a> {
         let is_needed = request.emits || request.lists;
         let post_processor =
             if is_needed { PostProcessor::for_run(workspace, None, PostArguments::default())? } else { None };
-        let (owners, found) = (FileOwners::default(), BTreeMap::new());
-        Ok(Self { workspace, listener, is_on: request.emits, post_processor, owners, found })
+        let (problems, common_problems) = Default::default();
+        let programs = WrittenPrograms::default();
+        Ok(Self {
+            workspace,
+            listener,
+            is_on: request.emits,
+            post_processor,
+            programs,
+            problems,
+            common_problems,
+        })
     }
 
     /// The post-processor for the programs; `None` for native programs, or if the request needs none.
@@ -70,96 +73,75 @@ impl<'a> Writer<'a> {
 
     /// Returns the drawings with programs that have transient diagnostics or could not be written. No event reports when that changes, so they are
     /// tried again.
-    pub(super) fn with_transient_problems(&self) -> BTreeSet<Utf8PathBuf> {
+    pub(super) fn with_transient_problems(&self, session: &Session<'_>) -> BTreeSet<Utf8PathBuf> {
         let may_pass = |found: &Diagnostic| is_transient(found) || found.code() == Code::CannotWrite;
-        let with_transient_problems = self.found.iter().filter(|(_, found)| found.iter().any(may_pass));
-        with_transient_problems.map(|(drawing, _)| drawing.clone()).collect()
+        self.programs.drawings_with(session, may_pass)
     }
 
-    /// Releases the output file names that are claimed for drawings that will be checked again or were removed. Returns the other drawings that claim
-    /// the same names, which must be checked again because they may be the only ones now.
-    pub(super) fn release(
+    /// Forgets the programs of removed drawings. Returns the other drawings whose programs may be written now.
+    pub(super) fn forget(
         &mut self,
         session: &Session<'_>,
-        checked_files: impl Iterator<Item = SourceFile>,
         removed: &BTreeSet<Utf8PathBuf>,
     ) -> Vec<SourceFile> {
-        let db = session.db();
-        let removed = removed.iter().map(|drawing| db.file(drawing));
-        let released: HashSet<SourceFile> = checked_files.chain(removed).collect();
-        let mut others = Vec::new();
-        self.owners.retain(|_, claimants| {
-            let before = claimants.len();
-            claimants.retain(|claimant| !released.contains(&claimant.file(db)));
-            if claimants.len() < before {
-                others.extend(claimants.iter().map(|claimant| claimant.file(db)));
-            }
-            !claimants.is_empty()
-        });
-        others
+        self.programs.forget(session.db(), removed)
     }
 
-    /// Forgets removed drawings, and returns the diagnostics of their programs.
-    pub(super) fn forget(&mut self, removed: &BTreeSet<Utf8PathBuf>) -> Vec<Diagnostic> {
-        removed.iter().filter_map(|drawing| self.found.remove(drawing)).flatten().collect()
-    }
-
-    /// Writes all targets. Returns diagnostics of the programs, and of targets that match no path.
-    pub(super) fn begin(&mut self, session: &mut Session<'_>, all: &[SourceFile]) -> Vec<Diagnostic> {
-        let mut configured = TargetPatterns::new(&self.workspace.settings);
-        let mut problems = self.write_some(session, all, &mut configured).now;
-        problems.extend(configured.unmatched().filter(|_| self.is_on));
-        problems
-    }
-
-    /// Writes the targets among the paths of drawings that were checked.
-    pub(super) fn write(&mut self, session: &mut Session<'_>, checked_files: &[SourceFile]) -> WriteOutcome {
-        self.write_some(session, checked_files, &mut TargetPatterns::new(&self.workspace.settings))
-    }
-
-    fn write_some(
+    /// Writes the targets among the paths of drawings that were checked. Returns the other drawings whose programs may be written now.
+    pub(super) fn write(
         &mut self,
         session: &mut Session<'_>,
-        files: &[SourceFile],
-        configured: &mut TargetPatterns<'_>,
-    ) -> WriteOutcome {
+        checked_files: &[SourceFile],
+    ) -> Vec<SourceFile> {
         if !self.is_on {
-            return WriteOutcome::default();
+            return Vec::new();
         }
-        let (mut targets, mut before) = (Vec::new(), Vec::new());
-        for file in files {
-            before.extend(self.found.remove(file.path(session.db())).into_iter().flatten());
+        let mut configured = TargetPatterns::new(&self.workspace.settings);
+        let mut targets: Vec<Target> = Vec::new();
+        for file in checked_files {
             let names =
                 path_names(session.db(), *file).iter().filter(|name| configured.matches(name.as_str()));
             targets.extend(names.map(|name| session.target_in(*file, name, Role::Emitted)));
         }
-        match emit::write(session, self.post_processor.as_ref(), &targets, &mut self.owners) {
-            Ok(emission) => {
-                self.listener.programs_written(emission.delivered);
-                self.record(session, &emission.diagnostics);
-                WriteOutcome { before, now: emission.diagnostics }
-            }
-            Err(refusal) => {
-                self.listener.options_missing(&refusal);
-                WriteOutcome { before, now: Vec::new() }
-            }
+        let post_processor = self.post_processor.as_ref();
+        let (outcomes, rivals) = self.programs.write(session, post_processor, checked_files, &targets);
+        match outcomes {
+            Ok(outcomes) => self.listener.programs_written(outcomes),
+            Err(refusal) => self.listener.options_missing(&refusal),
         }
+        rivals
     }
 
-    fn record(&mut self, session: &Session<'_>, found: &[Diagnostic]) {
-        for problem in found {
-            if let Some(drawing) = self.drawing_of(session, problem) {
-                self.found.entry(drawing).or_default().push(problem.clone());
-            }
+    /// Updates the diagnostics of programs in a batch. Without `scope`, because drawings are still to be checked, the common ones stay as they are.
+    pub(super) fn update_problems(
+        &mut self,
+        session: &Session<'_>,
+        scope: Option<&Scope<'_>>,
+        batch: &mut Batch,
+    ) {
+        if !self.is_on {
+            return;
         }
+        if let Some(scope) = scope {
+            let common = self.programs.common_problems(session, self.post_processor.as_ref(), scope);
+            batch.has_other_problems |= replace(&mut self.common_problems, common, batch);
+        }
+        let problems = self.programs.problems(session);
+        replace(&mut self.problems, problems, batch);
     }
 
-    /// Returns the drawing that a diagnostic belongs to. Diagnostics about an output file name that file instead.
-    fn drawing_of(&self, session: &Session<'_>, problem: &Diagnostic) -> Option<Utf8PathBuf> {
-        let file = problem.file.as_ref().map(|file| file.as_str()).or(problem.quoted("name"))?;
-        match self.owners.get(&file.to_lowercase()) {
-            Some(owners) => owners.first().map(|owner| owner.file(session.db()).path(session.db()).clone()),
-            None => problem.file.clone(),
-        }
+    /// Returns the diagnostics of all programs together.
+    pub(super) fn common_problems(&self) -> &[Diagnostic] {
+        &self.common_problems
     }
+}
+
+/// Replaces diagnostics, and adds them to the batch if they differ. Returns whether they do.
+fn replace(before: &mut Vec<Diagnostic>, now: Vec<Diagnostic>, batch: &mut Batch) -> bool {
+    let is_other = *before != now;
+    if is_other {
+        batch.now.extend_from_slice(&now);
+        batch.before.extend(std::mem::replace(before, now));
+    }
+    is_other
 }

@@ -13,6 +13,7 @@ mod emitting;
 mod keeping;
 mod mischief;
 mod on_disk;
+mod watched_programs;
 mod watching;
 
 use std::sync::Arc;

@@ -1,0 +1,236 @@
+//! The programs of a long-lived session, which are written a few drawings at a time. (book: reference/commands, `watch`)
+//!
+//! The plans and outcomes of all programs are kept, so that everything that `emit` says of all programs together can be said after each change: clashes
+//! of file names, stale programs, and targets that match no path.
+
+use std::cell::LazyCell;
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+
+use camino::Utf8PathBuf;
+use pathbuild_db::{Database, SourceFile, Target};
+use pathbuild_diagnostic::Diagnostic;
+
+use super::options;
+use super::outcome::{ProgramOutcome, Task};
+use super::plan::{Job, JobBuilder, Plan, clashes, leave_out_clashes};
+use super::select::TargetPatterns;
+use super::settle::build_and_settle;
+use super::stale_programs::EarlierPrograms;
+use crate::memo::{Memo, read_drawings};
+use crate::post_processor::PostProcessor;
+use crate::session::{Session, compare_paths};
+
+/// The programs that were written in a session, with what is wrong with them.
+#[derive(Debug, Default)]
+pub struct WrittenPrograms {
+    by_drawing: BTreeMap<Utf8PathBuf, Vec<(Target, Plan)>>,
+    /// The targets that yield each file, by file name in lower case. A file with several targets is not written.
+    owners: HashMap<String, Vec<Target>>,
+}
+
+/// The drawings that a session covers.
+pub(crate) struct Scope<'a> {
+    /// Whether these are the drawings of the library, among which each configured target must match a path.
+    pub(crate) is_library: bool,
+    /// Drawings that were found in directories, and of which all paths were therefore considered.
+    pub(crate) drawings: &'a [Utf8PathBuf],
+    /// Directories that were searched for drawings.
+    pub(crate) directories: &'a [Utf8PathBuf],
+}
+
+impl WrittenPrograms {
+    /// Writes the programs of these targets, which are all targets of these drawings. Returns the outcomes, and the other drawings whose programs may be
+    /// written now because these drawings no longer claim their names.
+    ///
+    /// # Errors
+    /// If options are missing, with a message that names them.
+    pub fn write(
+        &mut self,
+        session: &mut Session<'_>,
+        post_processor: Option<&PostProcessor>,
+        drawings: &[SourceFile],
+        targets: &[Target],
+    ) -> (Result<Vec<ProgramOutcome>, String>, Vec<SourceFile>) {
+        let plans = session
+            .with_stable_files(|session| self.plan_and_build(session, post_processor, drawings, targets));
+        let (plans, refusal) = match plans {
+            Ok(plans) => (plans, None),
+            Err(refusal) => (targets.iter().map(|_| Plan::default()).collect(), Some(refusal)),
+        };
+        let outcomes = plans.iter().filter_map(|plan| plan.remaining_job()?.outcome.clone()).collect();
+        let db = session.db();
+        let mut programs: BTreeMap<&Utf8PathBuf, Vec<(Target, Plan)>> =
+            drawings.iter().map(|drawing| (drawing.path(db), Vec::new())).collect();
+        for (target, plan) in targets.iter().zip(plans) {
+            programs.entry(target.file(db).path(db)).or_default().push((*target, plan));
+        }
+        let freed: BTreeSet<String> =
+            programs.into_iter().flat_map(|(drawing, programs)| self.replace(drawing, programs)).collect();
+        let mut rivals = self.only_owners(db, &freed);
+        rivals.retain(|rival| !drawings.contains(rival));
+        (refusal.map_or(Ok(outcomes), Err), rivals)
+    }
+
+    fn plan_and_build(
+        &self,
+        session: &mut Session<'_>,
+        post_processor: Option<&PostProcessor>,
+        drawings: &[SourceFile],
+        targets: &[Target],
+    ) -> Result<Vec<Plan>, String> {
+        let context = session.workspace();
+        let checked = session.check(targets);
+        let task = Task::Write { force: false };
+        if let Some(refusal) = options::missing_options_error(context, task, &checked) {
+            return Err(refusal);
+        }
+        let sheet = task.sheets(&context.settings);
+        let builder = JobBuilder { session, post_processor, join: None, sheet };
+        let mut plans: Vec<Plan> = checked.chunks(1).map(|checked| builder.plan(checked)).collect();
+        // The clashes of all programs are reported together.
+        leave_out_clashes(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), &mut Vec::new());
+        for plan in &mut plans {
+            plan.leave_out_if_raised(context);
+            // The errors of drawings are those that `check` reports.
+            plan.diagnostics.clear();
+            // A job that is left out claims its names, too: whether another target may write them does not depend on which was saved last.
+            if let Some(job) = plan.job.as_mut().filter(|job| self.is_claimed(session.db(), job, drawings)) {
+                job.leave_out();
+            }
+        }
+        build_and_settle(
+            session,
+            plans.iter_mut().filter_map(|plan| plan.job.as_mut()),
+            task,
+            post_processor,
+        );
+        Ok(plans)
+    }
+
+    /// Whether a target in another drawing than these claims a file name of the job.
+    fn is_claimed(&self, db: &Database, job: &Job, drawings: &[SourceFile]) -> bool {
+        let owners = job.files.iter().filter_map(|(_, path)| self.owners.get(&path.as_str().to_lowercase()));
+        owners.flatten().any(|owner| !drawings.contains(&owner.file(db)))
+    }
+
+    /// Forgets the programs of removed drawings. Returns the other drawings whose programs may be written now.
+    pub fn forget(&mut self, db: &Database, removed: &BTreeSet<Utf8PathBuf>) -> Vec<SourceFile> {
+        let freed: BTreeSet<String> =
+            removed.iter().flat_map(|drawing| self.replace(drawing, Vec::new())).collect();
+        self.only_owners(db, &freed)
+    }
+
+    /// Replaces the programs of a drawing. Returns the file names that it no longer claims, in lower case.
+    fn replace(&mut self, drawing: &Utf8PathBuf, programs: Vec<(Target, Plan)>) -> Vec<String> {
+        let claims = |programs: &[(Target, Plan)]| -> HashSet<(String, Target)> {
+            let jobs = programs.iter().filter_map(|(target, plan)| Some((*target, plan.job.as_ref()?)));
+            let names = |(target, job): (Target, &Job)| {
+                job.files.iter().map(|(_, path)| (path.as_str().to_lowercase(), target)).collect::<Vec<_>>()
+            };
+            jobs.flat_map(names).collect()
+        };
+        let now = claims(&programs);
+        let before = match programs.is_empty() {
+            true => self.by_drawing.remove(drawing),
+            false => self.by_drawing.insert(drawing.clone(), programs),
+        };
+        let before = claims(&before.unwrap_or_default());
+        for (name, target) in now.difference(&before) {
+            self.owners.entry(name.clone()).or_default().push(*target);
+        }
+        let mut freed = Vec::new();
+        for (name, target) in before.difference(&now) {
+            if let Some(owners) = self.owners.get_mut(name) {
+                owners.retain(|owner| owner != target);
+                if owners.is_empty() {
+                    self.owners.remove(name);
+                }
+            }
+            freed.push(name.clone());
+        }
+        freed
+    }
+
+    /// Returns the drawings of the targets that are the only ones to claim one of these file names.
+    fn only_owners(&self, db: &Database, names: &BTreeSet<String>) -> Vec<SourceFile> {
+        let owners = names.iter().filter_map(|name| self.owners.get(name));
+        owners.filter(|owners| owners.len() == 1).flatten().map(|owner| owner.file(db)).collect()
+    }
+
+    /// Returns the drawings with a program that has a diagnostic of this kind.
+    pub fn drawings_with(
+        &self,
+        session: &Session<'_>,
+        is_wanted: impl Fn(&Diagnostic) -> bool,
+    ) -> BTreeSet<Utf8PathBuf> {
+        let has_any = |plans: &[(Target, Plan)]| {
+            plans.iter().any(|(_, plan)| plan.program_problems(session.workspace()).iter().any(&is_wanted))
+        };
+        let drawings = self.by_drawing.iter().filter(|(_, plans)| has_any(plans));
+        drawings.map(|(drawing, _)| drawing.clone()).collect()
+    }
+
+    /// Returns the diagnostics of each program.
+    pub fn problems(&self, session: &Session<'_>) -> Vec<Diagnostic> {
+        let plans = self.by_drawing.values().flatten();
+        plans.flat_map(|(_, plan)| plan.program_problems(session.workspace())).collect()
+    }
+
+    /// Returns what `emit` says of all programs together: file names that several targets claim, programs on disk that are stale, and configured targets
+    /// that match no path.
+    #[cfg(not(target_family = "wasm"))]
+    pub(crate) fn common_problems(
+        &mut self,
+        session: &Session<'_>,
+        post_processor: Option<&PostProcessor>,
+        scope: &Scope<'_>,
+    ) -> Vec<Diagnostic> {
+        let mut problems = self.leave_out_clashes(session);
+        let programs = self.in_order();
+        let targets: Vec<Target> = programs.iter().map(|(target, _)| *target).collect();
+        let jobs: Vec<&Job> = programs.iter().filter_map(|(_, plan)| plan.job.as_ref()).collect();
+        let drawings = LazyCell::new(|| {
+            read_drawings(session, &Memo::default(), scope.drawings, |path| path.as_str().into())
+        });
+        let earlier = EarlierPrograms {
+            session,
+            task: Task::Write { force: false },
+            post_processor,
+            join: None,
+            out_dir: session.out_dir(),
+            targets: &targets,
+            covered: &|| &drawings,
+            directories: scope.directories,
+            jobs: &jobs,
+        };
+        let outcome = earlier.find_and_settle(false, &mut problems);
+        problems.extend(outcome.older.into_iter().flat_map(|older| older.problems));
+        if scope.is_library {
+            let mut configured = TargetPatterns::new(&session.workspace().settings);
+            for target in &targets {
+                configured.matches(target.name(session.db()));
+            }
+            problems.extend(configured.unmatched());
+        }
+        problems
+    }
+
+    /// Leaves out the jobs with a file that another job has as well, and returns PB514 for each clash.
+    pub fn leave_out_clashes(&mut self, session: &Session<'_>) -> Vec<Diagnostic> {
+        let jobs: Vec<&Job> = self.in_order().into_iter().filter_map(|(_, plan)| plan.job.as_ref()).collect();
+        let (clashing, problems) = clashes(session, &jobs);
+        let clashing: HashSet<Target> = clashing.into_iter().map(|index| jobs[index].targets[0]).collect();
+        if !clashing.is_empty() {
+            let jobs = self.by_drawing.values_mut().flatten().filter_map(|(_, plan)| plan.job.as_mut());
+            jobs.filter(|job| clashing.contains(&job.targets[0])).for_each(Job::leave_out);
+        }
+        problems
+    }
+
+    /// Returns the programs in the order in which `emit` reports them.
+    fn in_order(&self) -> Vec<&(Target, Plan)> {
+        let mut drawings: Vec<_> = self.by_drawing.iter().collect();
+        drawings.sort_by(|(a, _), (b, _)| compare_paths(a, b));
+        drawings.into_iter().flat_map(|(_, programs)| programs).collect()
+    }
+}
