@@ -232,7 +232,7 @@ messages! {
     }
     /// A configuration in a subdirectory, which has no effect because the run has no configuration.
     UNUSED_WITHOUT_ANY: UnusedConfiguration {
-        en: "this configuration does not apply: the run uses none, because none lies in its starting directory or above it",
+        en: "this configuration does not apply: the run uses none, because there is no pathbuild.toml in the directory where it starts, or above it",
         de: "diese Konfiguration gilt nicht: der Lauf verwendet keine, weil in seinem Ausgangsverzeichnis und darüber keine liegt",
         help_en: "check this directory in a run of its own, or name the intended configuration with --config",
         help_de: "dieses Verzeichnis in einem eigenen Lauf prüfen oder die gemeinte Konfiguration mit --config nennen",

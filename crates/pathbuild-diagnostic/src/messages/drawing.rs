@@ -288,7 +288,7 @@ messages! {
     }
     /// A polyline or spline whose points all lie in one place.
     CURVE_WITHOUT_LENGTH: LeftoverElement {
-        en: "{entity} has no length: all of its points lie in one place, and nothing is drawn by it",
+        en: "{entity} has no length: all of its points coincide, so it draws nothing",
         de: "{entity} hat keine Länge: alle Punkte liegen auf derselben Stelle, und nichts wird dadurch gezeichnet",
         help_en: "delete it, or draw it again",
         help_de: "löschen oder neu zeichnen",
@@ -332,14 +332,14 @@ messages! {
     CLAMPS_NOT_VISIBLE: LayerNotVisible {
         en: "a layer with clamps is frozen or off, but its clamps still apply",
         de: "ein Layer mit Spannmitteln ist gefroren oder ausgeschaltet, die Spannmittel gelten trotzdem",
-        help_en: "make it visible, or move clamps that no longer exist to a layer that `keep-out` does not name",
+        help_en: "make it visible, or move clamps that no longer exist to a layer that `keep-out` does not match",
         help_de: "sichtbar machen oder Spannmittel, die es nicht mehr gibt, auf einen Layer legen, den `keep-out` nicht nennt",
     }
     /// An open outline of a clamp.
     OUTLINE_OPEN: InvalidKeepOut {
         en: "the outline of a clamp is not closed: it ends at {point} and at {other}, {distance} mm apart",
         de: "der Umriss eines Spannmittels ist nicht geschlossen: er endet bei {point} und bei {other}, {distance} mm auseinander",
-        help_en: "draw a circle, a closed polyline, or lines and arcs whose ends meet all around; the CAD's object snap joins them",
+        help_en: "draw a circle, a closed polyline, or lines and arcs whose ends meet all around; use the CAD's object snap to join them",
         help_de: "einen Kreis, eine geschlossene Polylinie oder Linien und Bögen zeichnen, deren Enden sich rundum treffen; der Objektfang im CAD verbindet sie",
     }
     /// A point at which more than two curves of outlines of clamps end.
@@ -456,7 +456,7 @@ messages! {
     }
     /// A section that follows ENTITIES, although it is only read before ENTITIES.
     SECTION_MISPLACED: InvalidDxf {
-        en: "a section {found} follows the section ENTITIES; what it contains would be ignored",
+        en: "the section {found} comes after ENTITIES, where its contents would be ignored",
         de: "auf den Abschnitt ENTITIES folgt ein Abschnitt {found}; sein Inhalt würde nicht beachtet",
         help_en: "open the drawing in a CAD program and save it again: the order is HEADER, TABLES, BLOCKS, ENTITIES, each at most once",
         help_de: "die Zeichnung in einem CAD-Programm öffnen und neu speichern: Die Reihenfolge ist HEADER, TABLES, BLOCKS, ENTITIES, jeder höchstens einmal",
@@ -505,7 +505,7 @@ messages! {
     }
     /// A length of an entity that is 0 or negative.
     NOT_POSITIVE: InvalidDxf {
-        en: "{entity}: \"{value}\" in group {code} must be more than 0",
+        en: "{entity}: \"{value}\" in group {code} must be greater than 0",
         de: "{entity}: \"{value}\" in Gruppe {code} muss größer als 0 sein",
         help_en: "delete the entity or draw it again; it has no extent",
         help_de: "das Element löschen oder neu zeichnen; es hat keine Ausdehnung",

@@ -36,7 +36,7 @@ messages! {
     }
     /// A link to a file that does not exist.
     DANGLING_LINK: UnreadableFile {
-        en: "the file that this link leads to does not exist",
+        en: "the file that this link points to does not exist",
         de: "die Datei, zu der diese Verknüpfung führt, gibt es nicht",
         help_en: "restore that file, or remove the link",
         help_de: "jene Datei wiederherstellen oder die Verknüpfung entfernen",

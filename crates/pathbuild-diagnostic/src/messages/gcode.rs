@@ -10,7 +10,7 @@ messages! {
     ACTIVE_COMMENT: ActiveComment {
         en: "{dialect} obeys this comment: {word}",
         de: "{dialect} führt diesen Kommentar aus: {word}",
-        help_en: "put another word in front if it is only a remark",
+        help_en: "if it is only a remark, begin it with another word",
         help_de: "ein anderes Wort davorsetzen, wenn es nur eine Bemerkung ist",
     }
     /// A coordinate without a decimal point, such as `X10`, which may count as thousandths.
@@ -52,7 +52,7 @@ messages! {
     WORD_ALTERED: ForeignWord {
         en: "{word} is written as {written}",
         de: "{word} wird als {written} geschrieben",
-        help_en: "check that the program may do this instead",
+        help_en: "check that {written} does what the program needs",
         help_de: "prüfen, ob das Programm stattdessen dies tun darf",
     }
     /// A word that the output of a post does not have.
@@ -73,7 +73,7 @@ messages! {
     NO_COMMAND: UnknownWord {
         en: "the line begins with `{word}`: {dialect} obeys only lines that begin with G, M or T",
         de: "die Zeile beginnt mit `{word}`: {dialect} führt nur Zeilen aus, die mit G, M oder T beginnen",
-        help_en: "put the command in front",
+        help_en: "write the command at the beginning of the line",
         help_de: "den Befehl davorsetzen",
     }
     /// Two commands in one line, in a dialect that obeys only the first.
@@ -150,7 +150,7 @@ messages! {
     NUMBER_WITHOUT_LETTER: InvalidWord {
         en: "the number `{found}` has no letter; the line is left out",
         de: "die Zahl `{found}` hat keinen Buchstaben; die Zeile bleibt unbeachtet",
-        help_en: "put the letter of the word in front; a comment begins with {comment}",
+        help_en: "write the letter of the word before the number; a comment begins with {comment}",
         help_de: "den Buchstaben des Worts davorsetzen; ein Kommentar beginnt mit {comment}",
     }
     /// A block number that is too large, or not at the beginning.
@@ -344,7 +344,7 @@ messages! {
     }
     /// A macro statement of a control whose macros are not interpreted.
     MACRO_NOT_FOLLOWED: WordNotFollowed {
-        en: "macros of {dialect} are not followed; the line is left out",
+        en: "pathbuild does not interpret macros of {dialect}; the line is left out",
         de: "Makros von {dialect} werden nicht verfolgt; die Zeile bleibt unbeachtet",
         help_en: "check the program at the control, or write the moves out",
         help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
@@ -358,7 +358,7 @@ messages! {
     }
     /// A second `%`, which has no known meaning for XpertMILL.
     SECOND_PERCENT: DoubtfulSpelling {
-        en: "`%` begins a program; what {dialect} makes of it further down is not known",
+        en: "`%` begins a program; what it does for {dialect} anywhere else is not known",
         de: "`%` beginnt ein Programm; was {dialect} weiter unten damit macht, ist nicht bekannt",
         help_en: "remove the line",
         help_de: "die Zeile entfernen",
@@ -372,7 +372,7 @@ messages! {
     }
     /// An O word (subroutine or branch) that is not interpreted.
     O_WORD: WordNotFollowed {
-        en: "this O word is not followed; the lines below are read once, in the order of the file",
+        en: "pathbuild does not interpret this O word; the lines below are read once, in the order of the file",
         de: "dieses O-Wort wird nicht verfolgt; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
         help_en: "write the moves out, or check the program at the control",
         help_de: "die Bewegungen ausschreiben oder das Programm an der Steuerung prüfen",
@@ -393,7 +393,7 @@ messages! {
     }
     /// A subprogram that calls itself. That call is not interpreted.
     CALLED_BY_ITSELF: WordNotFollowed {
-        en: "the subprogram {name} calls itself; this call is not followed",
+        en: "the subprogram {name} calls itself; this call is left out",
         de: "das Unterprogramm {name} ruft sich selbst auf; dieser Aufruf wird nicht verfolgt",
         help_en: "write a loop with a number of repetitions instead",
         help_de: "stattdessen eine Schleife mit einer Anzahl von Wiederholungen schreiben",
@@ -402,7 +402,7 @@ messages! {
     CALLED_WITHOUT_END: WordNotFollowed {
         en: "{name} has no end in this file",
         de: "{name} hat in dieser Datei kein Ende",
-        help_en: "end subprograms with M99 or endsub, loops with endrepeat or endwhile, do with while, and branches with endif",
+        help_en: "end subprograms with M99 or endsub, `repeat` and `while` loops with `endrepeat` and `endwhile`, `do` loops with `while`, and branches with `endif`",
         help_de: "Unterprogramme mit M99 oder endsub beenden, Schleifen mit endrepeat oder endwhile, do mit while, Verzweigungen mit endif",
     }
     /// A `do` loop that LinuxCNC ends too early, because an earlier `while` loop was left by `break`.
@@ -435,7 +435,7 @@ messages! {
     }
     /// Calls and loops that are nested more deeply than the limit.
     CALLS_TOO_DEEP: WordNotFollowed {
-        en: "subprograms and loops are nested more than {most} levels deep: this one is not followed",
+        en: "subprograms and loops are nested more than {most} levels deep: this one is left out",
         de: "Unterprogramme und Schleifen sind mehr als {most}fach geschachtelt: hier wird nicht weiter verfolgt",
         help_en: "write the innermost moves out",
         help_de: "die innersten Bewegungen ausschreiben",
@@ -449,7 +449,7 @@ messages! {
     }
     /// A command that is not interpreted, although it may affect later moves.
     NOT_FOLLOWED: WordNotFollowed {
-        en: "{word} is not followed: from here on the machine may move differently",
+        en: "pathbuild does not interpret {word}: from here on, the machine may move differently",
         de: "{word} wird nicht verfolgt: ab hier kann sich die Maschine anders bewegen",
         help_en: "check the program at the control, or write the moves out",
         help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
@@ -470,7 +470,7 @@ messages! {
     }
     /// A word for an axis that is not interpreted.
     AXIS_NOT_FOLLOWED: WordNotFollowed {
-        en: "the axis {word} is not followed",
+        en: "pathbuild does not track the axis {word}",
         de: "die Achse {word} wird nicht verfolgt",
         help_en: "check at the control how this axis moves: only X, Y and Z are read",
         help_de: "an der Steuerung prüfen, wie sich diese Achse bewegt: nur X, Y und Z werden gelesen",
@@ -484,12 +484,12 @@ messages! {
     }
     /// F words that are ignored because of an option.
     FEED_IGNORED: IgnoredWord {
-        en: "F is ignored as requested: the layers' feeds apply",
+        en: "F is ignored because of an option: the feeds of the layers apply",
         de: "F wird wie verlangt übergangen: es gelten die Vorschübe der Layer",
     }
     /// A speed that replaces an earlier one of the same layer.
     SPEED_REPLACED: IgnoredWord {
-        en: "layer {layer} already has the speed {old}; {new} takes its place",
+        en: "layer {layer} already has the speed {old}; {new} replaces it",
         de: "Layer {layer} hat schon die Drehzahl {old}; {new} ersetzt sie",
         help_en: "give each layer only one S",
         help_de: "jedem Layer nur ein S geben",
@@ -524,9 +524,9 @@ messages! {
     }
     /// Coordinates in a line while no motion mode is active.
     NO_MOTION: MissingWord {
-        en: "there are coordinates without a motion: none of G0 to G3 is active here",
+        en: "these coordinates have no motion word: none of G0 to G3 is active here",
         de: "hier stehen Koordinaten ohne Bewegung: keines von G0 bis G3 ist aktiv",
-        help_en: "put G0 or G1 in front",
+        help_en: "write G0 or G1 before them",
         help_de: "G0 oder G1 davorsetzen",
     }
     /// A word with a value outside of the permitted range.
@@ -538,7 +538,7 @@ messages! {
     }
     /// A drilling cycle of more moves than the limit.
     TOO_MANY_STROKES: ValueOutOfRange {
-        en: "this line drills with {count} moves; pathbuild follows at most {most}",
+        en: "this line drills with {count} moves; pathbuild interprets at most {most}",
         de: "diese Zeile bohrt mit {count} Bewegungen; pathbuild folgt höchstens {most}",
         help_en: "correct the depth, the depth of a peck (Q) or the number of holes",
         help_de: "die Tiefe, die Tiefe je Hub (Q) oder die Zahl der Bohrungen berichtigen",
@@ -643,7 +643,7 @@ messages! {
     LOW_MACHINE_HEIGHT: UnknownOffset {
         en: "only the machine knows whether Z {z} of G53 is above the material",
         de: "nur die Maschine weiß, ob Z {z} von G53 über dem Material liegt",
-        help_en: "raise the tool with `G53 G0 Z0`; if this is a place beside the part, move there with `G53 G0 X Y` first",
+        help_en: "raise the tool with `G53 G0 Z0`; to go down beside the part, move over that place with `G53 G0 X Y` first",
         help_de: "das Werkzeug mit `G53 G0 Z0` heben; ist ein Platz neben dem Teil gemeint, zuerst mit `G53 G0 X Y` dorthin fahren",
     }
     /// A unit that contradicts a comment.
@@ -751,7 +751,7 @@ messages! {
     }
     /// An arc given by its radius that is nearly a half circle, so that the centre is imprecise.
     NEAR_HALF_CIRCLE: DoubtfulArc {
-        en: "the centre of this arc with R moves by {shift} mm if R changes by {change} mm, and the program's numbers are no finer",
+        en: "the centre of this arc with R moves by {shift} mm if R changes by {change} mm, which is the precision of the program's numbers",
         de: "der Mittelpunkt dieses Bogens mit R wandert um {shift} mm, wenn sich R um {change} mm ändert, und die Zahlen des Programms sind nicht feiner",
         help_en: "write the arc with I and J, or with more decimals",
         help_de: "den Bogen mit I und J oder mit mehr Nachkommastellen schreiben",
@@ -786,7 +786,7 @@ messages! {
     }
     /// A program that exceeds the limit of pieces into which arcs and ramps are divided to simulate the material.
     TOO_MANY_PIECES: LimitReached {
-        en: "to track the material, the arcs and slopes of this program are cut into {count} pieces, which exceeds the limit of {limit}; rapid moves into material are not checked",
+        en: "to track the material, the arcs and slopes of this program are divided into {count} pieces, which exceeds the limit of {limit}; rapid moves into material are not checked",
         de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die Grenze von {limit}; Eilgänge ins Material werden nicht geprüft",
         help_en: "correct radii and heights that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Radien und Höhen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",

@@ -99,7 +99,7 @@ messages! {
     NO_PATH_LIKE: PathNotFound {
         en: "no path matches {name}",
         de: "kein Pfad entspricht {name}",
-        help_en: "see `pathbuild list` for all paths; * stands for any characters, ? for one",
+        help_en: "`pathbuild list` shows all paths; * stands for any characters, ? for one",
         help_de: "mit `pathbuild list` alle Pfade anzeigen; * steht für beliebige Zeichen, ? für eines",
     }
     /// Note: the drawing that defines the path.

@@ -227,7 +227,7 @@ messages! {
     }
     /// Support bars that end at the plate or below.
     THIN_BARS: DoubtfulValue {
-        en: "D is {value}: the support bars end at that height above the plate, and hold nothing",
+        en: "D is {value}: the support bars end at this height above the plate, too low to hold anything",
         de: "D ist {value}: die Stützstege enden in dieser Höhe über der Platte und halten nichts",
         help_en: "write the thickness of the bars, for example D1: D is their upper edge, measured from the plate upwards",
         help_de: "die Dicke der Stege schreiben, zum Beispiel D1: D ist ihre Oberkante, von der Platte nach oben gemessen",
@@ -479,7 +479,7 @@ messages! {
     }
     /// A definition of a variable with a range from a greater to a lesser number.
     REVERSED_RANGE: InvalidVariableDefinition {
-        en: "the range \"{definition}\" ends below its beginning",
+        en: "the range \"{definition}\" ends with a smaller number than it begins with",
         de: "der Bereich \"{definition}\" endet unter seinem Anfang",
         help_en: "write the smaller number first",
         help_de: "die kleinere Zahl zuerst schreiben",

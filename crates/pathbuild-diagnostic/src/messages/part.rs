@@ -5,7 +5,7 @@ messages! {
     GOUGE: GougedPart {
         en: "the cutter goes {depth} mm into the part at {point}, over a length of {length} mm",
         de: "der Fräser gerät bei {point} {depth} mm tief in das Teil, auf einer Länge von {length} mm",
-        help_en: "draw the path half of O away from the outline, or correct the outline; `part-tolerance` in pathbuild.toml permits small differences",
+        help_en: "draw the path at a distance of half of O from the outline, or correct the outline; `part-tolerance` in pathbuild.toml permits small differences",
         help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen oder den Umriss berichtigen; `part-tolerance` in pathbuild.toml erlaubt kleine Abweichungen",
     }
     /// A hole drilled into the part.
@@ -26,7 +26,7 @@ messages! {
     LEFTOVER: LeftoverAtPart {
         en: "up to {thickness} mm of material remain at the outline of the part, from {from} to {to}, over {length} mm (places: {count})",
         de: "am Umriss des Teils bleiben bis zu {thickness} mm Material stehen, von {from} bis {to}, auf {length} mm (Stellen: {count})",
-        help_en: "draw the path half of O away from the outline; to leave an allowance on purpose, draw the part with it",
+        help_en: "draw the path at a distance of half of O from the outline; to leave an allowance on purpose, include it in the outline",
         help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen; soll ein Aufmaß bleiben, das Teil damit zeichnen",
     }
     /// A cut along the outline of a part that does not go through the material.

@@ -48,7 +48,7 @@ messages! {
     }
     /// Note: a segment that does not quite meet the way back.
     END_BESIDE_WAY_BACK: NothingContinues {
-        en: "{element} ends at {point}, {distance} mm beside the way back: on the way back the ends must meet, `join-tolerance` does not apply",
+        en: "{element} ends at {point}, {distance} mm away from the way back, on which the ends must meet exactly: `join-tolerance` does not apply there",
         de: "{element} endet bei {point}, {distance} mm neben dem Rückweg: auf dem Rückweg müssen sich die Enden treffen, `join-tolerance` gilt dort nicht",
     }
     /// Note: an open end on another layer.
@@ -68,7 +68,7 @@ messages! {
     }
     /// Segments that are not reached when the path ends.
     UNREACHED: UnreachedSegments {
-        en: "the path ends here, but not all of its segments were reached; number left: {left}, including {element} at {point}",
+        en: "the path ends here; segments not reached: {left}, including {element} at {point}",
         de: "der Pfad endet hier, aber nicht alle seine Segmente wurden erreicht; übrig: {left}, darunter {element} bei {point}",
         help_en: "connect them with the path, remove them, or move them to another layer",
         help_de: "mit dem Pfad verbinden, entfernen oder auf einen anderen Layer legen",
@@ -82,14 +82,14 @@ messages! {
     }
     /// A segment that is not reached because it touches another kind of segment between that segment's ends.
     NO_END_THERE: UnreachedSegments {
-        en: "not all segments were reached; left: {left}; {element} at {point} lies on {other}, which does not end there",
+        en: "segments not reached: {left}; {element} at {point} touches {other}, which does not end there",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} liegen {element} und {other} übereinander, ohne dass dort ein Segment endet",
         help_en: "split the line or arc at {point}",
         help_de: "die Linie oder den Bogen bei {point} teilen",
     }
     /// A segment that is not reached because it touches a segment of the same kind between that segment's ends.
     NO_END_THERE_ALIKE: UnreachedSegments {
-        en: "not all segments were reached; left: {left}; {element} at {point} lies on another one, which does not end there",
+        en: "segments not reached: {left}; {element} at {point} touches another one, which does not end there",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} trifft {element} auf ein anderes der gleichen Art, das dort nicht endet",
         help_en: "split the line or arc at {point}",
         help_de: "die Linie oder den Bogen bei {point} teilen",
@@ -105,7 +105,7 @@ messages! {
     END_NOT_REACHED: EndNotReached {
         en: "the path stops at {point}, but its end marker is at {end}",
         de: "der Pfad hört bei {point} auf, seine Endmarke ist aber bei {end}",
-        help_en: "move the end marker there, or draw what is missing between",
+        help_en: "move the end marker there, or draw the missing segments between the two points",
         help_de: "die Endmarke dorthin verschieben oder das Fehlende dazwischen zeichnen",
     }
     /// A path that has no segments.

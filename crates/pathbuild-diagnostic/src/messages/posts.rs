@@ -133,7 +133,7 @@ messages! {
     MACRO_SIZE: EndlessMacro {
         en: "the post writes far too much text for the number of moves in the program",
         de: "der Postprozessor schreibt viel zu viel Text für die Zahl der Bewegungen im Programm",
-        help_en: "look for macros that contain others several times",
+        help_en: "look for macros that insert other macros several times: each level multiplies the text",
         help_de: "nach Makros suchen, die andere mehrmals enthalten",
     }
     /// A hole with too many pecks.
@@ -166,7 +166,7 @@ messages! {
     MOTION_EMPTY: InvalidPost {
         en: "{section} writes no move: its text is empty, or only a comment",
         de: "{section} schreibt keine Bewegung: der Text ist leer oder nur ein Kommentar",
-        help_en: "write the move, as in the default text, or remove the element to get that",
+        help_en: "write the move, as in the default text, or remove the element so that the default text applies",
         help_de: "die Bewegung schreiben wie im vorgegebenen Text, oder das Element entfernen, dann gilt dieser",
     }
     /// A hole for which nothing is written.
@@ -281,7 +281,7 @@ messages! {
     REPLACED_AXIS_WRITTEN: PostDiffers {
         en: "the post writes \"{line}\" although {angle} replaces {axis}: the machine would move both axes",
         de: "der Postprozessor schreibt \"{line}\", obwohl {angle} an die Stelle von {axis} tritt: die Maschine würde beide Achsen bewegen",
-        help_en: "take {axis} out of the post's texts",
+        help_en: "remove {axis} from the post's texts",
         help_de: "{axis} aus den Texten des Postprozessors nehmen",
     }
     /// A cutter without a known spindle speed.
@@ -340,7 +340,7 @@ messages! {
     }
     /// Note: the output does not wait until the spindle is up to speed.
     SPIN_UP_NOT_WRITTEN: DoubtfulPost {
-        en: "the post has no {macro}: the output does not wait for the spindle as long as [machine] spin-up says",
+        en: "the post has no {macro}: the output does not wait for the time that `spin-up` under [machine] gives the spindle",
         de: "der Postprozessor hat kein {macro}: die Ausgabe wartet nicht so lange auf die Spindel, wie [machine] spin-up angibt",
         help_en: "add {macro} to the post, after the words that start the spindle",
         help_de: "{macro} in den Postprozessor aufnehmen, hinter den Wörtern, die die Spindel einschalten",
@@ -419,7 +419,7 @@ messages! {
     }
     /// Further content in a statement that is already complete.
     STATEMENT_GOES_ON: InvalidControlText {
-        en: "{text}, line {line}, column {column}: the statement should end here",
+        en: "{text}, line {line}, column {column}: the statement must end here",
         de: "{text}, Zeile {line}, Spalte {column}: hier sollte die Anweisung enden",
     }
     /// A statement with the sign `§`, which is not supported.
@@ -475,7 +475,7 @@ messages! {
     }
     /// A bitwise operator or a binary format for a number that is not an integer.
     TERM_NOT_WHOLE: InvalidControlText {
-        en: "{text}, line {line}, column {column}: only whole numbers have bits",
+        en: "{text}, line {line}, column {column}: bitwise operators and binary formats need a whole number",
         de: "{text}, Zeile {line}, Spalte {column}: nur ganze Zahlen haben Bits",
     }
     /// A term with an unknown function.
@@ -621,7 +621,7 @@ messages! {
     }
     /// Output that differs from the program when read back.
     POST_DIFFERS: PostDiffers {
-        en: "line {line} of the output does not do what the program says",
+        en: "line {line} of the output differs from the program",
         de: "Zeile {line} der Ausgabe bewirkt nicht, was das Programm sagt",
         help_en: "check the post's text for this line; if you take responsibility for the output, set unchecked = true in [post] of pathbuild.toml",
         help_de: "den Text im Postprozessor für diese Zeile prüfen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
@@ -692,12 +692,12 @@ messages! {
     }
     /// Note: the beam may be on during a rapid move.
     BEAM_ON: PostDiffers {
-        en: "the beam is still on during this rapid move, and the post does not raise it: it writes no Z",
+        en: "the beam is still on during this rapid move, and the post writes no Z that would raise it",
         de: "der Strahl ist während dieses Eilgangs noch an, und der Postprozessor hebt ihn nicht ab: er schreibt kein Z",
     }
     /// Note: a move to another point than in the program.
     GOES_ELSEWHERE: PostDiffers {
-        en: "here the tool goes to {found}, in the program to {expected}",
+        en: "the tool goes to {found} here, but to {expected} in the program",
         de: "hier fährt das Werkzeug nach {found}, im Programm nach {expected}",
     }
     /// Note: a move to the right point along another curve than in the program.
@@ -707,7 +707,7 @@ messages! {
     }
     /// Note: a rapid move instead of a cut, or the reverse.
     GOES_AT_ANOTHER_PACE: PostDiffers {
-        en: "this is {found}, in the program it is {expected}",
+        en: "this move is {found}, but in the program it is {expected}",
         de: "das ist {found}, im Programm {expected}",
     }
     /// Note: a move with another feed than in the program.
@@ -761,7 +761,7 @@ messages! {
     }
     /// A program with several work offsets, to be written through a post.
     JOB_SYSTEM: NothingToPost {
-        en: "a program in several coordinate systems cannot be written through a post",
+        en: "a post cannot write a program that uses several work offsets",
         de: "ein Programm in mehreren Koordinatensystemen kann kein Postprozessor schreiben",
         help_en: "split it into one program for each work offset",
         help_de: "es in ein Programm je Nullpunktverschiebung teilen",
@@ -812,12 +812,12 @@ messages! {
     JOB_TOOL_UNNAMED: NothingToPost {
         en: "the tool is changed here, but the program does not name the new one",
         de: "hier wird das Werkzeug gewechselt, aber das Programm nennt das neue nicht",
-        help_en: "put T and the tool's number in front of M6",
+        help_en: "write T with the tool's number before M6",
         help_de: "T und die Nummer des Werkzeugs vor M6 setzen",
     }
     /// A plunge directly after a tool change.
     CUT_AFTER_CHANGE: NothingToPost {
-        en: "{operation} goes on at Z {z}, below the surface at {surface}, right after the change to T{index}: the new tool would plunge where the old one ended",
+        en: "{operation} continues at Z {z}, below the surface at {surface}, right after the change to T{index}: the new tool would plunge where the old one ended",
         de: "{operation} geht gleich nach dem Wechsel zu T{index} bei Z {z} weiter, unter der Oberfläche bei {surface}: das neue Werkzeug würde eintauchen, wo das alte aufgehört hat",
         help_en: "put a rapid move to a place above the material between the tool change and the next cut",
         help_de: "zwischen Werkzeugwechsel und nächstem Schnitt einen Eilgang über das Material setzen",

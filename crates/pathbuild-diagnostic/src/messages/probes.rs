@@ -68,7 +68,7 @@ messages! {
     LOG_ZERO_MOVED: InvalidProbeLine {
         en: "this result was measured with another zero than those before it: WCO has changed",
         de: "dieses Ergebnis wurde mit einem anderen Nullpunkt gemessen als die davor: WCO hat sich geändert",
-        help_en: "measure all probes again with the zero with which the program will be milled",
+        help_en: "measure all probes again with the zero that the program will use",
         help_de: "alle Proben noch einmal mit dem Nullpunkt messen, mit dem gefräst wird",
     }
     /// A measured height too far from the drawn one.

@@ -38,7 +38,7 @@ messages! {
     }
     /// `verify --against`: a move to the right point along another curve.
     DRAWN_OTHERWISE: MovesDiffer {
-        en: "the tool goes to this point by a different route than in the drawing",
+        en: "the tool goes to this point by a different route than in the drawing's program",
         de: "das Werkzeug fährt auf anderem Weg zu diesem Punkt als in der Zeichnung",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
@@ -103,14 +103,14 @@ messages! {
     NUMBERS_DIFFER: MovesDiffer {
         en: "the program's number is O{found}, but the drawing's is O{expected}: on the control, O{found} may be another program",
         de: "die Programmnummer ist O{found}, für die Zeichnung ist sie O{expected}: in der Steuerung kann O{found} ein anderes Programm sein",
-        help_en: "write the program again with `pathbuild emit`; if the control uses another number for it, set `program-number`",
+        help_en: "write the program again with `pathbuild emit`; if the control uses a different number for it, set `program-number`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben; hat es in der Steuerung eine andere Nummer, `program-number` setzen",
     }
     /// `verify --against`: a tool length offset (G43, H) other than that of the tool in the spindle.
     LENGTHS_DIFFER: MovesDiffer {
         en: "the tool length in effect is not that of the tool in the spindle",
         de: "es gilt nicht die Länge des eingewechselten Werkzeugs",
-        help_en: "write G43 H with the number of the tool that M6 changed to; native programs have no G43",
+        help_en: "write G43 H with the number of the tool in the spindle; native programs have no G43",
         help_de: "G43 H mit der Nummer des mit M6 eingewechselten Werkzeugs schreiben; in nativen Programmen steht kein G43",
     }
     /// `verify --against`: a spindle direction or speed other than that for the drawing's cutter.
@@ -185,14 +185,14 @@ messages! {
     }
     /// An offset by G92 or G52 that is active at the end.
     OFFSET_LEFT_ON: OffsetLeftOn {
-        en: "{word} is still active at the end, so the next program starts elsewhere",
+        en: "the offset of {word} is still active at the end, so the next program is shifted by it",
         de: "{word} ist am Ende noch aktiv, das nächste Programm beginnt daher anderswo",
         help_en: "write G92.1, or G52 X0 Y0 Z0, before the end",
         help_de: "vor dem Ende G92.1 schreiben oder G52 X0 Y0 Z0",
     }
     /// A height that differs from the value of its formula. The machine uses the height.
     FORMULA_DIFFERS: FormulaDiffers {
-        en: "the machine goes to {number}, but the formula comes to {value}",
+        en: "the machine goes to the height {number}, but the correction formula gives {value}",
         de: "die Maschine fährt auf {number}, die Formel ergibt aber {value}",
         help_en: "emit and adjust again: the program was edited",
         help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
@@ -320,7 +320,7 @@ messages! {
     CHECK_NOT_MADE: UnmadeCheck {
         en: "the required check `{check}` was not carried out: {reason}",
         de: "die verlangte Prüfung `{check}` fand nicht statt: {reason}",
-        help_en: "needed: {option}",
+        help_en: "this check needs {option}",
         help_de: "nötig: {option}",
     }
     /// A check of rapid moves that `--require` names but that is incomplete.
@@ -362,7 +362,7 @@ messages! {
     STOCK_STATED_TWICE: HeaderContradiction {
         en: "comments place a corner of the stock at {axis} {one} and at {axis} {other}",
         de: "Kommentare geben eine Ecke des Rohteils mit {axis} {one} und mit {axis} {other} an",
-        help_en: "correct the wrong value: the higher one was used",
+        help_en: "correct the wrong value; until then, the higher one is used",
         help_de: "den falschen Wert berichtigen: verwendet wurde der höhere",
     }
     /// Statistics at the end of a program that do not match its moves.
@@ -451,7 +451,7 @@ messages! {
     }
     /// A slanting rapid move in the material, on a control that moves each axis at its own speed.
     BENT_RAPID: DiagonalRapid {
-        en: "a rapid move in X and Y at once below the material's surface: {dialect} does not move straight there, and leaves what was cut",
+        en: "a rapid move in X and Y at once below the material's surface: {dialect} does not move in a straight line, so the cutter may leave the groove that was cut",
         de: "ein Eilgang zugleich in X und Y unter der Oberfläche des Materials: {dialect} fährt nicht gerade und verlässt den gefrästen Weg",
         help_en: "raise the tool above the material first, or move with G1",
         help_de: "das Werkzeug zuerst über das Material heben oder mit G1 fahren",
@@ -465,7 +465,7 @@ messages! {
     }
     /// A program that never switches the spindle on, for a tool with a speed in the tool table.
     SPINDLE_NEVER_STARTED: SpindleOff {
-        en: "the program cuts without ever switching the spindle on, but [tool] states how tools turn",
+        en: "the program cuts without ever switching the spindle on, although [tool] gives the tool a spindle speed",
         de: "das Programm fräst, ohne je die Spindel einzuschalten, aber [tool] gibt an, wie Werkzeuge drehen",
         help_en: "write M3 and S before the cut, or spindle = \"manual\" in pathbuild.toml if the operator switches the spindle",
         help_de: "M3 und S vor den Schnitt schreiben, oder spindle = \"manual\" in pathbuild.toml, wenn der Bediener die Spindel schaltet",
@@ -500,7 +500,7 @@ messages! {
     }
     /// A rapid move down beyond the point at which a probe made contact.
     RAPID_BELOW_CONTACT: ProbeNotRaised {
-        en: "this rapid move ends {below} mm below the end of the probing move before it, in what the tool has touched",
+        en: "this rapid move ends {below} mm below the point at which the probing move before it made contact: the tool hits what it has touched",
         de: "dieser Eilgang endet {below} mm unter dem Ende der Antastbewegung davor, in dem, was das Werkzeug berührt hat",
         help_en: "raise the tool after contact: G91 G0 Z with a positive number, or a height above the end of the probing move",
         help_de: "das Werkzeug nach der Berührung anheben: G91 G0 Z mit positiver Zahl, oder eine Höhe über dem Ende der Antastbewegung",
@@ -584,7 +584,7 @@ messages! {
     }
     /// A cut after M6 that still uses the length of the previous tool.
     LENGTH_BEFORE_CHANGE: WrongToolLength {
-        en: "this cut still has the tool length that line {set} set before {change} changed the tool",
+        en: "this cut still uses the tool length that line {set} set before {change} changed the tool",
         de: "für diesen Schnitt gilt noch die Werkzeuglänge, die Zeile {set} vor dem Werkzeugwechsel {change} gesetzt hat",
         help_en: "set the length of the new tool after the change, such as `G43 H2` for T2",
         help_de: "nach dem Wechsel die Länge des neuen Werkzeugs setzen, etwa `G43 H2` für T2",

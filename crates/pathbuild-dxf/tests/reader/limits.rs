@@ -59,8 +59,7 @@ fn pieces_of_curves_are_limited() {
 #[test]
 fn vertices_are_limited_even_if_they_make_no_entity() {
     let polyline = |corners: usize| format!("0 LWPOLYLINE\n8 A\n{}", "10 0\n20 0\n".repeat(corners));
-    let pointlike =
-        "PB121 5 LWPOLYLINE has no length: all of its points lie in one place, and nothing is drawn by it";
+    let pointlike = "PB121 5 LWPOLYLINE has no length: all of its points coincide, so it draws nothing";
     assert_eq!(file_findings(&polyline(20), 10, 10), pointlike);
     assert_eq!(
         file_findings(&polyline(25), 10, 10),

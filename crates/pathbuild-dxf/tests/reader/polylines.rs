@@ -102,9 +102,7 @@ fn the_stated_number_of_vertices_is_that_of_the_vertices() {
 #[test]
 fn a_polyline_of_a_single_point_is_reported() {
     let pointlike = |name: &str| {
-        [format!(
-            "PB121 5 {name} has no length: all of its points lie in one place, and nothing is drawn by it"
-        )]
+        [format!("PB121 5 {name} has no length: all of its points coincide, so it draws nothing")]
     };
     assert_eq!(file_faults(&light("90 2\n10 5\n20 5\n10 5\n20 5")), pointlike("LWPOLYLINE"));
     assert_eq!(file_faults(&light("90 1\n10 5\n20 5")), pointlike("LWPOLYLINE"));

@@ -140,9 +140,8 @@ fn a_section_that_is_read_may_not_follow_the_entities() {
         file_findings(entities(CIRCLE).replace("  0\nEOF", &format!("{}  0\nEOF", section(name, "9 x"))))
     };
     for name in ["HEADER", "TABLES", "BLOCKS", "ENTITIES"] {
-        let expected = format!(
-            "PB002 19 a section {name} follows the section ENTITIES; what it contains would be ignored"
-        );
+        let expected =
+            format!("PB002 19 the section {name} comes after ENTITIES, where its contents would be ignored");
         assert_eq!(behind(name), expected);
     }
     assert_eq!(behind("OBJECTS"), "");

@@ -92,7 +92,7 @@ fn generation_flags_mirror_a_text() {
 fn texts_need_height_and_string() {
     for (groups, fault) in [
         ("0 TEXT\n8 A\n10 1\n20 2\n1 x", "PB002 5 A: TEXT: group 40 is missing"),
-        ("0 TEXT\n8 A\n10 1\n20 2\n1 x\n40 0", "PB002 16 A: TEXT: \"0\" in group 40 must be more than 0"),
+        ("0 TEXT\n8 A\n10 1\n20 2\n1 x\n40 0", "PB002 16 A: TEXT: \"0\" in group 40 must be greater than 0"),
         ("0 TEXT\n8 A\n10 1\n20 2\n40 1", "PB002 5 A: TEXT: group 1 is missing"),
         ("0 MTEXT\n8 A\n10 1\n20 2\n40 1", "PB002 5 A: MTEXT: group 1 is missing"),
         ("0 MTEXT\n8 A\n10 1\n40 1\n1 x", "PB002 5 A: MTEXT: group 20 is missing"),

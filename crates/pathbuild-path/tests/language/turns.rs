@@ -221,7 +221,7 @@ fn a_segment_beside_the_way_back_is_named() {
     assert_eq!(
         notes(0.25),
         [
-            "a milling segment ends at (20.25, 0), 0.25 mm beside the way back: on the way back the ends must meet, `join-tolerance` does not apply"
+            "a milling segment ends at (20.25, 0), 0.25 mm away from the way back, on which the ends must meet exactly: `join-tolerance` does not apply there"
         ]
     );
     assert!(notes(1.25)[0].starts_with("the nearest open end"));

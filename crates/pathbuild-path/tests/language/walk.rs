@@ -85,10 +85,7 @@ fn segments_that_are_left_over_at_the_end_are_counted() {
     let compiled = compile(&path(P, "mill 0,0 20,0\nmill 0,40 20,40\nmill 0,60 20,60\nend 20,0"));
     assert_eq!(codes(&compiled.found), ["PB402"]);
     let text = compiled.found[0].text(Lang::En);
-    assert_eq!(
-        text,
-        "the path ends here, but not all of its segments were reached; number left: 2, including a milling segment at (0, 40)"
-    );
+    assert_eq!(text, "the path ends here; segments not reached: 2, including a milling segment at (0, 40)");
 }
 
 #[test]

@@ -130,7 +130,7 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
     );
     assert!(
         errors(&format!("{start}G55 G0 X1"))[0]
-            .starts_with("2: PB765 a program in several coordinate systems")
+            .starts_with("2: PB765 a post cannot write a program that uses several work offsets")
     );
     assert!(errors(&format!("{start}G2 X0 Y0 I5 P2 F60"))[0].starts_with("2: PB765 a move of this kind"));
 }
@@ -539,7 +539,7 @@ fn a_new_tool_never_goes_down_where_the_old_one_ended() {
     for deep in ["G1 X20", "G1 Z-3", "G0 X20\nG1 Z-3"] {
         let found = errors(deep).expect_err(deep);
         assert!(
-            found[0].starts_with("PB765 1001 goes on at Z -2, below the surface at 0"),
+            found[0].starts_with("PB765 1001 continues at Z -2, below the surface at 0"),
             "{deep}: {found:?}"
         );
     }
@@ -615,7 +615,7 @@ fn a_rapid_move_that_the_target_bends_into_material_is_not_written() {
         written.map_or_else(|errors| texts(&errors).join("\n"), |_| String::new())
     };
     for post in ["fanuc", "haas"] {
-        assert!(written(post, "X20 Y50", 2.0).contains("does not move straight"), "{post}");
+        assert!(written(post, "X20 Y50", 2.0).contains("does not move in a straight line"), "{post}");
         assert_eq!(written(post, "X20 Y20", 2.0), "", "{post}");
         assert_eq!(written(post, "X20 Y50", 0.0), "", "{post}: the cutter is unknown");
     }

@@ -256,7 +256,7 @@ fn what_moves_otherwise_than_the_program_is_not_written() {
     let steps = || vec![feed(0.0, 0.0, -1.0), feed(10.0, 0.0, -1.0), rapid(10.0, 0.0, 5.0)];
     assert_eq!(read_back("", steps()), Ok(()));
     let errors = read_back("<FeedMove>{$g1} {$_f} {$-x} {$_y} {$_z}</FeedMove>", steps()).unwrap_err();
-    assert!(errors[0].starts_with("line 4 of the output does not do what the program says"), "{errors:?}");
+    assert!(errors[0].starts_with("line 4 of the output differs from the program"), "{errors:?}");
     assert!(read_back("<FeedMove>{$g1} F99 {$_x} {$_y} {$_z}</FeedMove>", steps()).is_err(), "another feed");
     assert!(read_back("<FeedMove>{$g0} {$_x} {$_y} {$_z}</FeedMove>", steps()).is_err(), "a rapid");
     assert!(read_back("<FeedMove>{$g1} {$_f} {$_x} {$_y}</FeedMove>", steps()).is_err(), "no Z");
