@@ -132,6 +132,12 @@ impl Language {
         self.keep_out.as_ref().is_some_and(|pattern| pattern.is_layer(layer))
     }
 
+    /// Whether the name of a layer with clamps or finished parts may begin with this character.
+    pub(crate) fn may_begin_with(&self, first: char) -> bool {
+        let patterns = self.keep_out.iter().chain(self.part.as_ref().map(|part| &part.pattern));
+        patterns.into_iter().any(|pattern| pattern.may_begin_with(first))
+    }
+
     /// Whether the contents of a layer have a meaning: the layer belongs to a path, to clamps or to finished parts.
     fn is_read(&self, layer: &str) -> bool {
         self.path_pattern.is_layer(layer) || self.is_keep_out(layer) || self.is_part(layer)

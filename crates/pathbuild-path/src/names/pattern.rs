@@ -38,7 +38,11 @@ pub(crate) struct LazyRegex {
 
 /// The pattern for names of layers with clamps or with finished parts. It must match the whole name, ignoring case.
 #[derive(Clone, Debug)]
-pub struct LayerPattern(LazyRegex);
+pub struct LayerPattern {
+    whole: LazyRegex,
+    /// The first character of all names that match, if the pattern begins with it. Most names of layers begin with another one.
+    first: Option<char>,
+}
 
 /// The reason why a pattern is invalid.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -188,17 +192,23 @@ impl LayerPattern {
     pub fn new(pattern: &str) -> Result<Self, PatternError> {
         let whole = LazyRegex::new(format!("^(?:{pattern})$"));
         whole.check()?;
-        Ok(Self(whole))
+        Ok(Self { whole, first: first_character(pattern) })
     }
 
     /// Whether the pattern matches a layer.
     pub fn is_layer(&self, layer: &str) -> bool {
-        self.0.get().is_match(layer)
+        layer.chars().next().is_none_or(|first| self.may_begin_with(first))
+            && self.whole.get().is_match(layer)
+    }
+
+    /// Whether a name that begins with this character may match. A letter outside ASCII may stand for S or K, see [`letter`].
+    pub(crate) fn may_begin_with(&self, first: char) -> bool {
+        self.first.is_none_or(|known| known.eq_ignore_ascii_case(&first) || !first.is_ascii())
     }
 
     /// Returns the text of the first group that took part in matching a layer.
     pub(crate) fn captured<'l>(&self, layer: &'l str) -> Option<&'l str> {
-        let captures = self.0.get().captures(layer)?;
+        let captures = self.whole.get().captures(layer)?;
         captures.iter().skip(1).flatten().next().map(|found| found.as_str())
     }
 }
@@ -213,6 +223,14 @@ impl fmt::Debug for LazyRegex {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "/{}/", self.source)
     }
+}
+
+/// Returns the character with which all matches of an expression begin; `None` unless that is obvious.
+fn first_character(source: &str) -> Option<char> {
+    let mut characters = source.chars();
+    let first = characters.next().filter(char::is_ascii_alphanumeric)?;
+    let may_be_missing = matches!(characters.next(), Some('?' | '*' | '{')) || source.contains('|');
+    (!may_be_missing).then_some(first)
 }
 
 /// Compiles an expression that ignores case. The size limit prevents a hostile pattern from exhausting memory.

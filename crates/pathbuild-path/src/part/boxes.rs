@@ -18,9 +18,6 @@ pub(crate) enum BoxIndex {
 /// Number of boxes up to which all are compared.
 const MAX_COMPARED_BOXES: usize = 500;
 
-/// Initial capacity, in boxes, of the result of a query.
-const RESERVED_BOXES: usize = 16;
-
 impl BoxIndex {
     pub(crate) fn new(boxes: impl Iterator<Item = AABB<[f64; 2]>>) -> Self {
         let boxes: Vec<AABB<[f64; 2]>> = boxes.collect();
@@ -33,21 +30,17 @@ impl BoxIndex {
     }
 
     /// Returns the numbers of the boxes that intersect `extent`, in ascending order, so that no result depends on the shape of the tree.
-    pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> Vec<usize> {
-        match self {
-            Self::Few(boxes) => {
-                let mut found = Vec::with_capacity(RESERVED_BOXES);
-                let near = boxes.iter().enumerate().filter(|(_, own)| own.intersects(&extent));
-                found.extend(near.map(|(number, _)| number));
-                found
-            }
+    pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> impl DoubleEndedIterator<Item = usize> {
+        let (boxes, mut found) = match self {
+            Self::Few(boxes) => (&**boxes, Vec::new()),
             Self::Many(tree) => {
                 let near = tree.locate_in_envelope_intersecting(extent);
-                let mut found: Vec<usize> = near.map(|found| found.data).collect();
-                found.sort_unstable();
-                found
+                (&[][..], near.map(|found| found.data).collect())
             }
-        }
+        };
+        found.sort_unstable();
+        let near = boxes.iter().enumerate().filter(move |(_, own)| own.intersects(&extent));
+        near.map(|(number, _)| number).chain(found)
     }
 }
 
@@ -81,10 +74,9 @@ mod tests {
         let mut count = 0;
         for number in 0..200 {
             let extent = square(place(number * 7 + 3), 2.0);
-            let mut found = many.near(extent);
-            found.retain(|number| *number < MAX_COMPARED_BOXES);
+            let found: Vec<usize> = many.near(extent).filter(|number| *number < MAX_COMPARED_BOXES).collect();
             count += found.len();
-            assert_eq!(few.near(extent), found, "{number}");
+            assert_eq!(few.near(extent).collect::<Vec<_>>(), found, "{number}");
         }
         assert!(count > 100, "{count}");
     }

@@ -124,7 +124,7 @@ impl<'s> PartCheck<'s> {
         let is_owner = |path: usize| near_paths.iter().any(|near| near[path]);
         let owners: Vec<bool> = (0..cuts.paths.len()).map(is_owner).collect();
         let contours = owners.iter().zip(&cuts.contours).map(|(own, contour)| *own && *contour).collect();
-        let judged = classify_cuts(part, cuts, cuts.near(part.extent()).into_iter(), settings.tolerance);
+        let judged = classify_cuts(part, cuts, cuts.near(part.extent()), settings.tolerance);
         Self { part, cuts, settings, near_paths, owners, contours, judged }
     }
 

@@ -124,7 +124,7 @@ impl<'c> CutIndex<'c> {
     }
 
     /// Returns the numbers of the cuts that may come within the cutter's diameter of a box, in ascending order.
-    pub(super) fn near(&self, extent: AABB<[f64; 2]>) -> Vec<usize> {
+    pub(super) fn near(&self, extent: AABB<[f64; 2]>) -> impl DoubleEndedIterator<Item = usize> {
         self.boxes.near(extent)
     }
 }

@@ -30,7 +30,7 @@ impl<'s> Enclosure<'s> {
         let owners = cuts.paths.iter().zip(own).filter(|(_, is_own)| **is_own);
         let largest = owners.map(|(path, _)| path.radius).fold(0.0, f64::max);
         let farthest = reach(cuts.paths.iter().map(|path| path.radius).fold(0.0, f64::max));
-        let near = cuts.near(widened(&part.extent(), farthest)).into_iter().map(|number| &cuts.cuts[number]);
+        let near = cuts.near(widened(&part.extent(), farthest)).map(|number| &cuts.cuts[number]);
         let others = near.filter(|cut| !own[cut.path] && cuts.contours[cut.path]);
         let is_beside = |(cut, curve): &Cut<'_>| part.is_near_rim(curve, reach(cut.radius.max(largest)));
         let beside = others.filter_map(through).filter(is_beside).collect();

@@ -151,7 +151,7 @@ impl<'s> LeftoverSearch<'s> {
         let mut is_near = false;
         let mut uncut = Vec::new();
         for curve in &self.part.part.rings[ring].curves {
-            let curve = RingCurve { ring, curve, near: self.cuts.near(widened_box(curve, 0.0)) };
+            let curve = RingCurve { ring, curve, near: self.cuts.near(widened_box(curve, 0.0)).collect() };
             is_near = is_near || self.cuts_beside(&curve).next().is_some();
             let length = curve.curve.length();
             let gaps = gaps_between(&self.covered_stretches(&curve), (0.0, length));
@@ -265,7 +265,8 @@ impl<'s> LeftoverSearch<'s> {
             let length = curve.length();
             let here = intersection(&notches, &[(start, start + length)]);
             if !here.is_empty() {
-                let curve = RingCurve { ring: 0, curve, near: self.cuts.near(widened_box(curve, 0.0)) };
+                let curve =
+                    RingCurve { ring: 0, curve, near: self.cuts.near(widened_box(curve, 0.0)).collect() };
                 let corners = self.unreachable_stretches(&curve).into_iter();
                 let corners: Vec<Stretch> = corners.map(|(from, to)| (from + start, to + start)).collect();
                 uncut.extend(difference(&here, &corners));
@@ -344,11 +345,6 @@ impl<'s> LeftoverSearch<'s> {
         contours.flat_map(|(path, _)| path.bars.iter().map(|bar| (bar, path.radius)))
     }
 
-    /// Returns those of the cuts with these numbers that belong to paths that cut the part out.
-    fn contour_cuts(&self, numbers: &[usize]) -> impl Iterator<Item = &IndexedCut<'s>> {
-        numbers.iter().map(|number| &self.cuts.cuts[*number]).filter(|cut| self.contours[cut.path])
-    }
-
     /// Returns the radius of the smallest cutter that cuts the part out.
     fn smallest_radius(&self) -> Option<f64> {
         self.all_contour_cuts().map(|cut| cut.radius).min_by(f64::total_cmp)
@@ -418,15 +414,15 @@ impl<'s> LeftoverSearch<'s> {
     /// Returns the distance in mm from a point of an outline to the edge of the nearest cut of any depth, even above a bar.
     fn distance(&self, at: Xy) -> f64 {
         let distance = |cut: &IndexedCut<'_>| cut.cut.way.curve.distance_to(at) - cut.radius;
-        let near = self.cuts.near(square(at, 0.0));
-        let nearest = self.contour_cuts(&near).map(distance).min_by(f64::total_cmp);
+        let near = self.cuts.near(square(at, 0.0)).map(|number| &self.cuts.cuts[number]);
+        let nearest = near.filter(|cut| self.contours[cut.path]).map(distance).min_by(f64::total_cmp);
         nearest.unwrap_or_else(|| self.all_contour_cuts().map(distance).fold(f64::INFINITY, f64::min))
     }
 
     /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate only counts where it reaches the
     /// ring.
     fn nearest(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
-        self.nearest_of(self.cuts.near(square(at, 0.0)), ring, at)
+        self.nearest_of(self.cuts.near(square(at, 0.0)).collect(), ring, at)
     }
 
     fn nearest_at_any_distance(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {

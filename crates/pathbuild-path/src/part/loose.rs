@@ -190,7 +190,7 @@ fn point_in_material(part: &PreparedPart<'_>, cuts: &[(Curve, f64)], boxes: &Box
     let mut curves: Vec<&Curve> = part.part.rings[0].curves.iter().collect();
     curves.sort_by(|one, other| other.length().total_cmp(&one.length()));
     let is_free = |at: Xy| {
-        let mut over = boxes.near(square(at, 0.0)).into_iter().map(|number| &cuts[number]);
+        let mut over = boxes.near(square(at, 0.0)).map(|number| &cuts[number]);
         part.is_material(at) && !over.any(|(curve, radius)| curve.distance_to(at) < *radius)
     };
     let depths = [0.001, 0.05, 0.3, 1.0, 3.0];

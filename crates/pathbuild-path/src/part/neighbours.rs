@@ -91,7 +91,7 @@ impl<'c> PlacedCuts<'c> {
         for (number, part) in self.parts.iter().enumerate() {
             let part = placed_part(part, &self.placement);
             let prepared = PreparedPart::new(&part);
-            let near = cuts.near(prepared.extent()).into_iter().filter(|cut| cuts.cuts[*cut].path == 1);
+            let near = cuts.near(prepared.extent()).filter(|cut| cuts.cuts[*cut].path == 1);
             let judged = classify_cuts(&prepared, &cuts, near, tolerance);
             gouged.extend(gouges(&prepared, judged.values()).into_iter().map(|((_, element), gouge)| {
                 NeighbourGouge { part: number, element, at: gouge.at, depth: gouge.depth }

@@ -74,7 +74,7 @@ impl<'p> PreparedPart<'p> {
 
     /// Returns the curves near a box, with their rings.
     pub(crate) fn curves_near(&self, extent: AABB<[f64; 2]>) -> impl Iterator<Item = (usize, &Curve)> {
-        let near = self.curve_boxes.near(extent).into_iter();
+        let near = self.curve_boxes.near(extent);
         near.map(|number| (self.curves[number].0, &self.curves[number].1))
     }
 

@@ -101,8 +101,8 @@ impl SortedOutlines {
 
     /// Whether a broken outline encloses a ring, which is then not the outer edge of a part.
     pub(super) fn is_enclosed(&self, ring: &[Curve]) -> bool {
-        let near = self.boxes.near(square(ring[0].start(), 0.0));
-        near.into_iter().any(|number| self.broken[number].border.encloses(ring))
+        let mut near = self.boxes.near(square(ring[0].start(), 0.0));
+        near.any(|number| self.broken[number].border.encloses(ring))
     }
 
     /// Whether these are the ends of a chain that crosses itself: they are too long, and there is no gap.
@@ -377,7 +377,7 @@ impl OutermostRings {
     }
 
     fn has_any_inside(&self, border: &EnclosedArea) -> bool {
-        let near = self.points.near(border.0.extent());
+        let near: Vec<usize> = self.points.near(border.0.extent()).collect();
         self.budget.set(self.budget.get().saturating_sub(near.len()));
         self.budget.get() > 0 && near.into_iter().any(|ring| border.encloses(&self.rings[ring]))
     }

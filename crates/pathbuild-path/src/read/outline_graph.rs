@@ -20,6 +20,8 @@ pub(super) struct Graph {
     tails: Vec<usize>,
     /// Indices of the curves that have not been dropped.
     numbers: Vec<usize>,
+    /// Indices of the curves that have different faces on their two sides.
+    dividing: BTreeSet<usize>,
 }
 
 impl Graph {
@@ -45,8 +47,10 @@ impl Graph {
                 }
             }
         }
-        let mut graph = Self { numbers: (0..curves.len()).collect(), curves, tails };
+        let numbers = (0..curves.len()).collect();
+        let mut graph = Self { numbers, curves, tails, dividing: BTreeSet::new() };
         graph.drop_duplicates();
+        graph.dividing = graph.dividing_curves();
         graph
     }
 
@@ -100,7 +104,7 @@ impl Graph {
     /// Returns the outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same area on both sides are
     /// dropped: dangling chains, and lines from one ring to another. A ring that crosses itself may run either way round.
     pub(super) fn rings(&self) -> Vec<NumberedCurves> {
-        let outer = self.faces(&self.dividing_curves()).into_iter().filter(|face| {
+        let outer = self.faces(self.dividing.iter().copied()).into_iter().filter(|face| {
             let area = self.area(face);
             area < -JOIN_DISTANCE * JOIN_DISTANCE
                 || area <= JOIN_DISTANCE * JOIN_DISTANCE && self.is_figure_of_eight(face)
@@ -120,8 +124,8 @@ impl Graph {
     }
 
     /// Returns the numbers of the curves that have different faces on their two sides.
-    fn dividing_curves(&self) -> Vec<usize> {
-        let faces = self.faces(&self.numbers);
+    fn dividing_curves(&self) -> BTreeSet<usize> {
+        let faces = self.faces(self.numbers.iter().copied());
         let mut face_of = vec![0; 2 * self.curves.len()];
         for (number, face) in faces.iter().enumerate() {
             for half_edge in face {
@@ -132,22 +136,28 @@ impl Graph {
         self.numbers.iter().copied().filter(divides).collect()
     }
 
+    /// Iterates over the curves that have the same face on both sides.
+    fn open_curves(&self) -> impl Iterator<Item = usize> {
+        self.numbers.iter().copied().filter(|number| !self.dividing.contains(number))
+    }
+
     /// Returns the longest chain of each connected group of curves that belong to no ring. Ends that almost meet count as joined, except for the two
     /// ends of a chain.
     pub(super) fn open_chains(&self) -> Vec<NumberedCurves> {
-        let dividing = self.dividing_curves().into_iter().collect();
-        let mut forest = Forest::new(self, &dividing);
+        if self.dividing.len() == self.numbers.len() {
+            return Vec::new();
+        }
+        let mut forest = Forest::new(self);
         let mut known = BTreeSet::new();
-        let open = self.numbers.iter().filter(|number| !dividing.contains(number));
+        let open = self.open_curves();
         let roots: Vec<usize> = open.map(|number| root(&mut forest.trees, self.tails[2 * number])).collect();
         roots.into_iter().filter(|root| known.insert(*root)).map(|root| forest.longest_chain(root)).collect()
     }
 
     /// Returns the longest chain from a ring in each connected group of curves that belong to no ring. Ends that almost meet count as joined.
     pub(super) fn hanging_chains(&self) -> Vec<NumberedCurves> {
-        let dividing: BTreeSet<usize> = self.dividing_curves().into_iter().collect();
-        let mut forest = Forest::new(self, &dividing);
-        let ends = dividing.iter().flat_map(|number| [2 * number, 2 * number + 1]);
+        let mut forest = Forest::new(self);
+        let ends = self.dividing.iter().flat_map(|number| [2 * number, 2 * number + 1]);
         let on_rings: BTreeSet<usize> = ends.map(|half_edge| self.tails[half_edge]).collect();
         let mut known = BTreeSet::new();
         let is_open = |node: &usize| forest.outgoing.contains_key(node);
@@ -163,13 +173,14 @@ impl Graph {
     }
 
     /// Returns the faces of the kept curves, each on the left of its half-edges.
-    fn faces(&self, curves: &[usize]) -> Vec<Vec<usize>> {
-        let half_edges = || curves.iter().flat_map(|curve| [2 * curve, 2 * curve + 1]);
+    fn faces(&self, curves: impl Iterator<Item = usize> + Clone) -> Vec<Vec<usize>> {
+        let half_edges = || curves.clone().flat_map(|curve| [2 * curve, 2 * curve + 1]);
         let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for half_edge in half_edges() {
             outgoing.entry(self.tails[half_edge]).or_default().push(half_edge);
         }
-        for edges in outgoing.values_mut() {
+        // The order round a node matters only for three or more.
+        for edges in outgoing.values_mut().filter(|edges| edges.len() > 2) {
             let shortest =
                 edges.iter().map(|edge| self.curves[edge / 2].length()).fold(10.0 * JOIN_DISTANCE, f64::min);
             let angle = |half_edge: usize| {
@@ -220,23 +231,22 @@ struct Forest<'g> {
 }
 
 impl<'g> Forest<'g> {
-    /// Creates the forest of the curves that are not in `dividing`. Ends that almost meet become one node, except for the two ends of a tree.
-    fn new(graph: &'g Graph, dividing: &BTreeSet<usize>) -> Self {
-        let open = || graph.numbers.iter().copied().filter(|number| !dividing.contains(number));
+    /// Creates the forest of the curves that do not divide faces. Ends that almost meet become one node, except for the two ends of a tree.
+    fn new(graph: &'g Graph) -> Self {
         let mut trees: Vec<usize> = (0..graph.tails.len()).collect();
-        for number in open() {
+        for number in graph.open_curves() {
             unite(&mut trees, graph.tails[2 * number], graph.tails[2 * number + 1]);
         }
         let mut joints: Vec<usize> = (0..graph.tails.len()).collect();
         for (one, other) in graph.near_misses() {
-            let is_open = |end: usize| !dividing.contains(&(end / 2));
+            let is_open = |end: usize| !graph.dividing.contains(&(end / 2));
             if is_open(one) && is_open(other) && unite(&mut trees, graph.tails[one], graph.tails[other]) {
                 unite(&mut joints, graph.tails[one], graph.tails[other]);
             }
         }
         let nodes: Vec<usize> = graph.tails.iter().map(|tail| root(&mut joints, *tail)).collect();
         let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for half_edge in open().flat_map(|number| [2 * number, 2 * number + 1]) {
+        for half_edge in graph.open_curves().flat_map(|number| [2 * number, 2 * number + 1]) {
             outgoing.entry(nodes[half_edge]).or_default().push(half_edge);
         }
         Self { graph, nodes, outgoing, trees }

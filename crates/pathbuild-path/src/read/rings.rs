@@ -81,7 +81,7 @@ pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
     let boxes = BoxIndex::new(curves.iter().map(|curve| widened_box(curve, 0.0)));
     let mut compared = 0;
     (0..curves.len()).find_map(|first| {
-        let near = boxes.near(widened_box(&curves[first], JOIN_DISTANCE)).into_iter().rev();
+        let near = boxes.near(widened_box(&curves[first], JOIN_DISTANCE)).rev();
         let mut later = near.take_while(|second| *second > first);
         later.find_map(|second| {
             compared += 1;
@@ -103,8 +103,7 @@ pub(super) fn crossings(curves: &[Curve]) -> Vec<Vec<f64>> {
     let mut compared = 0;
     let mut cuts = vec![Vec::new(); curves.len()];
     for (index, curve) in curves.iter().enumerate() {
-        for other in boxes.near(widened_box(curve, JOIN_DISTANCE)).into_iter().filter(|other| *other != index)
-        {
+        for other in boxes.near(widened_box(curve, JOIN_DISTANCE)).filter(|other| *other != index) {
             compared += 1;
             if compared > MAX_COMPARED_PAIRS {
                 return vec![Vec::new(); curves.len()];

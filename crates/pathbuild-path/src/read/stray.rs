@@ -160,7 +160,9 @@ impl<'n> NearLayer<'n> {
     }
 
     fn of_clamps_or_parts(layer: &str, language: &Language) -> Option<Self> {
-        if language.is_part(layer) {
+        let first = layer.trim_start().chars().next()?;
+        let first = look_alikes::ascii(first).unwrap_or(first);
+        if !language.may_begin_with(first) || language.is_part(layer) {
             return None;
         }
         let similar = similar_names(layer);
@@ -173,8 +175,7 @@ impl<'n> NearLayer<'n> {
 
 /// Whether the name of a layer resembles that of a layer with clamps or finished parts. [`stray_findings`] reports the entities on such layers.
 pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
-    let has_patterns = language.keep_out.is_some() || language.part.is_some();
-    has_patterns && NearLayer::of_clamps_or_parts(layer, language).is_some()
+    NearLayer::of_clamps_or_parts(layer, language).is_some()
 }
 
 /// Length in characters below which a name resembles too many others.
@@ -192,7 +193,7 @@ fn similar_names(layer: &str) -> Vec<String> {
     let ends = plain.char_indices().rev().map(|(at, _)| at).take(MAX_SLIP_CHARACTERS);
     let shorter = std::iter::once(plain.len()).chain(ends).map(|end| plain[..end].trim_end());
     let shorter = shorter.filter(|name| is_long(name)).map(str::to_owned);
-    let longer = PLURALS.iter().chain(&NUMBERS).map(|ending| format!("{plain}{ending}"));
+    let longer = PLURALS.iter().chain(&NUMBERS).map(|ending| [plain, ending].concat());
     shorter.chain(longer).chain([plain.split_whitespace().collect()]).collect()
 }
 

@@ -199,6 +199,12 @@ fn a_layer_that_keep_out_nearly_matches_is_named() {
         ("Clamps|Vise", "Vises"),
         ("Spanneisen", "Spann eisen"),
         ("Spannmittel", "Spаnnmittel"),
+        ("Clamps", "Сlamps"),
+        ("Klamps", "\u{212a}lamp"),
+        ("X?Clamps", "Clamp"),
+        ("X{0,1}Clamps", "Clamp"),
+        ("Xs*|Clamps", "Clamp"),
+        ("[CK]lamps", "Clamp"),
     ] {
         assert_eq!(circle(keep_out, layer), ["PB120"], "{keep_out} {layer}");
     }
