@@ -58,6 +58,7 @@ mod pictures;
 mod posts;
 mod prefetch;
 mod probes;
+mod program_reports;
 mod programs;
 mod progress;
 mod projects;

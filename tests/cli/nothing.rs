@@ -142,8 +142,9 @@ fn a_path_that_became_wrong_leaves_an_older_program() {
     for arguments in [".", "1234.1P.dxf", "1234.1P", ". --check", ". --no-cache", "."] {
         let run = emit(arguments);
         assert_eq!(run.status, Some(1), "{run}");
-        let said = "1234.1P_Milling.gcode: warning[PB522] path 1234.1P was not written";
-        assert!(run.stderr.contains(said), "{run}");
+        let severity = if arguments.contains("--check") { "error" } else { "warning" };
+        let said = format!("1234.1P_Milling.gcode: {severity}[PB522] path 1234.1P was not written");
+        assert!(run.stderr.contains(&said), "{run}");
     }
     let compared = emit(". --check").stdout;
     assert_eq!(compared, "1234.1P_Milling.gcode: not current\n");

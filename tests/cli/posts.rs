@@ -512,7 +512,7 @@ fn copies_that_are_no_programs_by_name_are_left_alone() {
     }
     std::fs::remove_file(place.path().join("1234.dxf")).unwrap();
     let stale = place.run("emit . --check --format concise");
-    let named = |name: &str| stale.stderr.contains(&format!("1234_Milling.{name}: warning[PB520]"));
+    let named = |name: &str| stale.stderr.contains(&format!("1234_Milling.{name}: error[PB520]"));
     assert_eq!(["gcode", "nc", "bak", "txt"].map(named), [true, true, false, false], "{stale}");
 }
 

@@ -128,7 +128,8 @@ pub struct EmitReport {
     pub left_out: Vec<LeftOutElements>,
     /// Names of the files that were removed because they were stale.
     pub removed: Vec<String>,
-    /// Names of stale programs of paths that still exist, for example of adjusted ones that no longer match the program of their path.
+    /// Names of stale programs that are reported as errors (PB520), as a comparison does: programs of earlier drawings, or adjusted ones that no
+    /// longer match the program of their path.
     pub outdated: Vec<String>,
     /// Commands that the post-processor requests for files that were written. See [`EmitOptions::post_builds`](crate::EmitOptions::post_builds).
     pub post_builds: Vec<PostBuild>,

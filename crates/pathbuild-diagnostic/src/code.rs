@@ -176,6 +176,7 @@ codes! {
     525 MirroredSubpath "mirrored-subpath" Warning "a subpath segment in a block that is inserted mirrored" no example;
     526 UnusedConfiguration "unused-configuration" Warning "a pathbuild.toml in a searched directory that does not apply";
     527 PatternWithoutLayer "pattern-without-layer" Warning "`keep-out` or `part` matches no layer of the whole library";
+    528 NotCurrent "not-current" Error "a file is missing or is not what `emit` would write";
     601 InvalidProbeLine "invalid-probe-line" Error "invalid probe line";
     602 CorrectionTooLarge "correction-too-large" Error "correction too large";
     603 UnknownProbe "unknown-probe" Error "unknown probe";

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::hash::Hash as Hashed;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::{Code, Diagnostic};
 
@@ -22,6 +22,8 @@ pub struct Findings {
     pub diagnostics: Vec<Diagnostic>,
     /// The checked drawings, sorted by name; empty for commands that do not check drawings.
     pub checked: Vec<CheckedFile>,
+    /// The programs that were verified, written or compared.
+    pub programs: Vec<Utf8PathBuf>,
     /// Diagnostics that are waived, sorted, without duplicates.
     pub waived: Vec<WaivedFinding>,
 }

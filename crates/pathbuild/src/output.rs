@@ -87,6 +87,7 @@ impl Output {
             let mut found = self.found.borrow_mut();
             found.diagnostics.extend(findings.diagnostics.iter().cloned());
             found.checked.extend(findings.checked.iter().cloned());
+            found.programs.extend(findings.programs.iter().cloned());
             found.waived.extend(findings.waived.iter().cloned());
         }
         if self.format.is_whole() {

@@ -88,7 +88,7 @@ fn programs_with_probes_are_stale_when_the_probes_are_gone() {
         assert!(run.stderr.contains(&format!("{name} was written earlier")), "{run}");
     }
     let run = emit(&place, "a.dxf --check");
-    assert!(run.status == Some(0) && run.stderr.contains(" 0 not current"), "{run}");
+    assert!(run.status == Some(1) && run.stderr.contains("1 current, 2 not current"), "{run}");
 }
 
 /// Files of other paths are left alone, whatever their names.

@@ -1,4 +1,4 @@
-//! Messages about output files and Q-projects. (PB512 to PB527)
+//! Messages about output files and Q-projects. (PB512 to PB528)
 
 messages! {
     /// A drawing with several paths where one is needed.
@@ -151,6 +151,20 @@ messages! {
         de: "Pfad {path} wurde nicht geschrieben, {name} ist daher veraltet",
         help_en: "do not mill with {name} until the path's errors are fixed and the file is written again",
         help_de: "nicht mit {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
+    }
+    /// A file that `emit` would write, but that is not on disk.
+    MISSING_OUTPUT: NotCurrent {
+        en: "{name} is missing",
+        de: "{name} fehlt",
+        help_en: "write it with emit",
+        help_de: "mit emit schreiben",
+    }
+    /// A file on disk that differs from what `emit` would write.
+    OTHER_OUTPUT: NotCurrent {
+        en: "{name} is not what emit would write",
+        de: "{name} ist nicht das, was emit schreiben würde",
+        help_en: "write it again with emit before it is used; a file that was edited needs a name of its own, or the edit is lost",
+        help_de: "vor der Verwendung mit emit neu schreiben; eine bearbeitete Datei braucht einen eigenen Namen, sonst geht die Änderung verloren",
     }
     /// An error that prevents a program although the configuration lowers its severity.
     LOWERED_ERROR: LoweredError {

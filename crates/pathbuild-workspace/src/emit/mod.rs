@@ -72,7 +72,7 @@ pub struct Emission {
     pub delivered: Vec<ProgramOutcome>,
     /// Stale programs that were removed.
     pub removed: Vec<Utf8PathBuf>,
-    /// Adjusted programs that no longer match their path's program.
+    /// Stale programs that are reported as errors (PB520), as a comparison does.
     pub outdated: Vec<Utf8PathBuf>,
     /// All diagnostics, unsorted, with duplicates.
     pub diagnostics: Vec<Diagnostic>,
@@ -177,7 +177,33 @@ impl Emitter<'_> {
         let mut delivered: Vec<ProgramOutcome> =
             plans.into_iter().filter_map(|plan| plan.value.outcome()).collect();
         delivered.extend(older);
+        self.report_not_current(session.workspace(), &delivered, &mut diagnostics);
         Ok(Emission { delivered, removed, outdated, diagnostics: session.with_hints(diagnostics) })
+    }
+
+    /// Adds PB528 for each file that a comparison found missing or different, unless an error about this file is reported already.
+    fn report_not_current(
+        &self,
+        workspace: &Workspace,
+        outcomes: &[ProgramOutcome],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        if !self.request.task.is_comparison() {
+            return;
+        }
+        let mut by_file: HashMap<&Utf8Path, Vec<&Diagnostic>> = HashMap::new();
+        for diagnostic in &*diagnostics {
+            if let Some(file) = &diagnostic.file {
+                by_file.entry(file).or_default().push(diagnostic);
+            }
+        }
+        let is_known = |finding: &Diagnostic| {
+            let known = finding.file.as_deref().and_then(|file| by_file.get(file));
+            known.is_some_and(|known| workspace.has_error(known.iter().copied()))
+        };
+        let findings = outcomes.iter().flat_map(ProgramOutcome::not_current);
+        let new: Vec<Diagnostic> = findings.filter(|finding| !is_known(finding)).collect();
+        diagnostics.extend(new);
     }
 
     /// Selects the paths, plans their programs, and builds and settles those that are not cached.

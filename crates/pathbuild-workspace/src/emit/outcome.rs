@@ -2,8 +2,8 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_diagnostic::messages::files;
-use pathbuild_diagnostic::{Diagnostic, Note, Value};
+use pathbuild_diagnostic::messages::{files, outputs};
+use pathbuild_diagnostic::{Diagnostic, Note, Severity, Value};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance, VERSION};
 use serde::{Deserialize, Serialize};
 
@@ -84,6 +84,19 @@ impl ProgramOutcome {
         self.files.iter().zip(&self.hashes).map(file).collect()
     }
 
+    /// Returns PB528 for each compared file that is missing or not current.
+    pub(super) fn not_current(&self) -> impl Iterator<Item = Diagnostic> {
+        self.files.iter().filter_map(|(file, state)| {
+            let message = match state {
+                State::Missing => &outputs::MISSING_OUTPUT,
+                State::Outdated => &outputs::OTHER_OUTPUT,
+                State::Written | State::Unchanged | State::Current | State::Printed(_) => return None,
+            };
+            let finding = Diagnostic::new(message).quoting("name", file.file_name().unwrap_or_default());
+            Some(finding.in_file(file).in_path(&self.path))
+        })
+    }
+
     /// Whether the file on disk is up to date because this run wrote it or found it unchanged.
     pub fn has_written(&self, file: &Utf8Path) -> bool {
         let is_there = |state: &State| matches!(state, State::Written | State::Unchanged);
@@ -109,6 +122,16 @@ pub enum State {
 }
 
 impl Task {
+    /// Whether this task compares files with those on disk.
+    pub(super) fn is_comparison(self) -> bool {
+        matches!(self, Self::Compare { .. })
+    }
+
+    /// Makes a warning about a program on disk an error if this task is to find such programs.
+    pub(super) fn error_if_compared(self, finding: Diagnostic) -> Diagnostic {
+        if self.is_comparison() { Diagnostic { severity: Severity::Error, ..finding } } else { finding }
+    }
+
     /// Whether this task covers files of this kind. A comparison of moves alone skips measured values and setup sheets.
     pub(super) fn compares(self, kind: OutputKind) -> bool {
         self != Self::Compare { moves_only: true } || (kind != OutputKind::Values && kind.sheet().is_none())

@@ -72,11 +72,6 @@ impl StaleProgram {
         };
         problem.quoting("name", name(&self.path)).in_file(&self.path)
     }
-
-    /// Whether the path still exists but has other moves now; a comparison reports such a program as out of date.
-    fn is_outdated(&self) -> bool {
-        !matches!(self.reason, Reason::Left | Reason::Copied | Reason::OfOthers)
-    }
 }
 
 /// The outcome of searching for stale programs of earlier runs.
@@ -85,7 +80,7 @@ pub(super) struct StaleOutcome {
     /// Earlier programs, still on disk, of paths that this run could not write.
     pub(super) older: Vec<ProgramOutcome>,
     pub(super) removed: Vec<Utf8PathBuf>,
-    /// Stale programs of paths that still exist.
+    /// Stale programs that are reported as errors.
     pub(super) outdated: Vec<Utf8PathBuf>,
 }
 
@@ -132,8 +127,11 @@ impl<'a> EarlierPrograms<'a> {
             // Keep a program that may belong to another library, and one that was copied or edited, because that work would be lost.
             let is_kept = matches!(stale.reason, Reason::Copied | Reason::OfOthers | Reason::Edited { .. });
             if !is_removed || is_kept {
-                diagnostics.push(stale.diagnostic());
-                dealt.outdated.extend(stale.is_outdated().then_some(stale.path));
+                let finding = self.judge(&stale);
+                if self.session.workspace().has_error([&finding]) {
+                    dealt.outdated.push(stale.path);
+                }
+                diagnostics.push(finding);
                 continue;
             }
             match self.session.db().system().remove(&stale.path) {
@@ -146,6 +144,12 @@ impl<'a> EarlierPrograms<'a> {
             }
         }
         dealt
+    }
+
+    /// Returns the finding about a stale program. In a comparison it is an error, unless the program may be that of another library.
+    fn judge(&self, stale: &StaleProgram) -> Diagnostic {
+        let finding = stale.diagnostic();
+        if matches!(stale.reason, Reason::OfOthers) { finding } else { self.task.error_if_compared(finding) }
     }
 
     /// Finds the stale programs: among all files of the searched directories, and among former files of the jobs in other directories.
@@ -549,7 +553,7 @@ fn earlier_outcome(program: Utf8PathBuf, path: &str, task: Task) -> ProgramOutco
         .quoting("name", program.file_name().unwrap_or_default())
         .quoting("path", path)
         .in_file(&program);
-    let is_compared = matches!(task, Task::Compare { .. });
-    let files = is_compared.then_some((program, State::Outdated)).into_iter().collect();
+    let problem = task.error_if_compared(problem);
+    let files = task.is_comparison().then_some((program, State::Outdated)).into_iter().collect();
     ProgramOutcome { path: path.into(), files, problems: vec![problem], ..ProgramOutcome::default() }
 }

@@ -394,7 +394,7 @@ german! {
     "SARIF 2.1.0", "SARIF 2.1.0";
     "Annotations of a GitHub workflow", "Anmerkungen eines GitHub-Workflows";
     "GitLab code quality", "GitLab Code Quality";
-    "`JUnit` XML, a test case for each path", "`JUnit`-XML, je Pfad ein Testfall";
+    "`JUnit` XML, a test case for each path or program", "`JUnit`-XML, je Pfad oder Programm ein Testfall";
     "A page with pictures: for `--report` only", "Eine Seite mit Bildern: nur für `--report`";
     "A graph for Graphviz", "Ein Graph für Graphviz";
     "A graph for Mermaid", "Ein Graph für Mermaid";

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_api::{EmitOptions, EmitReport, FileState, LeftOutElements, OutputFile, PostBuild};
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::findings::Findings;
@@ -63,7 +63,8 @@ fn conclude(context: &Context, args: &EmitArgs, report: EmitReport) -> ExitStatu
         let removed = context.choose("stale, removed", "veraltet, entfernt");
         context.printer.status(format_args!("{path}: {removed}"));
     }
-    let mut findings = for_rendering(findings, accepted);
+    let programs = files.iter().map(|output| &output.file).chain(&outdated).map(Utf8PathBuf::from);
+    let mut findings = Findings { programs: programs.collect(), ..for_rendering(findings, accepted) };
     if !failed.is_empty() {
         findings.diagnostics.extend(context.findings(failed).diagnostics);
         findings.diagnostics = Findings::new(findings.diagnostics).diagnostics;

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_api::{
     CheckState, DrawingComparison, Error, ProgramCheck, VerifiedProgram, VerifyOptions, VerifyReport,
 };
@@ -59,7 +59,10 @@ fn show(context: &Context, args: &VerifyArgs, verified: VerifyReport) -> ExitSta
     }
     let status = match baseline {
         Some(written) => waivers::report_written(context, &args.waivers, &written),
-        None => conclude(context, &for_rendering(findings, accepted)),
+        None => {
+            let files = programs.iter().map(|program| Utf8PathBuf::from(&*program.file)).collect();
+            conclude(context, &Findings { programs: files, ..for_rendering(findings, accepted) })
+        }
     };
     report_checks(context, &programs);
     status

@@ -65,7 +65,17 @@ fn add_accepted(text: &mut String, findings: &Findings, view: &View) {
 fn summary(findings: &Findings, view: &View) -> String {
     let (errors, warnings) = (findings.errors(), findings.warnings());
     let (error, warning) = (view.choose("errors", "Fehler"), view.choose("warnings", "Warnungen"));
-    format!("{error}: {errors} · {warning}: {warnings}")
+    let mut parts = vec![format!("{error}: {errors}"), format!("{warning}: {warnings}")];
+    let paths: usize = findings.checked.iter().map(|file| file.paths.len()).sum();
+    let checked = [
+        (view.choose("paths", "Pfade"), paths),
+        (view.choose("drawings", "Zeichnungen"), findings.checked.len()),
+        (view.choose("programs", "Programme"), findings.programs.len()),
+    ];
+    parts.extend(
+        checked.iter().filter(|(_, count)| *count > 0).map(|(noun, count)| format!("{noun}: {count}")),
+    );
+    parts.join(" · ")
 }
 
 /// Adds one finding: picture, code, message, help, place.

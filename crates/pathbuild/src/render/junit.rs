@@ -1,7 +1,7 @@
-//! Renders findings as `JUnit` XML: a test suite per drawing, and a test case per path, which fails if the path has errors. Errors of the
-//! file itself fail a test case named after the file. Warnings are the output of their test case.
+//! Renders findings as `JUnit` XML: a test suite per drawing or program, and a test case per path, which fails if the path has errors. Errors of
+//! a drawing itself fail a test case named after it. A program is a single test case. Warnings are the output of their test case.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::time::Duration;
 
@@ -26,31 +26,36 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     report.to_string().unwrap_or_else(|error| error.to_string())
 }
 
-type SuitesByFile<'a> = BTreeMap<Option<&'a Utf8Path>, BTreeMap<Option<&'a str>, PathCase<'a>>>;
+type SuitesByFile<'a> = BTreeMap<Option<&'a Utf8Path>, BTreeMap<Option<&'a str>, TestOutcome<'a>>>;
 
 #[derive(Default)]
-struct PathCase<'a> {
+struct TestOutcome<'a> {
     errors: Vec<&'a Diagnostic>,
     warnings: Vec<&'a Diagnostic>,
 }
 
-/// Returns all checked paths, and all files and paths with findings, as test suites.
+/// Returns all checked paths and programs, and all files and paths with findings, as test suites.
 fn suites(findings: &Findings) -> SuitesByFile<'_> {
     let mut suites = SuitesByFile::new();
     for file in &findings.checked {
         let suite = suites.entry(Some(&file.file)).or_default();
-        suite.extend(file.paths.iter().map(|path| (Some(path.as_str()), PathCase::default())));
+        suite.extend(file.paths.iter().map(|path| (Some(path.as_str()), TestOutcome::default())));
+    }
+    let programs: BTreeSet<&Utf8Path> = findings.programs.iter().map(|program| program.as_path()).collect();
+    for program in &programs {
+        suites.entry(Some(program)).or_default().insert(None, TestOutcome::default());
     }
     for diagnostic in &findings.diagnostics {
-        let suite = suites.entry(diagnostic.file.as_deref()).or_default();
-        let case = suite.entry(diagnostic.path.as_deref()).or_default();
+        let file = diagnostic.file.as_deref();
+        let path = diagnostic.path.as_deref().filter(|_| file.is_none_or(|file| !programs.contains(file)));
+        let case = suites.entry(file).or_default().entry(path).or_default();
         if diagnostic.is_error() { case.errors.push(diagnostic) } else { case.warnings.push(diagnostic) }
     }
     suites.retain(|_, cases| !cases.is_empty());
     suites
 }
 
-impl PathCase<'_> {
+impl TestOutcome<'_> {
     fn test_case(&self, name: &str, file: &str, view: &View) -> TestCase {
         let mut shown = TestCase::new(name, self.status(view));
         shown.set_classname(file);

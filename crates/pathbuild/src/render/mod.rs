@@ -47,7 +47,7 @@ pub enum Format {
     Github,
     /// GitLab code quality
     Gitlab,
-    /// `JUnit` XML, a test case for each path
+    /// `JUnit` XML, a test case for each path or program
     Junit,
     /// A page with pictures: for `--report` only
     #[value(hide = true)]
