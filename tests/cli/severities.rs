@@ -67,6 +67,72 @@ fn a_raised_warning_stops_every_program_that_it_concerns() {
 }
 
 #[test]
+fn a_glob_that_matches_no_file_is_named() {
+    let configuration = |globs: &str| {
+        format!(
+            "library = [\".\"]\nout-dir = \"gcode\"\n[[severity-in]]\nfiles = {globs}\nPB521 = \"error\"\n"
+        )
+    };
+    let fixture =
+        LIBRARY.replace("== 1234.1P", "== old/1234.1P").replace("== pathbuild.toml", "== unused.toml");
+    let place = Place::of(&fixture);
+    let named = |place: Place, globs: &str, arguments: &str| {
+        let place = place.file("pathbuild.toml", configuration(globs));
+        let run = place.run(&format!("{arguments} --format concise"));
+        let is_named = run.stderr.contains("pathbuild.toml:4:1: warning[PB529]");
+        assert_eq!(is_named, run.stderr.contains("PB529"), "{run}");
+        (place, is_named)
+    };
+    let matching = [
+        "['old/**']",
+        "['OLD/*']",
+        "['old/1234.1P.dxf']",
+        "['**/*.dxf']",
+        "['*']",
+        "['**/old/**']",
+        "['{old,new}/**']",
+    ];
+    let others = [
+        "['old']",
+        "['old/']",
+        "['./old/**']",
+        "['/old/**']",
+        "['old\\1234.1P.dxf']",
+        "[' old/**']",
+        "['']",
+        "['../old/**']",
+        "['old/**', 'new/**']",
+        "['1234*']",
+    ];
+    // Whether there are programs only decides about globs for programs.
+    let programs = ["['gcode/**']", "['*.nc']", "['gcode/*.ngc']"];
+    let mut place = place;
+    let mut is_named;
+    for (globs, expected) in
+        matching.map(|globs| (globs, false)).into_iter().chain(others.map(|globs| (globs, true)))
+    {
+        for arguments in ["check", "check --no-cache"] {
+            (place, is_named) = named(place, globs, arguments);
+            assert_eq!(is_named, expected, "{globs} {arguments}");
+        }
+    }
+    for globs in programs {
+        (place, is_named) = named(place, globs, "check");
+        assert!(!is_named, "{globs}");
+    }
+    place = place.file("gcode/a.nc", "M30\n").file(".gitignore", "gcode\n");
+    for (globs, expected) in programs.into_iter().zip([false, true, true]) {
+        (place, is_named) = named(place, globs, "check");
+        assert_eq!(is_named, expected, "{globs}");
+    }
+    (place, is_named) = named(place, "['new/**']", "check old");
+    assert!(!is_named, "a directory is not the library");
+    let place = place.file("pathbuild.toml", configuration("[]"));
+    let run = place.run("check");
+    assert!(run.status == Some(2) && run.stderr.contains("PB003"), "{run}");
+}
+
+#[test]
 fn a_warning_that_is_raised_later_leaves_the_earlier_program_and_names_it() {
     let place = Place::of(LIBRARY);
     assert_eq!(place.run("emit .").status, Some(0));

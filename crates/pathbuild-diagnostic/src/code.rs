@@ -177,6 +177,7 @@ codes! {
     526 UnusedConfiguration "unused-configuration" Warning "a pathbuild.toml in a searched directory that does not apply";
     527 PatternWithoutLayer "pattern-without-layer" Warning "`keep-out` or `part` matches no layer of the whole library";
     528 NotCurrent "not-current" Error "a file is missing or is not what `emit` would write";
+    529 GlobWithoutFile "glob-without-file" Warning "a glob of `[[severity-in]]` matches no file";
     601 InvalidProbeLine "invalid-probe-line" Error "invalid probe line";
     602 CorrectionTooLarge "correction-too-large" Error "correction too large";
     603 UnknownProbe "unknown-probe" Error "unknown probe";

@@ -15,7 +15,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Place, TextFault, Value};
 use pathbuild_path::{Bindings, PathName};
 
-use crate::common_findings::{patterns_without_layer, unused_configurations};
+use crate::common_findings::{globs_without_file, patterns_without_layer, unused_configurations};
 use crate::config::ResultKind;
 use crate::memo::{
     Answer, Coverage, Dependencies, DrawingResult, Memo, NamedLayers, check_query, find, read_drawings,
@@ -153,6 +153,8 @@ impl Request<'_> {
         if self.inputs.inputs.is_empty() {
             let results = each.iter().map(|answer| &answer.value);
             checked.diagnostics.extend(patterns_without_layer(session, results));
+            let drawings = each.iter().map(Answer::drawing);
+            checked.diagnostics.extend(globs_without_file(session, drawings));
         }
         for answer in each.into_iter().filter(|answer| filter.contains(answer)) {
             let (file, DrawingResult { names, diagnostics, .. }) =

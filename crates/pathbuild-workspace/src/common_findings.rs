@@ -7,6 +7,7 @@ use pathbuild_diagnostic::messages::{configuration, outputs};
 use pathbuild_diagnostic::{Diagnostic, Message};
 
 use crate::config::SourcedValue;
+use crate::config::types::Pattern;
 use crate::files;
 use crate::memo::DrawingResult;
 use crate::session::Session;
@@ -56,4 +57,43 @@ pub(crate) fn patterns_without_layer<'a>(
     let has_parts = library.any(|drawing| drawing.layers.has_parts);
     let clamps = (!has_clamps).then(clamps).flatten();
     clamps.into_iter().chain((!has_parts).then(parts).flatten()).collect()
+}
+
+/// Returns PB529 for each glob of `[[severity-in]]` that matches none of these drawings of the library, and no drawing or program in the
+/// configuration's tree. Globs for programs are not judged in a tree without programs, where `emit` may not have run yet.
+pub(crate) fn globs_without_file<'a>(
+    session: &Session<'_>,
+    library: impl Iterator<Item = &'a Utf8Path>,
+) -> Vec<Diagnostic> {
+    let workspace = session.workspace();
+    let (settings, severities) = (&workspace.settings, workspace.severities());
+    let (Some(configuration_file), Some(directory)) = (&settings.file, settings.directory()) else {
+        return Vec::new();
+    };
+    let entries = &settings.tables.severity_in.value;
+    let globs = entries.iter().flat_map(|entry| entry.files.iter().map(|glob| (entry.waiver.line, glob)));
+    let mut open: Vec<(u32, &Pattern)> = globs.collect();
+    if open.is_empty() {
+        return Vec::new();
+    }
+    let library: Vec<String> = library.map(|drawing| severities.configured(drawing)).collect();
+    open.retain(|(_, glob)| !library.iter().any(|drawing| glob.matches(drawing)));
+    if open.is_empty() {
+        return Vec::new();
+    }
+    let found = session.drawings_and_programs_below(directory);
+    let has_programs = found.iter().any(|file| files::is_program(file));
+    let found: Vec<String> = found.iter().map(|file| severities.configured(file)).collect();
+    let out_dir = session.out_dir().map(|directory| severities.configured(&directory));
+    let is_for_programs = |glob: &Pattern| {
+        let is_in_out_dir = |directory: &String| glob.text().starts_with(directory.as_str());
+        files::is_program(Utf8Path::new(glob.text())) || out_dir.as_ref().is_some_and(is_in_out_dir)
+    };
+    open.retain(|(_, glob)| has_programs || !is_for_programs(glob));
+    open.retain(|(_, glob)| !found.iter().any(|file| glob.matches(file)));
+    let warning = |(line, glob): (u32, &Pattern)| {
+        let problem = Diagnostic::new(&configuration::GLOB_WITHOUT_FILE).quoting("glob", glob.text());
+        problem.in_file(configuration_file).at_line(line, Some(1))
+    };
+    open.into_iter().map(warning).collect()
 }

@@ -1,4 +1,4 @@
-//! Messages about pathbuild.toml and the values of options. (PB003, PB526, PB610; book: reference/configuration)
+//! Messages about pathbuild.toml and the values of options. (PB003, PB526, PB529, PB610; book: reference/configuration)
 
 use crate::words::words;
 
@@ -271,6 +271,13 @@ messages! {
         de: "der Grund ist kein Text in Anführungszeichen",
         help_en: "write reason=\"...\", with a backslash before each quote inside",
         help_de: "reason=\"...\" schreiben, mit einem Backslash vor jedem Anführungszeichen im Text",
+    }
+    /// A glob of a table `[[severity-in]]` that matches neither a drawing nor a program.
+    GLOB_WITHOUT_FILE: GlobWithoutFile {
+        en: "`files` ({glob}) matches no drawing and no program, so it sets no severity",
+        de: "auf `files` ({glob}) passt keine Zeichnung und kein Programm: es legt keinen Schweregrad fest",
+        help_en: "write the name as seen from pathbuild.toml, with / and without ./: old/** stands for everything in and below the directory old",
+        help_de: "den Namen so schreiben, wie er von pathbuild.toml aus heißt, mit / und ohne ./: old/** steht für alles im Verzeichnis old und darunter",
     }
     /// A waiver that matches no finding.
     UNUSED_WAIVER: UnusedWaiver {

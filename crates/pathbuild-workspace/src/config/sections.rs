@@ -319,8 +319,8 @@ pub mod tables {
         /// code = "error" | "warning" | "ignore"; errors that protect programs from being wrong
         /// (PB0 to PB609) cannot be lowered
         severity: Vec<(Code, Level)> = "severity", SEVERITY, Vec::new(), "[severity]\nPB210 = \"ignore\"", Neither;
-        /// the same for some drawings or programs: globs, relative to this file; with `reason`, and `until` a date, the
-        /// last day on which it holds
+        /// the same for some drawings or programs: globs, relative to this file, which ignore case (old/** is everything in the
+        /// directory old and below); with `reason`, and `until` a date, the last day on which it holds
         severity_in: Vec<FileSeverities> = "severity-in", SEVERITY_IN, Vec::new(), "[[severity-in]]\nfiles = [\"old/**\"]\nPB112 = \"ignore\"\nreason = \"milled by hand\"\nuntil = \"2031-12-31\"", Neither;
         /// a tool, for post-processors: found by O (and by paths, a pattern of path names); with shape = "slot" its paths
         /// are compared with parts only for cuts into them, and with shape = "other" (V-bit, drill) verify counts only the centre

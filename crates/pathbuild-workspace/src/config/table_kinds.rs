@@ -264,7 +264,12 @@ fn severities_in(table: &DeTable<'_>, reader: &mut TomlReader<'_>) -> FileSeveri
     part.waiver.line = table.keys().map(|name| reader.line(name.span())).min().unwrap_or_default();
     for (name, value) in table {
         match &**name.get_ref() {
-            "files" => part.files = (PATTERNS.read)(value, reader).unwrap_or_default(),
+            "files" => {
+                if value.get_ref().as_array().is_some_and(|globs| globs.is_empty()) {
+                    reader.missing("files", value.span());
+                }
+                part.files = (PATTERNS.read)(value, reader).unwrap_or_default();
+            }
             "reason" => part.waiver.reason = (TEXT.read)(value, reader),
             "until" => part.waiver.until = date(value, reader),
             _ => part.levels.extend(severity((name, value), reader)),

@@ -12,7 +12,9 @@ use camino::{Utf8Path, Utf8PathBuf};
 use ignore::Match;
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use pathbuild_cache::{Listing, Listings};
-use pathbuild_db::system::{Entry, EntryKind, FileKind, Names, ReadError, join, or_current_directory};
+use pathbuild_db::system::{
+    Entry, EntryKind, FileKind, Names, ReadError, is_drawing, join, or_current_directory,
+};
 use pathbuild_db::{Db, System, catch_bugs, listing_error, unlistable_error};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::limits::line_too_long;
@@ -326,6 +328,13 @@ impl Session<'_> {
         found.programs.extend(walked.drawings);
         found.directories.extend(walked.directories);
         found.problems.extend(walked.problems);
+    }
+
+    /// Returns the drawings and programs in and below a directory, including those that .gitignore excludes.
+    pub(crate) fn drawings_and_programs_below(&self, directory: &Utf8Path) -> Vec<Utf8PathBuf> {
+        self.start_workers();
+        let is_wanted = |file: &Utf8Path| is_drawing(file) || is_program(file);
+        Walk { obeys_git: false, ..self.walk(is_wanted) }.search(directory).drawings
     }
 
     /// Queries the database about a directory.

@@ -12,7 +12,7 @@ use pathbuild_path::PathName;
 use super::events::Changes;
 use crate::Inputs;
 use crate::check::check_drawings;
-use crate::common_findings::{patterns_without_layer, unused_configurations};
+use crate::common_findings::{globs_without_file, patterns_without_layer, unused_configurations};
 use crate::emit::Scope;
 use crate::files::FILE_NAME;
 use crate::memo::{Coverage, DrawingResult, is_transient};
@@ -382,6 +382,7 @@ impl<'a> Library<'a> {
         let mut found: Vec<Diagnostic> = found.iter().map(SecondDefinition::diagnostic).collect();
         if self.inputs.inputs.is_empty() {
             found.extend(patterns_without_layer(&self.session, self.drawings.values()));
+            found.extend(globs_without_file(&self.session, self.drawings.keys().map(|file| &**file)));
         }
         if self.common_problems != found {
             update.now.extend_from_slice(&found);
