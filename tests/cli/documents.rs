@@ -177,6 +177,7 @@ fn standard_output_holds_one_document() {
         "explain PB203 --format sarif",
         "init --report json=a.json",
         "watch --format sarif",
+        "check --report json=a --report sarif=./b/../a",
     ];
     assert_snapshot!(runs(&place(), lines));
     let place = place();

@@ -1,10 +1,13 @@
 //! The machine-readable output of a run: one document, on stdout unless the command needs stdout itself, and reports in files.
 
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 
+use camino::{Utf8Path, Utf8PathBuf};
 use serde_json::{Map, Value, json};
 
 use pathbuild_workspace::Workspace;
+use pathbuild_workspace::config::clean;
 use pathbuild_workspace::findings::Findings;
 
 use crate::args::{Command, CommonArgs, ReportFile};
@@ -57,6 +60,13 @@ impl Output {
             );
             return Some(reason.to_owned());
         }
+        if let Some(file) = self.file_of_two_reports(&workspace.working_directory) {
+            return Some(workspace.phrase(
+                "two reports would be written to {}: give each a file of its own",
+                "zwei Berichte würden nach {} geschrieben: jedem eine eigene Datei geben",
+                file.as_str(),
+            ));
+        }
         (self.command == "watch" && (self.format.is_whole() || !self.reports.is_empty())).then(|| {
             let reason = workspace.choose(
                 "`watch` supports only the formats full, concise, json and github, because it never ends",
@@ -64,6 +74,15 @@ impl Output {
             );
             reason.to_owned()
         })
+    }
+
+    /// Returns a file that two reports would be written to.
+    fn file_of_two_reports(&self, working_directory: &Utf8Path) -> Option<Utf8PathBuf> {
+        let mut files = BTreeSet::new();
+        let named = self.reports.iter().filter(|report| !report.is_stdout());
+        named
+            .map(|report| clean(&working_directory.join(&report.file)))
+            .find(|file| !files.insert(file.clone()))
     }
 
     /// Whether the document is written to stdout, so that results for users go to stderr.
