@@ -144,7 +144,7 @@ fn usage_errors_in_german() {
         "check --feed",
         "check --format",
         "emit -o",
-        "check --update-baseline",
+        "check --reason why",
         "emit --check --remove-stale",
         "check -q -v",
         "check --no-cache --cache-dir a",

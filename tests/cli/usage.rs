@@ -64,7 +64,7 @@ fn options_without_their_value_are_wrong() {
 
 #[test]
 fn options_that_need_or_exclude_each_other_say_so() {
-    let lines = ["check --update-baseline", "emit --moves", "emit --check --remove-stale", "check -q -v"];
+    let lines = ["check --reason why", "emit --moves", "emit --check --remove-stale", "check -q -v"];
     assert_snapshot!(runs(&Place::new(), lines));
 }
 
@@ -141,7 +141,7 @@ fn a_command_line_says_the_same_whatever_of_the_commands_is_defined() {
         "check -q -v",
         "check --nonsense",
         "check --jobs 0",
-        "check --update-baseline",
+        "check --reason why",
         "check --help",
         "check -- --feed",
         "chek",

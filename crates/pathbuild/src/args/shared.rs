@@ -164,7 +164,7 @@ pub struct WaiverArgs {
     #[arg(long, value_name = "FILE")]
     pub baseline: Option<Utf8PathBuf>,
     /// Write all findings into the baseline file instead of reporting them
-    #[arg(long, requires = "baseline")]
+    #[arg(long)]
     pub update_baseline: bool,
     /// Accept the findings with this code: write them into the baseline file with --reason
     #[arg(long, value_name = "CODE", value_parser = code, requires = "reason", conflicts_with = "update_baseline")]
