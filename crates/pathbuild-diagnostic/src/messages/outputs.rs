@@ -33,8 +33,8 @@ messages! {
     NO_PROGRAM: NothingFound {
         en: "there is no G-code program in {directory}",
         de: "es gibt kein G-Code-Programm in {directory}",
-        help_en: "name a directory that holds .nc, .ngc, .gcode, .tap, .cnc or .din files, or the program itself; hidden files and those that .gitignore or .ignore excludes do not count",
-        help_de: "ein Verzeichnis mit .nc-, .ngc-, .gcode-, .tap-, .cnc- oder .din-Dateien nennen, oder das Programm selbst; versteckte und durch .gitignore oder .ignore ausgeschlossene Dateien zählen nicht",
+        help_en: "name a directory that holds .nc, .ngc, .gcode, .tap, .cnc or .din files, or the program itself; hidden files and those that .ignore excludes do not count",
+        help_de: "ein Verzeichnis mit .nc-, .ngc-, .gcode-, .tap-, .cnc- oder .din-Dateien nennen, oder das Programm selbst; versteckte und durch .ignore ausgeschlossene Dateien zählen nicht",
     }
     /// Several drawings, none of which contains a path.
     NO_PATH_ANYWHERE: NothingFound {
