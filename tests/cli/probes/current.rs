@@ -35,6 +35,9 @@ fn names_milling(place: &Place, inputs: &str, is_stale: bool) {
     let run = emit(place, &format!("{inputs} --check"));
     assert_eq!(run.stdout.contains("a_Milling.gcode: not current"), is_stale, "{run}");
     assert_eq!(run.status, Some(i32::from(is_stale)), "{run}");
+    let run = place.run(&format!("list . {OPTIONS}"));
+    let state = if is_stale { "program not current" } else { "program current" };
+    assert!(run.stdout.contains(state), "{run}");
 }
 
 #[test]

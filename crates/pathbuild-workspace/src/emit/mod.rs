@@ -41,7 +41,7 @@ pub use select::TargetPatterns;
 use select::TargetSelection;
 use settle::build_and_settle;
 pub use sheet::sheet_bytes;
-use stale_programs::{EarlierPrograms, StaleOutcome};
+use stale_programs::{EarlierPrograms, StaleOutcome, has_stale_adjusted_program};
 #[cfg(not(target_family = "wasm"))]
 pub(crate) use written_programs::Scope;
 pub use written_programs::WrittenPrograms;
@@ -313,7 +313,14 @@ pub(crate) fn freshness_on_disk(
     let is_there = |job: &Job| job.files.iter().any(|(_, path)| system.kind(path) == FileKind::File);
     let mut jobs: Vec<Job> = jobs.filter(is_there).collect();
     build_and_settle(session, jobs.iter_mut(), Task::Compare { moves_only: false }, post_processor);
-    jobs.into_iter().map(|job| (job.targets[0], is_current(job.outcome.unwrap_or_default()))).collect()
+    let is_stale = |job: &Job| has_stale_adjusted_program(session, post_processor, job);
+    let jobs: Vec<(bool, Job)> = jobs.into_iter().map(|job| (is_stale(&job), job)).collect();
+    let state = |(is_stale, job): (bool, Job)| {
+        let is_current =
+            is_current(job.outcome.unwrap_or_default()).map(|is_current| is_current && !is_stale);
+        (job.targets[0], is_current)
+    };
+    jobs.into_iter().map(state).collect()
 }
 
 /// Whether all files of a program are up to date.

@@ -154,19 +154,11 @@ impl<'a> EarlierPrograms<'a> {
 
     /// Finds the stale programs: among all files of the searched directories, and among former files of the jobs in other directories.
     fn find_stale_programs(&'a self, diagnostics: &mut Vec<Diagnostic>) -> Vec<StaleProgram> {
-        let jobs = self.jobs;
         let directories: &[Utf8PathBuf] = match &self.out_dir {
             Some(directory) if !self.directories.is_empty() => std::slice::from_ref(directory),
             _ => self.directories,
         };
-        let finding = StaleSearch {
-            run: self,
-            outputs: jobs.iter().flat_map(|job| job.files.iter().map(|(_, path)| path.as_path())).collect(),
-            by_stem: LazyCell::new(Box::new(|| {
-                jobs.iter().enumerate().map(|(number, job)| (&*job.stem, number)).collect()
-            })),
-            writers: LazyCell::new(Box::new(|| KnownTitles::new(self))),
-        };
+        let finding = StaleSearch::new(self);
         let mut stale = Vec::new();
         for directory in directories {
             match self.session.file_names_in(directory) {
@@ -236,6 +228,32 @@ impl<'a> EarlierPrograms<'a> {
     }
 }
 
+/// Whether a program on disk was adjusted from an earlier state of the job's program or with other heights than those measured now, or was edited
+/// since. Such a program is the one that is milled.
+pub(super) fn has_stale_adjusted_program(
+    session: &Session<'_>,
+    post_processor: Option<&PostProcessor>,
+    job: &Job,
+) -> bool {
+    let run = EarlierPrograms {
+        session,
+        task: Task::Compare { moves_only: false },
+        post_processor,
+        join: None,
+        out_dir: None,
+        targets: &[],
+        covered: &|| &[],
+        directories: &[],
+        jobs: &[job],
+    };
+    let search = StaleSearch::new(&run);
+    let mut stale = search.former_files(&[]).filter_map(|path| search.program_if_stale(path, None));
+    let is_adjusted = |stale: StaleProgram| {
+        matches!(stale.reason, Reason::Adjusted { .. } | Reason::Edited { .. } | Reason::OtherValues { .. })
+    };
+    stale.any(is_adjusted)
+}
+
 /// Reads the provenance and the title from the head of a program.
 fn provenance(session: &Session<'_>, program: &Utf8Path) -> Option<(Provenance, Box<str>)> {
     Provenance::of_head(&session.db().system().read_head(program, HEAD_BYTES).ok()?)
@@ -261,6 +279,18 @@ struct StaleSearch<'a> {
 }
 
 impl<'a> StaleSearch<'a> {
+    fn new(run: &'a EarlierPrograms<'a>) -> Self {
+        let jobs = run.jobs;
+        Self {
+            run,
+            outputs: jobs.iter().flat_map(|job| job.files.iter().map(|(_, path)| path.as_path())).collect(),
+            by_stem: LazyCell::new(Box::new(move || {
+                jobs.iter().enumerate().map(|(number, job)| (&*job.stem, number)).collect()
+            })),
+            writers: LazyCell::new(Box::new(move || KnownTitles::new(run))),
+        }
+    }
+
     /// Returns the programs and setup sheets in a directory that the run does not generate.
     fn candidates(&self, directory: &Utf8Path, names: &Names) -> impl Iterator<Item = Utf8PathBuf> {
         let programs = names.iter().filter(|name| is_gcode(name, self.run.post_processor) || is_sheet(name));
