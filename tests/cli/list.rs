@@ -96,6 +96,19 @@ fn a_pattern_that_nothing_matches_is_an_error() {
     assert_eq!(place.run("list [").status, Some(2));
 }
 
+/// Without a library, the drawings below the working directory are listed.
+#[test]
+fn an_empty_directory_without_a_library_is_an_error() {
+    for place in [Place::new(), Place::new().file("pathbuild.toml", "feed = 150\n")] {
+        for command in ["list", "stats", "list 1234*"] {
+            let run = place.run(command);
+            assert!(run.status == Some(1) && run.stderr.contains("PB518"), "{run}");
+        }
+    }
+    let place = Place::new().file("a/1234.1P.dxf", "");
+    assert!(!place.run("list").stderr.contains("PB518"), "there is a drawing, although it is damaged");
+}
+
 #[test]
 fn a_pattern_names_paths_for_every_command() {
     let place = Place::of(LIBRARY);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use camino::Utf8PathBuf;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Database, Role, SourceFile, Target, check_file, closure, path_names, program, summary};
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -14,7 +14,7 @@ use crate::config::types::Pattern;
 use crate::findings::Findings;
 use crate::inputs::Input;
 use crate::post_processor::{PostArguments, PostProcessor};
-use crate::session::{CheckedTarget, Session};
+use crate::session::{CheckedTarget, Session, no_drawing_error};
 use crate::workspace::Failure;
 use crate::workspace::Workspace;
 use crate::{Inputs, emit};
@@ -216,6 +216,9 @@ impl ListArguments {
         if self.places.inputs.is_empty() {
             let (files, found) = session.all_drawings();
             problems.extend(found);
+            if files.is_empty() && problems.is_empty() && !session.has_library() {
+                problems.push(no_drawing_error(&[Utf8Path::new("")]));
+            }
             return files;
         }
         let selection = session.select(&self.places);

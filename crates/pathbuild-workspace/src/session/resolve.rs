@@ -491,7 +491,8 @@ impl Session<'_> {
     }
 }
 
-fn no_drawing_error(directories: &[&Utf8Path]) -> Diagnostic {
+/// Returns PB518 for directories without drawings.
+pub(crate) fn no_drawing_error(directories: &[&Utf8Path]) -> Diagnostic {
     let shown = directories.iter().map(|path| if path.as_str().is_empty() { "." } else { path.as_str() });
     let directories: Value = shown.collect();
     Diagnostic::new(&outputs::NO_DRAWING).with("directories", directories)
