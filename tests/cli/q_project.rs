@@ -296,16 +296,28 @@ fn a_drawing_of_the_user_is_not_overwritten() {
     let name = "gear 1234_Q.dxf";
     let ours = std::fs::read(place.path().join(name)).unwrap();
     // A CAD program drops the comment at the beginning of the file when it saves.
-    let saved = String::from_utf8(ours).unwrap().split_once("q-project\r\n").unwrap().1.to_owned();
-    let place = place.file(name, &saved);
-    assert_eq!(
-        place.run_with(&["q-project", "gear 1234.dxf"]).status,
-        Some(0),
-        "an earlier version wrote it"
-    );
+    let ours = String::from_utf8(ours).unwrap();
+    let (mark, saved) = ours.split_once("\r\n  0\r\n").unwrap();
+    assert!(mark.starts_with("999\r\npathbuild q-project "), "{mark}");
+    let saved = format!("  0\r\n{saved}");
+    // Earlier versions wrote no hash, and before that no mark.
+    for earlier in [format!("999\r\npathbuild q-project\r\n{saved}"), saved.clone()] {
+        let place = written().file(name, earlier);
+        assert_eq!(place.run_with(&["q-project", "gear 1234.dxf"]).status, Some(0));
+        assert_eq!(place.read(name), ours);
+    }
     let edited = saved.replacen("gear", "gears", 1).replacen("1234", "1235", 1);
     let place = place.file(name, &edited);
     let run = place.run_with(&["q-project", "gear 1234.dxf"]);
     assert!(run.status != Some(0) && run.stderr.contains("PB004"), "{run}");
     assert_eq!(place.read(name), edited);
+    // An editor of texts keeps the mark.
+    let edited = ours.replacen("O2", "O3", 1);
+    assert_ne!(edited, ours);
+    let place = place.file(name, &edited);
+    let run = place.run_with(&["q-project", "gear 1234.dxf"]);
+    assert!(run.status != Some(0) && run.stderr.contains("PB004"), "{run}");
+    assert_eq!(place.read(name), edited);
+    let place = place.file(name, &ours);
+    assert_eq!(place.run_with(&["q-project", "gear 1234.dxf"]).status, Some(0));
 }

@@ -162,7 +162,7 @@ fn dxf(planned: &[QProject], names: &[PathName]) -> Result<Vec<u8>, String> {
         paths.push(EmbeddingPath { layer: name.as_str(), parameters: &path.parameters, segments });
     }
     let drawing = pathbuild_draw::q_project(&paths).map_err(|reasons| reasons.join("; "))?;
-    Ok([Q_PROJECT_MARK, &drawing].concat())
+    Ok(marked(&drawing))
 }
 
 fn write(
@@ -187,15 +187,36 @@ fn write(
     ExitStatus::Success
 }
 
-/// Whether the output file is a drawing that q-project did not write: it lacks the mark, which CAD programs drop when they save, and it is
-/// not the drawing that an earlier version wrote without a mark.
+/// Whether the output file is a drawing that q-project did not write, or that was edited since.
 fn is_drawn_by_user(session: &Session<'_>, output: &Utf8Path, bytes: &[u8]) -> bool {
     let system = session.db().system();
+    let limit = session.workspace().settings.limits.file_size.value;
     let is_there = system.kind(output) == FileKind::File;
-    let is_ours =
-        |old: Vec<u8>| old.starts_with(Q_PROJECT_MARK) || bytes.strip_prefix(Q_PROJECT_MARK) == Some(&old);
-    is_there && !system.read_head(output, bytes.len()).is_ok_and(is_ours)
+    is_there && !system.read(output, limit).is_ok_and(|old| is_unedited(&old, bytes))
 }
 
-/// First lines of every Q-project: a DXF comment that marks it.
-const Q_PROJECT_MARK: &[u8] = b"999\r\npathbuild q-project\r\n";
+/// Whether `old` is as q-project wrote it. `new` is what it writes now.
+fn is_unedited(old: &[u8], new: &[u8]) -> bool {
+    let Some(rest) = old.strip_prefix(Q_PROJECT_MARK) else {
+        // The first versions wrote no mark.
+        return marked(old) == new;
+    };
+    // The mark of 0.2.0 has no hash, so edits are not noticed.
+    let is_without_hash = rest.starts_with(LINE_END);
+    let drawing = rest.get(1 + HASH_LENGTH + LINE_END.len()..);
+    is_without_hash || drawing.is_some_and(|drawing| marked(drawing) == old)
+}
+
+/// Returns a Q-project with its mark, which ends with a hash of the drawing, so that edits are noticed.
+fn marked(drawing: &[u8]) -> Vec<u8> {
+    let hash = blake3::hash(drawing).to_hex();
+    [Q_PROJECT_MARK, b" ", hash[..HASH_LENGTH].as_bytes(), LINE_END, drawing].concat()
+}
+
+/// Beginning of every Q-project: a DXF comment that marks it. CAD programs drop it when they save.
+const Q_PROJECT_MARK: &[u8] = b"999\r\npathbuild q-project";
+
+/// Number of hexadecimal digits of the hash in the mark.
+const HASH_LENGTH: usize = 32;
+
+const LINE_END: &[u8] = b"\r\n";
