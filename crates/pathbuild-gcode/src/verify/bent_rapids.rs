@@ -12,7 +12,7 @@ use pathbuild_motion::{Action, Move, MoveShape, Pace, Position, Step};
 
 use super::frames::Frames;
 use super::height_map::RESIDUE_HEIGHT;
-use super::material::{self, Stock};
+use super::material::Stock;
 use crate::dialect::Dialect;
 use crate::interpret::Program;
 use crate::read::Problems;
@@ -51,12 +51,8 @@ impl<'c> BentRapidRules<'c> {
     /// Reports the found moves whose bent path leads through material. If no moves were found, the program is not processed again.
     pub fn finish(self, program: &(impl Program + ?Sized)) -> Vec<Diagnostic> {
         let Self { dialect, stock, found, frames, .. } = self;
-        if found.is_empty() {
-            return Vec::new();
-        }
         let mut hits = Problems::default();
-        let bent = BentRapids { program, found: &found };
-        frames.each(&bent, &mut |program| material::check(program, stock, &mut hits));
+        frames.check_rapids(&found, legs, program, stock, &mut hits);
         let mut hits = hits.into_diagnostics();
         hits.retain(|hit| hit.code() != Code::LimitReached);
         let lines: BTreeSet<u32> = hits.iter().filter_map(|hit| hit.place.line).collect();
@@ -77,37 +73,12 @@ fn displacement_in_plane(movement: &Move) -> [f64; 2] {
     [0, 1].map(|axis| movement.to.at[axis] - movement.from.at[axis])
 }
 
-/// A program reduced to its cuts, its coordinate systems, and the two legs of each found rapid move.
-struct BentRapids<'p, P: ?Sized> {
-    program: &'p P,
-    found: &'p BTreeSet<usize>,
-}
-
-impl<P: Program + ?Sized> Program for BentRapids<'_, P> {
-    fn each(&self, take: &mut dyn FnMut(&Step)) {
-        let mut index = 0;
-        self.program.each(&mut |step| match &step.action {
-            Action::Move(movement) => {
-                if self.found.contains(&index) {
-                    for leg in legs(movement) {
-                        take(&Step { action: Action::Move(leg), ..step.clone() });
-                    }
-                } else if movement.pace != Pace::Rapid {
-                    take(step);
-                }
-                index += 1;
-            }
-            Action::System { .. } => take(step),
-            _ => {}
-        });
-    }
-}
-
-fn legs(movement: &Move) -> [Move; 2] {
+/// Returns the two moves of such a control instead of a slanting rapid move.
+fn legs(movement: &Move) -> Vec<Move> {
     let way = displacement_in_plane(movement);
     let shorter = libm::fabs(way[0]).min(libm::fabs(way[1]));
     let [x, y] = [0, 1].map(|axis| movement.from.at[axis] + libm::copysign(shorter, way[axis]));
     let corner = Position::known(x, y, movement.from.z().max(movement.to.z()));
     let leg = |from, to| Move { from, to, shape: MoveShape::Line, ..*movement };
-    [leg(movement.from, corner), leg(corner, movement.to)]
+    vec![leg(movement.from, corner), leg(corner, movement.to)]
 }

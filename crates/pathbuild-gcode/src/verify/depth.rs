@@ -11,7 +11,7 @@ use pathbuild_motion::{Action, Axes, Move, Pace, Step};
 
 use super::frames::Frames;
 use super::height_map::RESIDUE_HEIGHT;
-use super::material::{self, Stock};
+use super::material::Stock;
 use crate::interpret::Program;
 use crate::read::Problems;
 
@@ -62,35 +62,10 @@ impl DepthRules {
     /// Reports the stops and tool changes at cutting depth, and the found moves that lead through a point at which the program never cuts as deep.
     /// The surface of `stock` is [unknown](Stock::with_unknown_surface). If no moves were found, the program is not processed again.
     pub fn finish(self, program: &(impl Program + ?Sized), stock: &Stock) -> Vec<Diagnostic> {
-        let found = &self.depths.found;
         let mut problems = self.stops;
-        if !found.is_empty() {
-            let reduced = CutsAndFound { program, found };
-            self.frames.each(&reduced, &mut |program| material::check(program, stock, &mut problems));
-        }
+        let found = &self.depths.found;
+        self.frames.check_rapids(found, |movement| vec![*movement], program, stock, &mut problems);
         problems.into_diagnostics()
-    }
-}
-
-/// A program reduced to its cuts, to the rapid moves that were found at cutting depth, and to its coordinate systems.
-struct CutsAndFound<'p, P: ?Sized> {
-    program: &'p P,
-    found: &'p BTreeSet<usize>,
-}
-
-impl<P: Program + ?Sized> Program for CutsAndFound<'_, P> {
-    fn each(&self, take: &mut dyn FnMut(&Step)) {
-        let mut index = 0;
-        self.program.each(&mut |step| match &step.action {
-            Action::Move(movement) => {
-                if movement.pace != Pace::Rapid || self.found.contains(&index) {
-                    take(step);
-                }
-                index += 1;
-            }
-            Action::System { .. } => take(step),
-            _ => {}
-        });
     }
 }
 

@@ -1,10 +1,14 @@
-//! Splits a program by the coordinate systems whose places relative to each other are not known. (book: program/reading)
+//! Looks for rapid moves that hit material, separately in each coordinate system whose place relative to the others is not known. (book: program/reading)
 //!
 //! Two vises have two systems, G54 and G55. What has been cut in one is not cut in the other, although both have the same coordinates.
 
-use pathbuild_motion::{Action, Axes, Step, WorkSystem};
+use std::collections::BTreeSet;
 
+use pathbuild_motion::{Action, Axes, Move, Pace, Step, WorkSystem};
+
+use super::material::{self, Stock};
 use crate::interpret::Program;
+use crate::read::Problems;
 
 /// The frames in which a program moves. Coordinate systems whose positions relative to each other are known share a frame. Pass every step to
 /// [`step`](Self::step).
@@ -30,13 +34,29 @@ impl Frames {
         }
     }
 
-    /// Passes the program to `take` as a whole, or the moves in each frame if there are several.
-    pub(super) fn each<P: Program + ?Sized>(self, program: &P, take: &mut dyn FnMut(&dyn Program)) {
+    /// Reports rapid moves that hit material, in the program as a whole, or in each frame if there are several.
+    pub(super) fn check<P: Program + ?Sized>(self, program: &P, stock: &Stock, problems: &mut Problems) {
+        let mut check = |program: &dyn Program| material::check(program, stock, problems);
         if self.used.len() <= 1 {
-            return take(&Whole(program));
+            return check(&Whole(program));
         }
         for frame in self.used {
-            take(&InFrame { program, frame });
+            check(&InFrame { program, frame });
+        }
+    }
+
+    /// Like [`check`](Self::check), for the rapid moves with these indices among all moves. `legs` replaces each of them by the moves to check. If there
+    /// are none, the program is not processed.
+    pub(super) fn check_rapids<P: Program + ?Sized>(
+        self,
+        rapids: &BTreeSet<usize>,
+        legs: fn(&Move) -> Vec<Move>,
+        program: &P,
+        stock: &Stock,
+        problems: &mut Problems,
+    ) {
+        if !rapids.is_empty() {
+            self.check(&CutsAndRapids { program, rapids, legs }, stock, problems);
         }
     }
 }
@@ -46,6 +66,32 @@ struct Whole<'p, P: ?Sized>(&'p P);
 impl<P: Program + ?Sized> Program for Whole<'_, P> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
         self.0.each(take);
+    }
+}
+
+/// A program reduced to its cuts, to some of its rapid moves, and to its coordinate systems.
+struct CutsAndRapids<'p, P: ?Sized> {
+    program: &'p P,
+    rapids: &'p BTreeSet<usize>,
+    legs: fn(&Move) -> Vec<Move>,
+}
+
+impl<P: Program + ?Sized> Program for CutsAndRapids<'_, P> {
+    fn each(&self, take: &mut dyn FnMut(&Step)) {
+        let mut index = 0;
+        self.program.each(&mut |step| match &step.action {
+            Action::Move(movement) => {
+                if movement.pace != Pace::Rapid {
+                    take(step);
+                } else if self.rapids.contains(&index) {
+                    let legs = (self.legs)(movement).into_iter();
+                    legs.for_each(|leg| take(&Step { action: Action::Move(leg), ..step.clone() }));
+                }
+                index += 1;
+            }
+            Action::System { .. } => take(step),
+            _ => {}
+        });
     }
 }
 

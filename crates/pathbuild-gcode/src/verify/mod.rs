@@ -73,7 +73,7 @@ pub fn verify(
     let mut found = rules.finish();
     if let Some(stock) = stock {
         let mut problems = Problems::default();
-        frames.each(program, &mut |program| material::check(program, stock, &mut problems));
+        frames.check(program, stock, &mut problems);
         found.append(&mut problems.into_diagnostics());
     }
     found.sort_by_key(|diagnostic| diagnostic.place.line);
