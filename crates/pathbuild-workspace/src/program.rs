@@ -105,30 +105,30 @@ impl Program {
         reading: ReadingOptions,
     ) -> Result<Self, Box<Diagnostic>> {
         let text = read(&workspace.settings, &*workspace.system, file)?;
-        Self::of_text(workspace, file, text, reading)
+        Self::of_text(&workspace.settings, file, text, reading, &|_, _| None)
     }
 
-    /// Interprets the text of a file and stores its steps.
+    /// Interprets the text of a file and stores its steps. `definition` translates a text in words that only a post definition defines.
     ///
     /// # Errors
     /// If the program has more steps than may be stored.
     pub fn of_text(
-        workspace: &Workspace,
+        settings: &Settings,
         file: &Utf8Path,
         text: Vec<u8>,
         reading: ReadingOptions,
+        definition: &Translate<'_>,
     ) -> Result<Self, Box<Diagnostic>> {
-        let (mut steps, limit) = (Vec::new(), workspace.settings.limits.program_memory.value);
+        let (mut steps, limit) = (Vec::new(), settings.limits.program_memory.value);
         let mut stopped = None;
-        let mut program =
-            Self::read_until(&workspace.settings, file, text, reading, &|_, _| None, &mut |step| {
-                if memory(steps.len() as u64 + 1) > limit {
-                    stopped = Some(step.line);
-                    return ControlFlow::Break(());
-                }
-                steps.push(step);
-                ControlFlow::Continue(())
-            });
+        let mut program = Self::read_until(settings, file, text, reading, definition, &mut |step| {
+            if memory(steps.len() as u64 + 1) > limit {
+                stopped = Some(step.line);
+                return ControlFlow::Break(());
+            }
+            steps.push(step);
+            ControlFlow::Continue(())
+        });
         if let Some(line) = stopped {
             let mut problem = too_much_memory(steps.len(), limit).at_line(line, None);
             program.place(std::slice::from_mut(&mut problem));
@@ -139,7 +139,7 @@ impl Program {
     }
 
     /// Interprets the text of a file and passes each step to `each` without storing it. A caller that needs the steps of a large program twice
-    /// interprets it again. `definition` translates a text in words that only a post definition defines.
+    /// interprets it again. `definition` is as in [`of_text`](Self::of_text).
     pub fn read_each(
         settings: &Settings,
         file: &Utf8Path,
@@ -288,11 +288,7 @@ impl Program {
 ///
 /// # Errors
 /// If the file cannot be read, or is too large.
-pub(crate) fn read(
-    settings: &Settings,
-    system: &dyn System,
-    file: &Utf8Path,
-) -> Result<Vec<u8>, Box<Diagnostic>> {
+pub fn read(settings: &Settings, system: &dyn System, file: &Utf8Path) -> Result<Vec<u8>, Box<Diagnostic>> {
     let limit = settings.limits.file_size.value;
     let unreadable = |error: ReadError| Box::new(error.diagnostic(limit, "file-size").in_file(file));
     system.read(file, limit).map_err(unreadable)

@@ -46,9 +46,7 @@ impl DroppedProgram {
         let mut problems = Vec::new();
         let options = self.assumptions.options(&mut problems);
         let file = Utf8Path::new(&self.name);
-        let program = Program::of_text(workspace, file, self.text, options.reading);
-        let program = program.map_err(|problem| Failure::Found(vec![*problem]));
-        let mut report = match program.and_then(|program| program_scene(session, &program, options)) {
+        let mut report = match program_scene(session, file, self.text, options) {
             Ok(report) => report,
             Err(Failure::Post(diagnostics) | Failure::Found(diagnostics)) => {
                 SceneReport { scene: Scene::new(file_name(file)), diagnostics }
@@ -66,20 +64,23 @@ impl DroppedProgram {
     }
 }
 
-/// Returns the scene of a program with the findings of [`verify`](crate::verify), the checks that were made, and the cutters and the material that
+/// Reads a program, and returns its scene with the findings of [`verify`](crate::verify), the checks that were made, and the cutters and the material that
 /// they assumed.
 ///
 /// # Errors
-/// If the options cannot be used, for example because the configuration of the post-processor has errors.
+/// If the program has more steps than may be stored, or if the options cannot be used, for example because the configuration of the post-processor has
+/// errors.
 pub fn program_scene(
     session: &mut Session<'_>,
-    program: &Program,
+    file: &Utf8Path,
+    text: Vec<u8>,
     options: VerifyOptions,
 ) -> Result<SceneReport, Failure> {
     let workspace = session.workspace();
     let cutter = options.cutter;
     let verifier = Verifier::new(session, options)?;
-    let verified = verifier.verify(&program.file, program.text.clone());
+    let program = &verifier.read(file, text).map_err(|problem| Failure::Found(vec![*problem]))?;
+    let verified = verifier.verify_stored(program);
     let rapids = verified.checks.iter().find_map(CheckRecord::values);
     let (cutters, surface) = stated_cutters_and_surface(program, rapids);
     let mut path = program.scene_path(workspace);

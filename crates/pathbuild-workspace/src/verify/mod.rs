@@ -152,20 +152,43 @@ impl<'w> Verifier<'w> {
         let each = &mut |step| as_written.step(&step);
         let program =
             Program::read_each(self.settings, file, text, self.options.reading, &by_definition, each);
-        let mut verified = self.examine(&program, as_written);
+        self.examine_with_required(&program, as_written)
+    }
+
+    /// Reads a program as [`verify`](Self::verify) does, and stores its steps.
+    ///
+    /// # Errors
+    /// If the program has more steps than may be stored.
+    pub fn read(&self, file: &Utf8Path, text: Vec<u8>) -> Result<Program, Box<Diagnostic>> {
+        let by_definition = |text: &[u8], guess: Option<&Guess>| self.writers.translate(text, guess);
+        Program::of_text(self.settings, file, text, self.options.reading, &by_definition)
+    }
+
+    /// Verifies a program with stored steps.
+    pub fn verify_stored(&self, program: &Program) -> VerifiedProgram {
+        self.examine_with_required(program, self.stored_as_written(program))
+    }
+
+    /// Returns the findings about a program with stored steps. Required checks that could not be made are not reported.
+    pub fn findings(&self, program: &Program) -> Vec<Diagnostic> {
+        self.examine(program, self.stored_as_written(program)).diagnostics
+    }
+
+    fn stored_as_written(&self, program: &Program) -> WrittenSteps<'_> {
+        let mut as_written = WrittenSteps::new(self.machine.as_ref());
+        program.read.steps.iter().for_each(|step| as_written.step(step));
+        as_written
+    }
+
+    /// Examines a program, and reports required checks that could not be made.
+    fn examine_with_required(&self, program: &Program, as_written: WrittenSteps<'_>) -> VerifiedProgram {
+        let mut verified = self.examine(program, as_written);
         let required = self.required();
         let unmade = verified.checks.iter().filter_map(|record| record.missing_check_error(&required));
         let mut unmade: Vec<Diagnostic> = unmade.collect();
         program.place(&mut unmade);
         verified.diagnostics.append(&mut unmade);
         verified
-    }
-
-    /// Returns the findings about a program with stored steps. Required checks that could not be made are not reported.
-    pub fn findings(&self, program: &Program) -> Vec<Diagnostic> {
-        let mut as_written = WrittenSteps::new(self.machine.as_ref());
-        program.read.steps.iter().for_each(|step| as_written.step(step));
-        self.examine(program, as_written).diagnostics
     }
 
     fn examine(&self, program: &Program, as_written: WrittenSteps<'_>) -> VerifiedProgram {

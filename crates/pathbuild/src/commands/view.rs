@@ -9,7 +9,7 @@ use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::files::is_file_name_taken;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
-use pathbuild_workspace::program::Program;
+use pathbuild_workspace::program;
 use pathbuild_workspace::program_view::program_scene;
 use pathbuild_workspace::session::{NamedPaths, Session};
 use pathbuild_workspace::verify::VerifyOptions;
@@ -62,7 +62,7 @@ struct TargetScene {
 fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failure> {
     let file = Utf8Path::new(&args.what);
     if !is_drawing(file) && is_file_name_taken(file) {
-        return program(context, file, args);
+        return program_file(context, file, args);
     }
     if let Some(option) = args.program_option() {
         return Err(Failure::Usage(context.phrase(
@@ -74,12 +74,12 @@ fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failu
     Session::new(context).with_stable_files(|session| drawing(session, &args.what))
 }
 
-fn program(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<TargetScene, Failure> {
+fn program_file(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<TargetScene, Failure> {
     let found = |problem: Box<Diagnostic>| Failure::Found(vec![*problem]);
     let options = VerifyOptions { reading: args.reading.options(), ..VerifyOptions::default() };
     let options = options.with_stock(args.cutter.as_deref(), args.surface.as_deref()).map_err(found)?;
-    let program = Program::open(context, file, options.reading).map_err(found)?;
-    let report = program_scene(&mut Session::new(context), &program, options)?;
+    let text = program::read(&context.settings, &*context.system, file).map_err(found)?;
+    let report = program_scene(&mut Session::new(context), file, text, options)?;
     Ok(TargetScene { report, file: file.to_string() })
 }
 

@@ -284,7 +284,13 @@ fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProces
 /// Replaces a path's program by the text of its post-processor, read in the same way as a program in a file.
 fn with_posted_program(context: &Context, path: ScenePath, args: &DiffArgs) -> Result<ScenePath, Failure> {
     let text = path.gcode.unwrap_or_default().into_bytes();
-    let program = Program::of_text(context, Utf8Path::new(&path.file), text, args.reading.options());
+    let program = Program::of_text(
+        &context.settings,
+        Utf8Path::new(&path.file),
+        text,
+        args.reading.options(),
+        &|_, _| None,
+    );
     let program = program.map_err(|problem| Failure::Found(vec![*problem]))?;
     Ok(ScenePath { name: path.name, totals: path.totals, ..program.scene_path(context) })
 }
