@@ -68,7 +68,8 @@ impl Library {
         let (inputs, options) = (to_inputs(inputs), options.clone());
         let baseline = options.baseline.clone().resolve(&self.workspace)?;
         let is_traced = self.workspace.keeps_results() || options.changed_since.is_some();
-        self.ask_traced(is_traced, move |session| {
+        self.work(move |open| {
+            let session = open.session(is_traced);
             let workspace = session.workspace();
             let inputs = if inputs.inputs.is_empty() { whole_library(workspace) } else { inputs };
             let revision = |name: &String| revision_files(workspace, &inputs, name);
@@ -104,7 +105,8 @@ impl Library {
     /// If a pattern is invalid, or if the post-processor does not exist or has errors.
     pub fn paths_with(&self, inputs: &[&str], options: &ListOptions) -> Result<PathListing, Error> {
         let (inputs, options) = (to_inputs(inputs), options.clone());
-        self.ask_traced(false, move |session| {
+        self.work(move |open| {
+            let session = open.session(false);
             let workspace = session.workspace();
             let listed = list::Request { inputs: &inputs, post: options.post.as_deref() }.run(session);
             let listed = listed.map_err(Error::from_failure)?;
@@ -183,9 +185,10 @@ impl Library {
     pub fn emit(&self, inputs: &[&str], options: &EmitOptions) -> Result<EmitReport, Error> {
         let (inputs, options) = (to_inputs(inputs), options.clone());
         options.check_date(&self.workspace)?;
-        let is_traced = self.workspace.keeps_results() && options.request(&inputs).uses_cache();
-        self.ask_traced(is_traced, move |session| {
-            let emission = options.request(&inputs).run(session).map_err(Error::from_failure)?;
+        let is_traced = self.workspace.keeps_results() && options.request.uses_cache();
+        self.work(move |open| {
+            let session = open.session(is_traced);
+            let emission = options.request.run(session, &inputs).map_err(Error::from_failure)?;
             Ok(EmitReport::new(session.workspace(), emission))
         })
     }
@@ -307,15 +310,7 @@ impl Library {
         &self,
         work: impl FnOnce(&mut Session<'_>) -> Result<R, Error> + Send + 'static,
     ) -> Result<R, Error> {
-        self.ask_traced(self.workspace.keeps_results(), work)
-    }
-
-    /// Like [`ask`](Self::ask). `is_traced` says whether the session must trace inputs.
-    fn ask_traced<R: Send + 'static>(
-        &self,
-        is_traced: bool,
-        work: impl FnOnce(&mut Session<'_>) -> Result<R, Error> + Send + 'static,
-    ) -> Result<R, Error> {
+        let is_traced = self.workspace.keeps_results();
         self.work(move |open| work(open.session(is_traced)))
     }
 

@@ -10,7 +10,6 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::config::sections::general::OPTIONS;
 use pathbuild_workspace::config::{self, GivenOptions, OptionValues, Overrides};
 use pathbuild_workspace::emit::{self, Task};
-use pathbuild_workspace::post_processor::PostArguments;
 use pathbuild_workspace::waivers::{Date, DateSource, RunDate};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
 
@@ -233,13 +232,7 @@ impl ListOptions {
 /// Options for writing programs: the post-processor, and whether existing files are compared or overwritten.
 #[derive(Clone, Debug, Default)]
 pub struct EmitOptions {
-    post: Option<String>,
-    task: Option<Task>,
-    force: bool,
-    join: Option<String>,
-    deps: Option<Utf8PathBuf>,
-    removes_stale: bool,
-    arguments: PostArguments,
+    pub(crate) request: emit::Request,
 }
 
 impl EmitOptions {
@@ -250,86 +243,76 @@ impl EmitOptions {
 
     /// Sets the post-processor: the name of a built-in one, the file of a definition, or `native`. Without it, the configuration decides.
     pub fn post(mut self, post: impl Into<String>) -> Self {
-        self.post = Some(post.into());
+        self.request.post = Some(post.into());
         self
     }
 
     /// Compares the files with those on disk instead of writing them.
     pub fn compare(mut self) -> Self {
-        self.task = Some(Task::Compare { moves_only: false });
+        self.request.task = Task::Compare { moves_only: false };
         self
     }
 
     /// Compares only the moves of the files with those on disk instead of writing them.
     pub fn compare_moves(mut self) -> Self {
-        self.task = Some(Task::Compare { moves_only: true });
+        self.request.task = Task::Compare { moves_only: true };
         self
     }
 
     /// Returns the program in [`OutputFile::text`](crate::OutputFile::text) instead of writing it. The inputs must name a single path.
     pub fn print(mut self) -> Self {
-        self.task = Some(Task::Print);
+        self.request.task = Task::Print;
         self
     }
 
     /// Permits overwriting files with measured values.
     pub fn force(mut self) -> Self {
-        self.force = true;
+        if let Task::Write { force } = &mut self.request.task {
+            *force = true;
+        }
         self
     }
 
     /// Joins all paths, in the order of the inputs, into one program of this name.
     pub fn join(mut self, name: impl Into<String>) -> Self {
-        self.join = Some(name.into());
+        self.request.join = Some(name.into());
         self
     }
 
     /// Also writes the dependencies of the files into this file, for make and Ninja.
     pub fn deps(mut self, file: impl Into<String>) -> Self {
-        self.deps = Some(file.into().into());
+        self.request.deps = Some(file.into().into());
         self
     }
 
     /// Removes programs that pathbuild wrote earlier and would no longer write.
     pub fn remove_stale(mut self) -> Self {
-        self.removes_stale = true;
+        self.request.removes_stale = true;
         self
     }
 
     /// Sets the date, such as `2026-12-31`, that a post-processor may write into programs.
     pub fn date(mut self, date: impl Into<String>) -> Self {
-        self.arguments.date = Some(date.into().into());
+        self.request.post_arguments.date = Some(date.into().into());
         self
     }
 
     /// Sets the dialect of the output, for a post-processor that does not name it.
     pub fn dialect(mut self, dialect: impl Into<String>) -> Self {
-        self.arguments.dialect = Some(dialect.into().into());
+        self.request.post_arguments.dialect = Some(dialect.into().into());
         self
     }
 
     /// Lets the post-processor request commands for its output. They are in [`EmitReport::post_builds`](crate::EmitReport::post_builds), and the caller
     /// runs them.
     pub fn post_builds(mut self) -> Self {
-        self.arguments.run_post_build = true;
+        self.request.post_arguments.run_post_build = true;
         self
     }
 
     pub(crate) fn check_date(&self, workspace: &Workspace) -> Result<(), Error> {
-        let date = self.arguments.date.as_deref().map(|text| date(text, Some(workspace.lang())));
+        let date = self.request.post_arguments.date.as_deref().map(|text| date(text, Some(workspace.lang())));
         date.transpose().map(|_| ())
-    }
-
-    pub(crate) fn request<'a>(&'a self, inputs: &'a Inputs) -> emit::Request<'a> {
-        emit::Request {
-            inputs,
-            task: self.task.unwrap_or(Task::Write { force: self.force }),
-            post: self.post.as_deref(),
-            post_arguments: self.arguments.clone(),
-            join: self.join.as_deref(),
-            deps: self.deps.as_deref(),
-            removes_stale: self.removes_stale,
-        }
     }
 }
 

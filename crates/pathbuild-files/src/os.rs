@@ -112,7 +112,19 @@ impl System for OsSystem {
     }
 
     fn write(&self, path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
-        replace(path, bytes)
+        let parent = path.parent().unwrap_or(Utf8Path::new(""));
+        remove_debris(or_current_directory(parent));
+        match path.as_std_path().metadata() {
+            Ok(data) if data.is_dir() => return Err(Value::Prose(&DIRECTORY_OF_THAT_NAME)),
+            Ok(data) if !data.is_file() => return Err(Value::Prose(&NOT_REGULAR)),
+            Ok(data) if data.len() == bytes.len() as u64 && file_contains(path, bytes) => {
+                return Ok(WriteOutcome::Unchanged);
+            }
+            _ => {}
+        }
+        let written = fs::create_dir_all(or_current_directory(parent))
+            .and_then(|()| replace::write(path, bytes, false));
+        written.map(|()| WriteOutcome::Changed).map_err(|error| reason(&error))
     }
 
     fn remove(&self, path: &Utf8Path) -> Result<(), Value> {
@@ -211,26 +223,6 @@ fn regular_size(file: &File) -> Result<u64, ReadError> {
 
 fn not_regular() -> ReadError {
     ReadError::Other(Value::Prose(&NOT_REGULAR))
-}
-
-/// Replaces the content of a file, unless it is already the same.
-///
-/// # Errors
-/// If the file cannot be written, or is a pipe, socket or device. The path is then left as it was.
-fn replace(path: &Utf8Path, bytes: &[u8]) -> Result<WriteOutcome, Value> {
-    let parent = path.parent().unwrap_or(Utf8Path::new(""));
-    remove_debris(or_current_directory(parent));
-    match path.as_std_path().metadata() {
-        Ok(data) if data.is_dir() => return Err(Value::Prose(&DIRECTORY_OF_THAT_NAME)),
-        Ok(data) if !data.is_file() => return Err(Value::Prose(&NOT_REGULAR)),
-        Ok(data) if data.len() == bytes.len() as u64 && file_contains(path, bytes) => {
-            return Ok(WriteOutcome::Unchanged);
-        }
-        _ => {}
-    }
-    let written =
-        fs::create_dir_all(or_current_directory(parent)).and_then(|()| replace::write(path, bytes, false));
-    written.map(|()| WriteOutcome::Changed).map_err(|error| reason(&error))
 }
 
 fn file_contains(path: &Utf8Path, bytes: &[u8]) -> bool {

@@ -208,8 +208,9 @@ impl OpenedFiles {
     fn emit(&mut self, places: &[Place]) -> Answer {
         let workspace = self.session.workspace();
         let found: Vec<(SourceFile, PathName)> = places.iter().filter_map(|place| self.path(place)).collect();
-        let target =
-            |(file, name): &(SourceFile, PathName)| self.session.target_in(*file, name, Role::Emitted);
+        let target = |(file, name): &(SourceFile, PathName)| {
+            self.session.db().target(*file, name.as_str(), Role::Emitted)
+        };
         let targets: Vec<Target> = found.iter().map(target).collect();
         let post_processor = self.post_processor.as_ref();
         let drawings: Vec<SourceFile> = found.iter().map(|(file, _)| *file).collect();

@@ -18,7 +18,7 @@ use pathbuild_testkit::sheet;
 use pathbuild_wasm::Compiler;
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::emit::WrittenPrograms;
-use pathbuild_workspace::session::{SelectedPath, Session};
+use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, SilentReporter, Workspace};
 use serde_json::{Value, json};
 
@@ -151,7 +151,7 @@ fn a_library_has_the_programs_that_are_written_from_files() {
     for (drawing, path) in rows.keys() {
         let file = session.file(&root.join(drawing));
         let name = pathbuild_path::PathName::new(path);
-        let target = session.target(&SelectedPath { file, name }, Role::Emitted);
+        let target = session.db().target(file, name.as_str(), Role::Emitted);
         let (Ok(_), _) = WrittenPrograms::default().write(&mut session, None, &[file], &[target]) else {
             continue;
         };

@@ -162,12 +162,12 @@ fn compare_programs_on_disk(
     listed: &mut [ListedPath],
 ) -> Vec<Diagnostic> {
     let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.figures.minutes.is_some());
-    let targets = sound.map(|((file, name), _)| session.target_in(*file, name, Role::Emitted));
+    let targets = sound.map(|((file, name), _)| session.db().target(*file, name.as_str(), Role::Emitted));
     let targets: Vec<Target> = targets.collect();
     let states = emit::freshness_on_disk(session, post_processor, &targets);
     let mut problems = Vec::new();
     for ((file, name), listed) in paths.iter().zip(listed) {
-        let target = session.target_in(*file, name, Role::Emitted);
+        let target = session.db().target(*file, name.as_str(), Role::Emitted);
         listed.program = match states.get(&target) {
             None => ProgramState::None,
             Some(Ok(true)) => ProgramState::Current,

@@ -77,7 +77,11 @@ pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> 
     };
     let session = Session::new(&workspace);
     let wanted = session.select(&Inputs { inputs });
-    let mut targets: Vec<_> = wanted.paths.iter().map(|path| session.target(path, Role::Emitted)).collect();
+    let mut targets: Vec<_> = wanted
+        .paths
+        .iter()
+        .map(|path| session.db().target(path.file, path.name.as_str(), Role::Emitted))
+        .collect();
     for file in wanted.whole(&session) {
         targets.extend(session.targets(file, &Role::Emitted));
     }

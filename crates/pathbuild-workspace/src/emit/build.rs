@@ -40,30 +40,40 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     let provenance = settings.provenances.of(&programs);
     let line = provenance.to_string();
     delivered.provenance = Some(provenance);
-    let machine = settings.machine.as_ref();
-    let mut unsafe_moves = None;
-    for program in &programs {
-        let (errors, warnings) = move_problems(db, job, program, machine);
-        delivered.problems.extend(warnings);
-        unsafe_moves = unsafe_moves.or((!errors.is_empty()).then_some(errors));
-    }
-    let (errors, doubts) = problems_of_joining(db, job, &programs);
-    let unsafe_moves = unsafe_moves.or_else(|| (!errors.is_empty()).then_some(errors));
-    delivered.problems.extend(doubts);
-    let result =
-        unsafe_moves.map_or_else(|| outputs(db, job, &programs, &line, settings, &mut delivered), Err);
-    let result = result.and_then(|mut outputs| {
-        outputs.extend(sheets(db, job, settings).map_err(|problem| vec![*problem])?);
-        let too_large = outputs.iter().find(|output| output.text.len() > settings.writing.most_bytes);
-        too_large.map_or(Ok(()), |output| Err(vec![file_too_large(db, job, output, &settings.writing)]))?;
-        Ok(outputs)
-    });
+    let unsafe_moves = unsafe_moves(db, job, &programs, settings, &mut delivered.problems);
+    let result = if unsafe_moves.is_empty() {
+        outputs(db, job, &programs, &line, settings, &mut delivered)
+    } else {
+        Err(unsafe_moves)
+    };
     let outputs = result.unwrap_or_else(|problems| {
         delivered.is_refused = true;
         delivered.problems.extend(problems);
         Vec::new()
     });
     BuiltProgram { outcome: delivered, outputs }
+}
+
+/// Returns the errors that keep programs from being written: those of the first program that has any, or else those of joining the programs. Adds the
+/// warnings of all programs to `problems`.
+fn unsafe_moves(
+    db: &Database,
+    job: &Job,
+    programs: &[Arc<Program>],
+    settings: &OutputSettings<'_>,
+    problems: &mut Vec<Diagnostic>,
+) -> Vec<Diagnostic> {
+    let of_programs =
+        programs.iter().map(|program| move_problems(db, job, program, settings.machine.as_ref()));
+    let found = of_programs.chain([problems_of_joining(db, job, programs)]);
+    let mut unsafe_moves = Vec::new();
+    for (errors, warnings) in found {
+        problems.extend(warnings);
+        if unsafe_moves.is_empty() {
+            unsafe_moves = errors;
+        }
+    }
+    unsafe_moves
 }
 
 /// Returns PB005 for an output file that is too large. The limit is the same for reading files on disk, so a larger file could not be compared.
@@ -155,6 +165,7 @@ pub(super) struct Output {
     pub(super) text: Vec<u8>,
 }
 
+/// Generates the program and its setup sheet.
 fn outputs(
     db: &Database,
     job: &Job,
@@ -165,22 +176,20 @@ fn outputs(
 ) -> Result<Vec<Output>, Vec<Diagnostic>> {
     let drawing = job.drawing(db).path(db);
     let at = |problem: Diagnostic| problem.in_file(drawing).in_path(&job.path);
-    match (settings.post_processor, programs) {
-        (Some(post_processor), programs) => write_through_post(
-            job,
-            programs,
-            provenance,
-            post_processor,
-            settings.writing.options.lang,
-            at,
-            delivered,
-        )
-        .map(|output| vec![output]),
-        (None, [program]) => {
-            write_native(job, program, provenance, settings, at, delivered).map_err(|problem| vec![*problem])
+    let mut outputs = match (settings.post_processor, programs) {
+        (Some(post_processor), programs) => {
+            let lang = settings.writing.options.lang;
+            vec![write_through_post(job, programs, provenance, post_processor, lang, at, delivered)?]
         }
+        (None, [program]) => write_native(job, program, provenance, settings, at, delivered)
+            .map_err(|problem| vec![*problem])?,
         // Native programs are never joined: only a post-processor can do that.
-        (None, _) => Ok(Vec::new()),
+        (None, _) => Vec::new(),
+    };
+    outputs.extend(sheets(db, job, settings).map_err(|problem| vec![*problem])?);
+    match outputs.iter().find(|output| output.text.len() > settings.writing.most_bytes) {
+        Some(output) => Err(vec![file_too_large(db, job, output, &settings.writing)]),
+        None => Ok(outputs),
     }
 }
 

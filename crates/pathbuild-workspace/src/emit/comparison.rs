@@ -104,7 +104,7 @@ fn compare_with_path(
     text: &[u8],
 ) -> DrawingComparison {
     let db = session.db();
-    let target = session.target(path, Role::Emitted);
+    let target = db.target(path.file, path.name.as_str(), Role::Emitted);
     let checked = session.check(&[target]);
     let wrong: Vec<Diagnostic> =
         checked.iter().flat_map(|checked| super::plan::path_diagnostics(session, checked)).collect();

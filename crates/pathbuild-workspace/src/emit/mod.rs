@@ -47,20 +47,18 @@ pub(crate) use written_programs::Scope;
 pub use written_programs::WrittenPrograms;
 
 /// A request to emit programs.
-#[derive(Clone, Debug)]
-pub struct Request<'a> {
-    /// The drawings, paths and directories; if empty, the paths matched by `[emit] targets`.
-    pub inputs: &'a Inputs,
+#[derive(Clone, Debug, Default)]
+pub struct Request {
     /// The task to perform with the generated files.
     pub task: Task,
     /// Name or file of the post-processor that replaces the configured one; `None` for the configured one.
-    pub post: Option<&'a str>,
+    pub post: Option<String>,
     /// Arguments for the post-processor; native programs ignore them.
     pub post_arguments: PostArguments,
     /// Name of the program into which all paths are joined, in the order of the inputs; `None` for one program per path.
-    pub join: Option<&'a str>,
+    pub join: Option<String>,
     /// Dependency file to write for `make` and `ninja`.
-    pub deps: Option<&'a Utf8Path>,
+    pub deps: Option<Utf8PathBuf>,
     /// Whether to remove stale programs.
     pub removes_stale: bool,
 }
@@ -78,7 +76,7 @@ pub struct Emission {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-impl Request<'_> {
+impl Request {
     /// Whether results of earlier runs are used, if the session traces inputs. Otherwise, everything is regenerated.
     pub fn uses_cache(&self) -> bool {
         let is_always_made = matches!(self.task, Task::Print | Task::Write { force: true })
@@ -87,20 +85,32 @@ impl Request<'_> {
         !is_always_made
     }
 
-    /// Emits the programs. The session must trace inputs if results are to be cached.
+    /// Emits the programs of these drawings, paths and directories, or without inputs those of the paths matched by `[emit] targets`. The session must
+    /// trace inputs if results are to be cached.
     ///
     /// # Errors
     /// If the request or the post-processor is invalid, with the reason.
-    pub fn run(&self, session: &mut Session<'_>) -> Result<Emission, Failure> {
+    pub fn run(&self, session: &mut Session<'_>, inputs: &Inputs) -> Result<Emission, Failure> {
         let workspace = session.workspace();
-        let post_processor = PostProcessor::for_run(workspace, self.post, self.post_arguments.clone());
+        let post = self.post.as_deref();
+        let post_processor = PostProcessor::for_run(workspace, post, self.post_arguments.clone());
         let post_processor = post_processor.map_err(Failure::Post)?;
         if let Some(refusal) = self.missing_post(workspace).filter(|_| post_processor.is_none()) {
             return Err(Failure::Usage(refusal.to_owned()));
         }
-        Emitter { request: self, post_processor: post_processor.as_ref() }
-            .run(session)
-            .map_err(Failure::Usage)
+        let emitter = Emitter { request: self, inputs, post_processor: post_processor.as_ref() };
+        let uses_cache = session.is_traced() && self.uses_cache();
+        if !uses_cache {
+            session.prefetch(inputs, &|_| false);
+        }
+        let mut matches = session.match_arguments(inputs);
+        let memo = if uses_cache {
+            Memo::open(session, ResultKind::Emit, &emitter.query(), inputs, &mut matches)
+        } else {
+            Memo::default()
+        };
+        let run = session.with_stable_files(|session| emitter.perform(session, &memo, &matches));
+        Ok(emitter.conclude(session, &memo, run.map_err(Failure::Usage)?))
     }
 
     /// Returns the reason why the request needs a post-processor, if it needs one and none is given.
@@ -118,94 +128,14 @@ impl Request<'_> {
     }
 }
 
-/// A request with its post-processor; without one, native programs are written.
-#[derive(Clone, Copy)]
+/// A request with its inputs and its post-processor; without one, native programs are written.
 struct Emitter<'r> {
-    request: &'r Request<'r>,
+    request: &'r Request,
+    inputs: &'r Inputs,
     post_processor: Option<&'r PostProcessor>,
 }
 
 impl Emitter<'_> {
-    fn run(&self, session: &mut Session<'_>) -> Result<Emission, String> {
-        let Request { inputs, task, join, deps, .. } = *self.request;
-        let uses_cache = session.is_traced() && self.request.uses_cache();
-        if !uses_cache {
-            session.prefetch(inputs, &|_| false);
-        }
-        let mut matches = session.match_arguments(inputs);
-        let memo = if uses_cache {
-            Memo::open(session, ResultKind::Emit, &self.query(), inputs, &mut matches)
-        } else {
-            Memo::default()
-        };
-        let Run { selection, mut plans, mut diagnostics } =
-            session.with_stable_files(|session| self.perform(session, &memo, &matches))?;
-        report_cached(session.workspace(), &selection, &plans);
-        let workspace = session.workspace();
-        if task == (Task::Compare { moves_only: true }) {
-            let request = Request { deps: None, removes_stale: false, ..self.request.clone() };
-            let emit = |workspace: &Workspace| {
-                let emission = Emitter { request: &request, ..*self }.run(&mut Session::new(workspace));
-                emission.map(|emission| emission.delivered).unwrap_or_default()
-            };
-            let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
-            comparison::name_compatible(workspace, jobs, emit);
-        }
-        let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.job.as_ref()).collect();
-        let earlier = EarlierPrograms {
-            session,
-            task,
-            post_processor: self.post_processor,
-            join,
-            out_dir: session.out_dir(),
-            targets: &selection.targets,
-            covered: &|| &selection.covered,
-            directories: &selection.directories,
-            jobs: &jobs,
-        };
-        let StaleOutcome { older, removed, outdated } =
-            earlier.find_and_settle(self.request.removes_stale, &mut diagnostics);
-        diagnostics.extend(plans.iter().filter_map(|plan| plan.value.lowered_error(workspace)));
-        let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
-        diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
-        if let Some(file) = deps {
-            let jobs = plans.iter().filter_map(|plan| plan.value.remaining_job());
-            diagnostics.extend(deps::write(session, file, jobs, self.post_processor));
-        }
-        let drawings = selection.drawings().filter_map(Answer::fresh);
-        memo.store_results(session, drawings.chain(plans.iter().filter_map(Answer::fresh)));
-        let mut delivered: Vec<ProgramOutcome> =
-            plans.into_iter().filter_map(|plan| plan.value.outcome()).collect();
-        delivered.extend(older);
-        self.report_not_current(session.workspace(), &delivered, &mut diagnostics);
-        Ok(Emission { delivered, removed, outdated, diagnostics: session.with_hints(diagnostics) })
-    }
-
-    /// Adds PB528 for each file that a comparison found missing or different, unless an error about this file is reported already.
-    fn report_not_current(
-        &self,
-        workspace: &Workspace,
-        outcomes: &[ProgramOutcome],
-        diagnostics: &mut Vec<Diagnostic>,
-    ) {
-        if !self.request.task.is_comparison() {
-            return;
-        }
-        let mut by_file: HashMap<&Utf8Path, Vec<&Diagnostic>> = HashMap::new();
-        for diagnostic in &*diagnostics {
-            if let Some(file) = &diagnostic.file {
-                by_file.entry(file).or_default().push(diagnostic);
-            }
-        }
-        let is_known = |finding: &Diagnostic| {
-            let known = finding.file.as_deref().and_then(|file| by_file.get(file));
-            known.is_some_and(|known| workspace.has_error(known.iter().copied()))
-        };
-        let findings = outcomes.iter().flat_map(ProgramOutcome::not_current);
-        let new: Vec<Diagnostic> = findings.filter(|finding| !is_known(finding)).collect();
-        diagnostics.extend(new);
-    }
-
     /// Selects the paths, plans their programs, and builds and settles those that are not cached.
     fn perform(
         &self,
@@ -213,7 +143,7 @@ impl Emitter<'_> {
         memo: &Memo,
         matches: &ArgumentMatches,
     ) -> Result<Run, String> {
-        let Request { task, join, .. } = *self.request;
+        let (task, join) = (self.request.task, self.request.join.as_deref());
         let mut diagnostics = matches.problems.clone();
         let workspace = session.workspace();
         let selection = TargetSelection::new(session, memo, matches, join.is_some(), &mut diagnostics)
@@ -250,6 +180,76 @@ impl Emitter<'_> {
             self.complete_inputs(answer);
         }
         Ok(Run { selection, plans, diagnostics })
+    }
+
+    /// Settles the stale programs of earlier runs, writes the dependency file, and caches the results of this run.
+    fn conclude(&self, session: &Session<'_>, memo: &Memo, run: Run) -> Emission {
+        let Run { selection, mut plans, mut diagnostics } = run;
+        let Request { task, join, deps, .. } = self.request;
+        let workspace = session.workspace();
+        report_cached(workspace, &selection, &plans);
+        if *task == (Task::Compare { moves_only: true }) {
+            let request = Request { deps: None, removes_stale: false, ..self.request.clone() };
+            let emit = |workspace: &Workspace| {
+                let emission = request.run(&mut Session::new(workspace), self.inputs);
+                emission.map(|emission| emission.delivered).unwrap_or_default()
+            };
+            let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
+            comparison::name_compatible(workspace, jobs, emit);
+        }
+        let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.job.as_ref()).collect();
+        let earlier = EarlierPrograms {
+            session,
+            task: *task,
+            post_processor: self.post_processor,
+            join: join.as_deref(),
+            out_dir: session.out_dir(),
+            targets: &selection.targets,
+            covered: &|| &selection.covered,
+            directories: &selection.directories,
+            jobs: &jobs,
+        };
+        let StaleOutcome { older, removed, outdated } =
+            earlier.find_and_settle(self.request.removes_stale, &mut diagnostics);
+        diagnostics.extend(plans.iter().filter_map(|plan| plan.value.lowered_error(workspace)));
+        let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
+        diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
+        if let Some(file) = deps {
+            let jobs = plans.iter().filter_map(|plan| plan.value.remaining_job());
+            diagnostics.extend(deps::write(session, file, jobs, self.post_processor));
+        }
+        let drawings = selection.drawings().filter_map(Answer::fresh);
+        memo.store_results(session, drawings.chain(plans.iter().filter_map(Answer::fresh)));
+        let mut delivered: Vec<ProgramOutcome> =
+            plans.into_iter().filter_map(|plan| plan.value.outcome()).collect();
+        delivered.extend(older);
+        self.report_not_current(workspace, &delivered, &mut diagnostics);
+        Emission { delivered, removed, outdated, diagnostics: session.with_hints(diagnostics) }
+    }
+
+    /// Adds PB528 for each file that a comparison found missing or different, unless an error about this file is reported already.
+    fn report_not_current(
+        &self,
+        workspace: &Workspace,
+        outcomes: &[ProgramOutcome],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        if !self.request.task.is_comparison() {
+            return;
+        }
+        let mut by_file: HashMap<&Utf8Path, Vec<&Diagnostic>> = HashMap::new();
+        for diagnostic in &*diagnostics {
+            if let Some(file) = &diagnostic.file {
+                by_file.entry(file).or_default().push(diagnostic);
+            }
+        }
+        let is_known = |finding: &Diagnostic| {
+            let known = finding.file.as_deref().and_then(|file| by_file.get(file));
+            known.is_some_and(|known| workspace.has_error(known.iter().copied()))
+        };
+        let findings = outcomes.iter().flat_map(ProgramOutcome::not_current);
+        let new: Vec<Diagnostic> = findings.filter(|finding| !is_known(finding)).collect();
+        diagnostics.extend(new);
     }
 
     /// Returns the part of the cache key that identifies the post-processor: drawings and settings are keyed separately, and nothing else affects a
@@ -308,7 +308,7 @@ pub(crate) fn freshness_on_disk(
 ) -> HashMap<Target, Result<bool, Vec<Diagnostic>>> {
     let checked = session.check(targets);
     let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
-    let jobs = checked.chunks(1).filter_map(|checked| builder.job(checked).ok().flatten());
+    let jobs = checked.chunks(1).filter_map(|checked| builder.plan(checked).job);
     let system = &*session.workspace().system;
     let is_there = |job: &Job| job.files.iter().any(|(_, path)| system.kind(path) == FileKind::File);
     let mut jobs: Vec<Job> = jobs.filter(is_there).collect();

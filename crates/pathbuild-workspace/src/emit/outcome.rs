@@ -121,6 +121,12 @@ pub enum State {
     Printed(Vec<u8>),
 }
 
+impl Default for Task {
+    fn default() -> Self {
+        Self::Write { force: false }
+    }
+}
+
 impl Task {
     /// Whether this task compares files with those on disk.
     pub(super) fn is_comparison(self) -> bool {

@@ -245,28 +245,18 @@ pub(super) struct JobBuilder<'a> {
 }
 
 impl JobBuilder<'_> {
+    /// Returns the plan for the paths of one program. It has neither a job nor refusals if any of the paths has errors.
     pub(super) fn plan(&self, checked: &[CheckedTarget]) -> Plan {
         let diagnostics =
             checked.iter().flat_map(|checked| path_diagnostics(self.session, checked)).collect();
-        let (job, refusals) = match self.job(checked) {
-            Ok(job) => (job, Vec::new()),
-            Err(problems) => (None, problems),
-        };
-        Plan { diagnostics, refusals, job }
-    }
-
-    /// Returns the job for the paths of one program; `None` if any of them has errors.
-    ///
-    /// # Errors
-    /// If no program can be generated from paths without errors, with the reasons.
-    pub(super) fn job(&self, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
-        match (self.join, checked) {
+        let job = match (self.join, checked) {
             (Some(name), checked) => self.joined_job(name, checked),
-            (None, [checked]) => {
-                let Some(emitted) = &checked.emitted else { return Ok(None) };
-                self.single_job(checked, emitted).map(Some).map_err(|problem| vec![*problem])
-            }
+            (None, [checked]) => self.single_job(checked).map_err(|problem| vec![*problem]),
             (None, _) => Ok(None),
+        };
+        match job {
+            Ok(job) => Plan { diagnostics, refusals: Vec::new(), job },
+            Err(refusals) => Plan { diagnostics, refusals, job: None },
         }
     }
 
@@ -287,7 +277,8 @@ impl JobBuilder<'_> {
         Ok(Some(Job { title, ..self.with_files(stem, name, checked, &[OutputKind::Milling]) }))
     }
 
-    fn single_job(&self, checked: &CheckedTarget, emitted: &ProgramFacts) -> Result<Job, Box<Diagnostic>> {
+    fn single_job(&self, checked: &CheckedTarget) -> Result<Option<Job>, Box<Diagnostic>> {
+        let Some(emitted) = &checked.emitted else { return Ok(None) };
         let db = self.session.db();
         let file = checked.target.file(db);
         let at = |problem: Box<Diagnostic>| Box::new(problem.in_file(file.path(db)).in_path(&emitted.path));
@@ -299,7 +290,7 @@ impl JobBuilder<'_> {
             join_file_name(&full, if is_alone { &emitted.suffix } else { &full }, &directory).map_err(at)?;
         self.refuse_probes(checked, emitted)?;
         let kinds = OutputKind::of(emitted.has_probes);
-        Ok(self.with_files(stem, &emitted.path, std::slice::from_ref(checked), kinds))
+        Ok(Some(self.with_files(stem, &emitted.path, std::slice::from_ref(checked), kinds)))
     }
 
     /// Returns an error if the path has probes and there is a post-processor: its output cannot contain formulas, so the probes would be measured for

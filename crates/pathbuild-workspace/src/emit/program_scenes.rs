@@ -318,7 +318,11 @@ fn program_text(
     checked: &CheckedTarget,
 ) -> Result<Option<ProgramText>, Vec<Diagnostic>> {
     let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
-    let Some(job) = builder.job(slice::from_ref(checked))? else { return Ok(None) };
+    let Plan { job, refusals, .. } = builder.plan(slice::from_ref(checked));
+    if !refusals.is_empty() {
+        return Err(refusals);
+    }
+    let Some(job) = job else { return Ok(None) };
     let settings = OutputSettings::new(session.workspace(), post_processor);
     let work = |db: &Database, job: &Job| build(db, job, &settings);
     let files =

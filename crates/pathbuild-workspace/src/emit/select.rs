@@ -152,7 +152,7 @@ impl TargetCollector<'_> {
     fn add(&mut self, drawing: &Utf8Path, name: &PathName) {
         let file = self.session.file(drawing);
         if self.known.insert((file, name.clone())) {
-            self.targets.push(self.session.target_in(file, name, Role::Emitted));
+            self.targets.push(self.session.db().target(file, name.as_str(), Role::Emitted));
         }
     }
 }

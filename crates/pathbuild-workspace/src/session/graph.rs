@@ -174,7 +174,7 @@ impl GraphArguments {
             files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();
         let is_whole: HashSet<SourceFile> = files.iter().copied().collect();
         let named = selection.paths.iter().filter(|path| !is_whole.contains(&path.file));
-        targets.extend(named.map(|path| session.target(path, Role::Checked)));
+        targets.extend(named.map(|path| session.db().target(path.file, path.name.as_str(), Role::Checked)));
         let mut problems = selection.problems;
         let broken = files.iter().flat_map(|file| check_file(db, *file)).filter(|problem| problem.is_error());
         problems.extend(broken.cloned());

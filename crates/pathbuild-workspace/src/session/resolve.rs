@@ -254,7 +254,7 @@ impl Session<'_> {
     pub fn one_path(&self, argument: &str, role: Role) -> Result<Target, NotOnePath> {
         let named = self.named_paths(argument).map_err(NotOnePath::Wrong)?.ok_or(NotOnePath::Directory)?;
         match &*named.names {
-            [name] => Ok(self.target_in(named.file, name, role)),
+            [name] => Ok(self.db.target(named.file, name.as_str(), role)),
             [] => {
                 let mut found = check_file(self.db(), named.file).to_vec();
                 found.extend(self.no_path(named.file.path(self.db()), &named.names, &found));

@@ -13,9 +13,9 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::{PathName, PathSignature, is_q_project, tested_by_q_project};
 use rayon::prelude::*;
 
+use super::Session;
 use super::timings::{CHECKING_PATHS, READING_DRAWINGS, Timings};
 use super::workers::{Watchdog, Workers};
-use super::{SelectedPath, Session};
 
 /// The outcome of checking a target.
 #[derive(Debug)]
@@ -68,16 +68,6 @@ impl Session<'_> {
     pub fn targets(&self, file: SourceFile, role: &Role) -> Vec<Target> {
         let names = path_names(&self.db, file).iter();
         names.map(|name| self.db.target(file, name.as_str(), role.clone())).collect()
-    }
-
-    /// Returns the target of a path that an argument selected.
-    pub fn target(&self, path: &SelectedPath, role: Role) -> Target {
-        self.target_in(path.file, &path.name, role)
-    }
-
-    /// Returns the target of a path in a drawing.
-    pub fn target_in(&self, file: SourceFile, name: &PathName, role: Role) -> Target {
-        self.db.target(file, name.as_str(), role)
     }
 
     /// Whether the inputs of targets are traced.

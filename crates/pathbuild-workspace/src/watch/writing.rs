@@ -101,7 +101,7 @@ impl<'a> Writer<'a> {
         for file in checked_files {
             let names =
                 path_names(session.db(), *file).iter().filter(|name| configured.matches(name.as_str()));
-            targets.extend(names.map(|name| session.target_in(*file, name, Role::Emitted)));
+            targets.extend(names.map(|name| session.db().target(*file, name.as_str(), Role::Emitted)));
         }
         let post_processor = self.post_processor.as_ref();
         let (outcomes, rivals) = self.programs.write(session, post_processor, checked_files, &targets);

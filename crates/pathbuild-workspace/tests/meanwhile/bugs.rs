@@ -11,7 +11,6 @@ use pathbuild_db::{Role, System};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_testkit::RandomLibrary;
 use pathbuild_workspace::emit::Task;
-use pathbuild_workspace::post_processor::PostArguments;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, Workspace, check, emit, list};
 
@@ -109,24 +108,18 @@ const COMMANDS: [Finding; 5] = [
         let files = wanted.whole(&session);
         let mut targets: Vec<_> =
             files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();
-        targets.extend(wanted.paths.iter().map(|path| session.target(path, Role::Checked)));
+        targets.extend(
+            wanted.paths.iter().map(|path| session.db().target(path.file, path.name.as_str(), Role::Checked)),
+        );
         let graph = session.graph(&targets);
         session.with_hints(wanted.problems.into_iter().chain(graph.problems).collect())
     }),
 ];
 
 fn emitted(workspace: &Workspace, inputs: &Inputs, task: Task) -> Vec<Diagnostic> {
-    let request = emit::Request {
-        inputs,
-        task,
-        post: None,
-        post_arguments: PostArguments::default(),
-        join: None,
-        deps: None,
-        removes_stale: false,
-    };
+    let request = emit::Request { task, ..emit::Request::default() };
     request
-        .run(&mut Session::open(workspace, workspace.keeps_results()))
+        .run(&mut Session::open(workspace, workspace.keeps_results()), inputs)
         .map(|made| made.diagnostics)
         .unwrap_or_default()
 }

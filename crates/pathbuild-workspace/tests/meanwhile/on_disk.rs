@@ -10,8 +10,7 @@ use pathbuild_db::System;
 use pathbuild_db::system::OsSystem;
 use pathbuild_testkit::{RandomLibrary, sheet};
 use pathbuild_workspace::config::{self, Overrides};
-use pathbuild_workspace::emit::{self, Emission, Task};
-use pathbuild_workspace::post_processor::PostArguments;
+use pathbuild_workspace::emit::{self, Emission};
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace, check};
 use tempfile::TempDir;
@@ -114,16 +113,8 @@ impl OnDisk {
     pub(crate) fn emit(&self, system: Arc<dyn System>, is_kept: bool, removes_stale: bool) -> Emission {
         let inputs = Inputs::default();
         let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
-        let request = emit::Request {
-            inputs: &inputs,
-            task: Task::Write { force: false },
-            post: None,
-            post_arguments: PostArguments::default(),
-            join: None,
-            deps: None,
-            removes_stale,
-        };
-        request.run(&mut Session::open(&workspace, workspace.keeps_results())).unwrap()
+        let request = emit::Request { removes_stale, ..emit::Request::default() };
+        request.run(&mut Session::open(&workspace, workspace.keeps_results()), &inputs).unwrap()
     }
 
     pub(crate) fn workspace(&self, inputs: &Inputs, system: Arc<dyn System>, is_kept: bool) -> Workspace {

@@ -10,7 +10,6 @@ use std::time::Duration;
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_workspace::emit::{self, State, Task};
-use pathbuild_workspace::post_processor::PostArguments;
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::watch::{FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
 use pathbuild_workspace::{Inputs, check};
@@ -69,16 +68,9 @@ impl Comparer {
         let workspace = self.place.workspace(&inputs, Arc::new(OsSystem), false);
         let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
         let mut found = request.run(&mut Session::open(&workspace, false)).unwrap().diagnostics;
-        let request = emit::Request {
-            inputs: &inputs,
-            task: Task::Compare { moves_only: false },
-            post: None,
-            post_arguments: PostArguments::default(),
-            join: None,
-            deps: None,
-            removes_stale: false,
-        };
-        let emission = request.run(&mut Session::new(&workspace)).unwrap();
+        let task = Task::Compare { moves_only: false };
+        let request = emit::Request { task, ..emit::Request::default() };
+        let emission = request.run(&mut Session::new(&workspace), &inputs).unwrap();
         found.extend(emission.diagnostics);
         let mut expected: Vec<String> = found.iter().map(key).collect();
         for outcome in emission.delivered {
