@@ -797,7 +797,7 @@ fn a_program_that_leads_to_itself_is_not_missing() {
     assert!(run.stdout.contains("8001_Milling.gcode: not current\n"), "{run}");
 }
 
-/// Another drawing yields the same program: with cached results, too, the program on disk is out of date.
+/// Another drawing yields the same program: with cached results, too, the program on disk is out of date, and is listed once.
 #[test]
 fn a_program_that_a_second_drawing_yields_is_outdated() {
     let place = Place::of(LIBRARY);
@@ -809,5 +809,7 @@ fn a_program_that_a_second_drawing_yields_is_outdated() {
         let anew = place.run(&format!("{command} --no-cache"));
         assert_eq!((cached.status, output(&cached)), (Some(1), output(&anew)));
         assert!(cached.to_string().contains("PB514") && cached.to_string().contains("PB522"), "{cached}");
+        let lines = cached.stdout.lines().filter(|line| line.contains("8001_Milling.gcode: not current"));
+        assert_eq!(lines.count(), usize::from(command.contains("--check")), "{cached}");
     }
 }

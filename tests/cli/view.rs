@@ -481,6 +481,7 @@ fn a_program_is_shown_with_its_findings_and_checks() {
         )
     };
     let place = Place::new().file("low.nc", slots("")).file("lifted.nc", slots("G0 Z5\n"));
+    let place = place.file("short.nc", slots("G0 Z5\nM30\n"));
     let view = |file: &str, options: &str| {
         let json = place.path().join("x.json").to_str().unwrap().to_owned();
         let words = format!("view {file} --dialect linuxcnc {options}");
@@ -505,6 +506,8 @@ fn a_program_is_shown_with_its_findings_and_checks() {
         (&program["checks"][0]["check"], &program["checks"][0]["outcome"]),
         (&"rapids".into(), &"assumed".into())
     );
+    let run = place.run("import short.nc --dialect linuxcnc");
+    assert!(run.stdout.contains("waits      1 tool change\n"), "{run}");
     let (unknown, _) = view("lifted.nc", "");
     assert_eq!(
         (&unknown["program"]["surface"], &unknown["program"]["checks"][0]["outcome"]),

@@ -22,7 +22,7 @@ pub use diagnostic::{Diagnostic, Note, TraceStep};
 pub use location::{ElementId, EntityKind, Handle, Number, Place, Point, TextFault, with_decimal_separator};
 pub use message::{Message, Sentence, Value};
 pub use nearest::{is_slip, nearest};
-pub use words::{Lang, Text};
+pub use words::{Lang, Noun, Text, count, counted};
 
 /// Returns all texts of this crate that can be arguments of messages.
 pub fn texts() -> impl Iterator<Item = &'static Text> {

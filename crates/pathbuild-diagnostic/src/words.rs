@@ -1,6 +1,7 @@
 //! Languages, texts in all of them, and the names of elements and moves in messages. (Glossary in book: reference/glossary)
 
 use std::collections::{HashMap, HashSet};
+use std::fmt::Display;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 use serde::{Deserialize, Deserializer, Serialize};
@@ -42,6 +43,31 @@ impl Lang {
             Self::De => de,
         }
     }
+}
+
+/// Formats a count with thousands separators: `2,014`, in German `2.014`.
+pub fn count(number: impl Display, lang: Lang) -> String {
+    let separator = lang.choose(',', '.');
+    let digits = number.to_string();
+    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            grouped.push(separator);
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+/// A noun in English and German, each in singular and plural.
+pub type Noun = [[&'static str; 2]; 2];
+
+/// Formats a count with its noun: `1 path`, `2,014 paths`.
+pub fn counted(number: impl Display, [en, de]: Noun, lang: Lang) -> String {
+    let [one, many] = lang.choose(en, de);
+    let count = count(number, lang);
+    let noun = if count == "1" { one } else { many };
+    format!("{count} {noun}")
 }
 
 /// Declares texts, each with its documentation, and a list of all of them.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use pathbuild_diagnostic::{Diagnostic, Lang, Number, Value, limits, messages};
+use pathbuild_diagnostic::{Diagnostic, Lang, Number, Value, counted, limits, messages};
 
 #[test]
 fn each_message_has_a_key_of_its_own() {
@@ -50,6 +50,14 @@ fn a_sentence_within_a_message_is_in_its_language() {
         problem.text(Lang::De),
         "die Dateigröße von 17219 Bytes überschreitet die Grenze von 1000 Bytes"
     );
+}
+
+#[test]
+fn a_noun_agrees_with_its_count() {
+    let counted = |number: u64, lang| counted(number, [["arc", "arcs"], ["Bogen", "Bögen"]], lang);
+    assert_eq!([0, 1, 2].map(|number| counted(number, Lang::En)), ["0 arcs", "1 arc", "2 arcs"]);
+    assert_eq!(counted(1001, Lang::En), "1,001 arcs");
+    assert_eq!([1, 1_000_000].map(|number| counted(number, Lang::De)), ["1 Bogen", "1.000.000 Bögen"]);
 }
 
 /// Small numbers are written without powers of ten, with two significant digits.

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use imara_diff::{Algorithm, Diff, InternedInput, Interner};
-use pathbuild_diagnostic::{Lang, Number};
+use pathbuild_diagnostic::{Lang, Number, counted};
 use pathbuild_motion::{Axes, MoveShape, Position};
 
 use crate::scene::{MoveKind, Point, SceneMove};
@@ -347,13 +347,7 @@ pub fn phrase(group: &Group, lang: Lang) -> String {
 
 /// Describes the number of moves in a group, for example `12 moves`.
 pub fn moves(group: &Group, lang: Lang) -> String {
-    let word = match (group.moves, lang) {
-        (1, Lang::En) => "move",
-        (_, Lang::En) => "moves",
-        (1, Lang::De) => "Bewegung",
-        (_, Lang::De) => "Bewegungen",
-    };
-    format!("{} {word}", group.moves)
+    counted(group.moves, [["move", "moves"], ["Bewegung", "Bewegungen"]], lang)
 }
 
 #[cfg(test)]

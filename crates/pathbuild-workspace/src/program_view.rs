@@ -2,7 +2,7 @@
 //! (book: program/pictures, book: program/browser)
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, Lang, with_decimal_separator};
+use pathbuild_diagnostic::{Diagnostic, Lang, Noun, counted, with_decimal_separator};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::HeaderReader;
 use pathbuild_gcode::statistics::Summary;
@@ -107,24 +107,25 @@ pub fn program_scene(
 
 /// Describes the dwells, stops and tool changes of a program; `None` if it has none.
 pub fn describe_waits(summary: &Summary, lang: Lang) -> Option<String> {
-    let choose = |en, de| if lang == Lang::De { de } else { en };
     let mut waits = Vec::new();
     if summary.dwell > 0.0 {
         let seconds = with_decimal_separator(format!("{:.1}", summary.dwell), lang);
-        waits.push(format!("{seconds} s {}", choose("dwelling", "Wartezeit")));
+        waits.push(format!("{seconds} s {}", lang.choose("dwelling", "Wartezeit")));
     }
     if summary.stops > 0 {
-        waits.push(format!(
-            "{} {}",
-            summary.stops,
-            choose("stops for the operator", "Halte für den Bediener")
-        ));
+        waits.push(counted(summary.stops, STOP, lang));
     }
     if summary.tool_changes > 0 {
-        waits.push(format!("{} {}", summary.tool_changes, choose("tool changes", "Werkzeugwechsel")));
+        waits.push(counted(summary.tool_changes, TOOL_CHANGE, lang));
     }
     (!waits.is_empty()).then(|| waits.join(", "))
 }
+
+const STOP: Noun = [
+    ["stop for the operator", "stops for the operator"],
+    ["Halt für den Bediener", "Halte für den Bediener"],
+];
+const TOOL_CHANGE: Noun = [["tool change", "tool changes"], ["Werkzeugwechsel", "Werkzeugwechsel"]];
 
 fn file_name(file: &Utf8Path) -> &str {
     file.file_name().unwrap_or(file.as_str())

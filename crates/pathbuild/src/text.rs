@@ -2,37 +2,13 @@
 
 use comfy_table::{Cell, CellAlignment, Table};
 use pathbuild_diagnostic::{Lang, shown, with_decimal_separator};
-
-/// Formats a count with thousands separators: `2,014`, in German `2.014`.
-pub(crate) fn count(number: usize, lang: Lang) -> String {
-    let separator = match lang {
-        Lang::En => ',',
-        Lang::De => '.',
-    };
-    let digits = number.to_string();
-    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            grouped.push(separator);
-        }
-        grouped.push(digit);
-    }
-    grouped
-}
-
-/// A noun in English and German, each in singular and plural.
-pub(crate) type Noun = [[&'static str; 2]; 2];
+pub(crate) use pathbuild_diagnostic::{Noun, count, counted};
 
 pub(crate) const PATH: Noun = [["path", "paths"], ["Pfad", "Pfade"]];
 pub(crate) const DRAWING: Noun = [["drawing", "drawings"], ["Zeichnung", "Zeichnungen"]];
+pub(crate) const MOVE: Noun = [["move", "moves"], ["Bewegung", "Bewegungen"]];
 pub(crate) const ERROR: Noun = [["error", "errors"], ["Fehler", "Fehler"]];
 pub(crate) const WARNING: Noun = [["warning", "warnings"], ["Warnung", "Warnungen"]];
-
-/// Formats a count with its noun: `1 path`, `2,014 paths`.
-pub(crate) fn counted(number: usize, [en, de]: Noun, lang: Lang) -> String {
-    let [one, many] = lang.choose(en, de);
-    format!("{} {}", count(number, lang), if number == 1 { one } else { many })
-}
 
 /// Formats a number with up to `places` decimals and without trailing zeros: `12.5`, in German `12,5`.
 pub(crate) fn decimal(number: f64, places: usize, lang: Lang) -> String {

@@ -38,8 +38,8 @@ messages! {
     }
     /// Several drawings, none of which contains a path.
     NO_PATH_ANYWHERE: NothingFound {
-        en: "none of the {count} drawings contains a path",
-        de: "keine der {count} Zeichnungen enthält einen Pfad",
+        en: "no drawing contains a path; drawings that were read: {count}",
+        de: "keine Zeichnung enthält einen Pfad; gelesene Zeichnungen: {count}",
         help_en: "give the layer of each path a name that matches {pattern}, or set another pattern with `path-pattern` in pathbuild.toml",
         help_de: "dem Layer jedes Pfads einen Namen geben, der {pattern} entspricht, oder mit `path-pattern` in pathbuild.toml ein anderes Muster setzen",
     }

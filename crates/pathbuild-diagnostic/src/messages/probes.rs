@@ -52,8 +52,8 @@ messages! {
     }
     /// A log with more or fewer results than there are probes.
     LOG_COUNT: InvalidProbeLine {
-        en: "the log has {found} probe results, but {file} has {expected} probes",
-        de: "das Protokoll hat {found} Messergebnisse, {file} aber {expected} Proben",
+        en: "the log does not match {file}: probe results: {found}, probes: {expected}",
+        de: "das Protokoll passt nicht zu {file}: Messergebnisse: {found}, Proben: {expected}",
         help_en: "keep exactly one result [PRB:X,Y,Z:1] for each probe in the log, in the order of the probing run",
         help_de: "im Protokoll für jede Probe genau ein Ergebnis [PRB:X,Y,Z:1] lassen, in der Reihenfolge des Antastprogramms",
     }

@@ -190,8 +190,11 @@ impl<'a> EarlierPrograms<'a> {
         let done: HashSet<Target> = done.flat_map(|job| job.targets.iter().copied()).collect();
         let open = targets.iter().filter(|target| !done.contains(target));
         let mut listings = Listings::default();
+        // Two drawings may yield the same program.
+        let mut known = HashSet::new();
         let older = |target: &Target| {
             let programs = self.of_target(*target, &mut listings).into_iter();
+            let programs = programs.filter(|program| known.insert(program.clone()));
             let name = target.name(self.session.db());
             programs.map(|program| earlier_outcome(program, name, self.task)).collect::<Vec<_>>()
         };

@@ -14,6 +14,7 @@ use crate::args::ImportArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::render::Format;
+use crate::text::{MOVE, count, counted};
 
 /// Runs the command: prints the summary and the diagnostics of each program. A program with errors is summarized as far as it could be
 /// read.
@@ -151,13 +152,9 @@ impl Formatter<'_> {
 
     fn title(&self, facts: &Facts<'_>) -> String {
         let program = facts.program;
-        let lines = program.lines();
-        let noun = if lines == 1 { self.choose("line", "Zeile") } else { self.choose("lines", "Zeilen") };
-        format!(
-            "{}: {lines} {noun}, {}\n",
-            shown::line(program.file.as_str()),
-            program.describe_reading(self.0.lang())
-        )
+        let lang = self.0.lang();
+        let lines = counted(program.lines(), [["line", "lines"], ["Zeile", "Zeilen"]], lang);
+        format!("{}: {lines}, {}\n", shown::line(program.file.as_str()), program.describe_reading(lang))
     }
 
     fn lines(&self, facts: &Facts<'_>) -> Vec<(&str, String)> {
@@ -191,17 +188,20 @@ impl Formatter<'_> {
 
     fn moves(&self, facts: &Facts<'_>) -> String {
         let total = &facts.summary.total;
+        let grouped = |moves| count(moves, self.0.lang());
         let kinds = [
             (total.rapid.moves, self.choose("rapid", "Eilgang")),
             (total.milling.moves, self.choose("milling", "Fräsen")),
             (total.drilling.moves, self.choose("drilling", "Bohren")),
             (total.probing, self.choose("probing", "Messen")),
         ];
-        let kinds =
-            kinds.iter().filter(|(count, _)| *count > 0).map(|(count, kind)| format!("{count} {kind}"));
-        let mut moves = format!("{}: {}", total.moves(), kinds.collect::<Vec<_>>().join(", "));
+        let kinds = kinds
+            .iter()
+            .filter(|(moves, _)| *moves > 0)
+            .map(|(moves, kind)| format!("{} {kind}", grouped(*moves)));
+        let mut moves = format!("{}: {}", grouped(total.moves()), kinds.collect::<Vec<_>>().join(", "));
         if total.arcs > 0 {
-            _ = write!(moves, "; {} {}", total.arcs, self.choose("of them arcs", "davon Bögen"));
+            _ = write!(moves, "; {} {}", grouped(total.arcs), self.choose("of them arcs", "davon Bögen"));
         }
         if facts.unfollowed.is_some() {
             moves += self.choose("; in the lines that are followed", "; in den verfolgten Zeilen");
@@ -250,9 +250,7 @@ impl Formatter<'_> {
             None => self.choose("none named", "keins genannt").to_owned(),
         };
         let (moves, length) = (used.tally.moves(), used.tally.cutting().length);
-        let noun =
-            if moves == 1 { self.choose("move", "Bewegung") } else { self.choose("moves", "Bewegungen") };
-        let mut line = format!("{name}: {moves} {noun}");
+        let mut line = format!("{name}: {}", counted(moves, MOVE, self.0.lang()));
         if facts.unfollowed.is_none() {
             _ = write!(line, ", {} mm {}", self.tenths(length), self.choose("cutting", "Fräsen"));
         }
