@@ -118,7 +118,8 @@ impl LibraryOptions {
         let config = self.config.map(utf8).transpose()?;
         let cache = self.cache.map(utf8).transpose()?.map(CacheHome::Named);
         let (system, directory) = source.open(self.lang)?;
-        let date = self.date.as_deref().map(|text| run_date(text, self.lang)).transpose()?;
+        let run_date = |date| RunDate { date, source: DateSource::Given };
+        let date = self.date.as_deref().map(|text| date(text, self.lang).map(run_date)).transpose()?;
         let overrides =
             Overrides { settings, config, date, untrusted: self.untrusted, ..Overrides::default() };
         let (settings, faults) = config::load(&system, &overrides, &Inputs::default(), &directory);
@@ -350,10 +351,6 @@ impl Source {
 pub(crate) fn utf8(path: PathBuf, lang: Option<Lang>) -> Result<Utf8PathBuf, Error> {
     let [en, de] = ["{}: the name is not UTF-8", "{}: der Name ist nicht in UTF-8"];
     Utf8PathBuf::from_path_buf(path).map_err(|path| refusal(lang, en, de, &path.to_string_lossy()))
-}
-
-fn run_date(text: &str, lang: Option<Lang>) -> Result<RunDate, Error> {
-    Ok(RunDate { date: date(text, lang)?, source: DateSource::Given })
 }
 
 pub(crate) fn date(text: &str, lang: Option<Lang>) -> Result<Date, Error> {

@@ -15,7 +15,7 @@ use pathbuild_gcode::adjust::{Inputs, Source, adjust};
 use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::estimate::{Kinematics, seconds};
 use pathbuild_gcode::interpret::{Options, guess, interpret};
-use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::native::{self, WriteOptions};
 use pathbuild_gcode::statistics::Summary;
 use pathbuild_path::{
     FilePattern, Language, LayerPattern, LineTypeAliases, PathKey, PathOptions, PathPattern,
@@ -150,7 +150,7 @@ fn write(program: &Program) {
         rapid: 1000.0,
         correction: Correction::default(),
     };
-    let text = native::write_program(program, &Header::default(), &options);
+    let text = native::write_program(program, "", &options, usize::MAX).unwrap_or_default();
     if let Err(problem) = native::read_back(&text, program) {
         judge(&[*problem]);
     }

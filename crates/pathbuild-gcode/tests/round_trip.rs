@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect::{LinuxCnc, Native};
 use pathbuild_gcode::dialect::{Charset, ascii, is_active_comment};
 use pathbuild_gcode::interpret::{Options, guess, interpret};
-use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::native::{self, WriteOptions};
 use pathbuild_gcode::verify::{Tolerance, compare};
 use pathbuild_motion::MoveShape;
 use pathbuild_toolpath::{
@@ -110,7 +110,7 @@ fn options() -> WriteOptions {
 }
 
 fn text_of(program: &Program) -> String {
-    native::write_program(program, &Header { provenance: "pathbuild 0.1.0".to_owned() }, &options())
+    native::write_program(program, "pathbuild 0.1.0", &options(), usize::MAX).unwrap()
 }
 
 proptest! {
@@ -179,9 +179,9 @@ fn no_text_of_others_leaves_its_comment() {
             (program.path, program.drawing, program.compatible) = (text.into(), text.into(), compatible);
             let (at, label) = (Xy::new(3.0, 4.0), Some(text.into()));
             program.probes = vec![ProbePoint { at, drawn_at: at, height: 5.0, feed: 40.0, label }];
-            let (header, options) = (Header { provenance: format!("pathbuild {text}") }, options());
-            let milling = native::write_program(&program, &header, &options);
-            milling + &native::probing_program(&program, &header, &options)
+            let (provenance, options) = (format!("pathbuild {text}"), options());
+            let milling = native::write_program(&program, &provenance, &options, usize::MAX).unwrap();
+            milling + &native::probing_program(&program, &provenance, &options)
         };
         let expected = code_of(&all_of("x"), compatible);
         for text in &texts {
@@ -411,7 +411,7 @@ fn a_probing_run_is_read_back() {
         rapid: 1000.0,
         correction: pathbuild_toolpath::Correction::default(),
     };
-    let text = native::probing_program(&program, &Header::default(), &options);
+    let text = native::probing_program(&program, "", &options);
     native::read_probing_back(&text, &program.probes).expect("as written");
     let elsewhere = text.replace("G00 X7.000 Y3.000", "G00 X7.001 Y3.000");
     assert!(elsewhere != text && native::read_probing_back(&elsewhere, &program.probes).is_err());

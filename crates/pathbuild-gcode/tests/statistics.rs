@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use pathbuild_gcode::dialect::Charset;
 use pathbuild_gcode::dialect::Dialect::{self, LinuxCnc, Native, Xpertmill};
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::native::{self, WriteOptions};
 use pathbuild_gcode::statistics::{Summary, Tally, statistics};
 use pathbuild_toolpath::{
     Correction, Count, Height, MoveClass, PlannedMove, Program, ProgramStep, Statistics, Xy,
@@ -170,7 +170,7 @@ fn a_programs_comments_are_what_its_text_comes_to() {
         rapid: 1000.0,
         correction: Correction::default(),
     };
-    let text = native::write_program(&program, &Header::default(), &options);
+    let text = native::write_program(&program, "", &options, usize::MAX).unwrap();
     let (own, read) = (statistics(&program, 1000.0), tally(&text, Native));
     for (own, read) in [(own.milling, read.milling), (own.drilling, read.drilling)] {
         assert!((own.length - read.total.length).abs() < 0.01 && (own.time - read.total.time).abs() < 1e-4);

@@ -7,7 +7,7 @@
 
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::Charset;
-use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::native::{self, WriteOptions};
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_toolpath::{
     Correction, Count, Height, MoveClass, PlannedMove, ProbePoint, Program, ProgramStep, Surface, Xy, ZModel,
@@ -197,7 +197,7 @@ fn program(points: &[(f64, f64)], steps: Vec<ProgramStep>) -> Program {
 
 fn written(program: &Program, correction: Correction) -> String {
     let options = WriteOptions { lang: Lang::En, charset: Charset::Ascii, rapid: 1000.0, correction };
-    native::write_program(program, &Header::default(), &options)
+    native::write_program(program, "", &options, usize::MAX).unwrap()
 }
 
 /// Returns the lines of moves, without those that every program begins and ends with.

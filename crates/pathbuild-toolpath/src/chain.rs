@@ -11,7 +11,7 @@ use rstar::primitives::GeomWithData;
 
 use crate::fold::{Fold, FoldPaths, PlacedPath, Tip, distance};
 use crate::mill::{BarPlan, Section};
-use crate::program::ElementKind;
+use crate::program::{Comment, ElementKind};
 
 /// A segment of the chain (a strand) in program coordinates, with the depths of its edges from top to bottom.
 pub(crate) struct ChainEdge<'a> {
@@ -89,7 +89,8 @@ impl<P: FoldPaths> Fold<'_, P> {
             self.begin_element(strand.element);
             let z = strand.depths[run.edge];
             if last_pass != Some(run.edge) {
-                self.add_pass_comment(u32::try_from(run.edge + 1).unwrap_or(u32::MAX), z);
+                let number = u32::try_from(run.edge + 1).unwrap_or(u32::MAX);
+                self.comment(Comment::Pass { number, z });
                 last_pass = Some(run.edge);
             }
             let (from, to) = strand.ends(run.is_backwards);

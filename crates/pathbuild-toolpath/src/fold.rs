@@ -333,7 +333,7 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
         self.tip = tip;
     }
 
-    fn comment(&mut self, comment: Comment) {
+    pub(crate) fn comment(&mut self, comment: Comment) {
         self.push(ProgramStep::Comment(comment));
     }
 
@@ -369,10 +369,6 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
             cutter: place.path.tool,
             peck,
         });
-    }
-
-    pub(crate) fn add_pass_comment(&mut self, number: u32, z: f64) {
-        self.comment(Comment::Pass { number, z });
     }
 
     pub(crate) fn feed_or_default(&self, own: Option<f64>) -> f64 {

@@ -151,11 +151,6 @@ impl Printer {
         self.write_line(self.results(), line);
     }
 
-    /// Prints a result as JSON to stdout.
-    pub fn result_json(&self, json: impl Display) {
-        self.json(Stream::Stdout, json);
-    }
-
     pub(crate) fn json(&self, stream: Stream, json: impl Display) {
         self.write(stream, &shown::json(&format!("{json}\n")));
     }

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use camino::Utf8PathBuf;
 use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::native::{self, WriteOptions};
 use pathbuild_post::{BUILT_IN, Language, load};
 use pathbuild_testkit::sheet;
 use pathbuild_toolpath::{Correction, MoveClass, Program, ProgramStep};
@@ -81,7 +81,7 @@ fn of_chain(chain: &Chain, it: &Named) -> Option<String> {
         charset: Charset::Ascii,
         rapid: 1000.0,
     };
-    let text = native::write_program(&it.program, &Header::default(), &options);
+    let text = native::write_program(&it.program, "", &options, usize::MAX).unwrap();
     if let Err(problem) = native::read_back(&text, &it.program) {
         return Some(format!("{}: {problem:?}", it.name));
     }

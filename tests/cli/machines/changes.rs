@@ -11,7 +11,7 @@ use pathbuild_diagnostic::messages::gcode::RETURN_IN_LINE;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::interpret::{Heights, Options, guess, interpret, interpret_each};
-use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::native::{self, WriteOptions};
 use pathbuild_gcode::verify::{
     DrawingComparison, ExpectedProgram, PostWords, Rules, Stock, ToolUse, coarse_arc_finding,
 };
@@ -97,7 +97,7 @@ fn written(post: &str, language: Language, it: &Named) -> Result<Written, Vec<Di
             charset: Charset::Ascii,
             rapid: 1000.0,
         };
-        native::write_program(&it.program, &Header::default(), &options)
+        native::write_program(&it.program, "", &options, usize::MAX).unwrap()
     } else {
         let tools = ToolTable { entries: vec![entry(it.program.tool)] };
         let (job, _) =

@@ -7,9 +7,8 @@ mod read_back;
 pub(crate) use number::push_exact;
 pub use number::{FIRST_PARAMETER, f3, unused_probes};
 pub use program::{
-    Header, WriteOptions, drawing_of_title, has_title, is_compatible, is_title, is_title_of, left_out_lines,
+    WriteOptions, drawing_of_title, has_title, is_compatible, is_title, is_title_of, left_out_lines,
     path_of_title, plain_title, probe_name, probing_program, title, too_large, values_file, write_program,
-    write_program_within,
 };
 pub(crate) use program::{kind_of_label, stated_length};
 pub use read_back::{

@@ -27,19 +27,10 @@ pub struct WriteOptions {
     pub correction: Correction,
 }
 
-/// The comments at the start of a file that do not depend on its moves.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Header {
-    /// The line that states which program wrote the file, and from which drawing; empty to omit the line.
-    pub provenance: String,
-}
-
-impl Header {
-    /// Returns the first comments of every file, without comment marks.
-    pub(super) fn lines(&self, program: &Program) -> impl Iterator<Item = String> {
-        let provenance = (!self.provenance.is_empty()).then(|| self.provenance.clone());
-        provenance.into_iter().chain([title(&program.drawing, &program.path)])
-    }
+/// Returns the first comments of every file, without comment marks. An empty provenance is left out.
+pub(super) fn first_lines(program: &Program, provenance: &str) -> impl Iterator<Item = String> {
+    let provenance = (!provenance.is_empty()).then(|| provenance.to_owned());
+    provenance.into_iter().chain([title(&program.drawing, &program.path)])
 }
 
 impl WriteOptions {
@@ -123,18 +114,14 @@ pub fn is_compatible(text: &[u8]) -> bool {
     lines.find(|line| !matches!(line.first(), None | Some(b'(' | b'%' | b';'))) == Some(b"F150".as_slice())
 }
 
-/// Writes a program with LF as line ends. Its statistics count a move that is split for its correction as one.
-pub fn write_program(program: &Program, header: &Header, options: &WriteOptions) -> String {
-    write_program_within(program, header, options, usize::MAX).unwrap_or_default()
-}
-
-/// Like [`write_program`], with a limit on the size.
+/// Writes a program with LF as line ends. Its statistics count a move that is split for its correction as one. `provenance` is the line that states
+/// which program wrote the file, and from which drawing; empty to omit the line.
 ///
 /// # Errors
 /// PB005 if the text exceeds `most` bytes.
-pub fn write_program_within(
+pub fn write_program(
     program: &Program,
-    header: &Header,
+    provenance: &str,
     options: &WriteOptions,
     most: usize,
 ) -> Result<String, Box<Diagnostic>> {
@@ -143,7 +130,7 @@ pub fn write_program_within(
     let formulas = Formulas::new(program, options.correction);
     let mut writer = Writer { program, options, formulas, text, at: Xy::origin() };
     writer.line("%");
-    writer.header(header);
+    writer.header(provenance);
     writer.text.push_str(setup(program));
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
     writer.line("G00 X0.000 Y0.000");
@@ -162,6 +149,7 @@ pub fn write_program_within(
         writer.line(&line);
     }
     writer.line("M30\n%");
+    writer.text.shrink_to_fit();
     if writer.text.len() <= most { Ok(writer.text) } else { Err(too_large(most)) }
 }
 
@@ -190,8 +178,8 @@ impl Writer<'_> {
         self.line(&line);
     }
 
-    fn header(&mut self, header: &Header) {
-        for line in header.lines(self.program) {
+    fn header(&mut self, provenance: &str) {
+        for line in first_lines(self.program, provenance) {
             self.comment(&line);
         }
         for line in left_out_lines(self.program, self.options.lang) {
@@ -325,11 +313,11 @@ impl Writer<'_> {
 const DWELL: &str = "G04 P4";
 
 /// Writes the probing program, which probes at one point after the other and dwells after each.
-pub fn probing_program(program: &Program, header: &Header, options: &WriteOptions) -> String {
+pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptions) -> String {
     let clearance = f3(program.sweep_height);
     let remarks = options.remarks(program);
     let mut text = String::from("%\n");
-    for line in header.lines(program) {
+    for line in first_lines(program, provenance) {
         _ = writeln!(text, "{}", remarks.comment(&line));
     }
     text.push_str(setup(program));

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::Lang;
 use pathbuild_gcode::dialect::{Charset, Dialect};
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::native::{self, WriteOptions};
 use pathbuild_gcode::verify::{Ends, Tolerance, compare};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
@@ -492,7 +492,7 @@ fn a_native_program_that_is_read_comes_out_of_every_post_with_the_same_moves() {
         rapid: 1000.0,
         correction: pathbuild_toolpath::Correction::default(),
     };
-    let text = native::write_program(&program, &Header::default(), &options);
+    let text = native::write_program(&program, "", &options, usize::MAX).unwrap();
     let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());
     let job = Job::from_steps("8001.1P", &read.steps, Dialect::Native, &native_remark).unwrap();
     assert_eq!(job.operations.iter().map(|it| &*it.name).collect::<Vec<_>>(), ["1234.1A", "1234.2B"]);

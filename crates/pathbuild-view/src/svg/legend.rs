@@ -74,7 +74,7 @@ impl<'a> Legend<'a> {
             14.0,
             Anchor::Start,
             "font-weight=\"bold\"",
-            &self.headline(),
+            &self.scene.title,
         );
         canvas.text(
             [40.0, self.top + 2.0 * LINE_HEIGHT],
@@ -118,10 +118,6 @@ impl<'a> Legend<'a> {
             canvas.text([40.0, y], LETTER_SIZE, Anchor::Start, &style, line);
         }
         canvas.close();
-    }
-
-    fn headline(&self) -> String {
-        self.scene.title.clone()
     }
 
     /// Returns cutter, material and lengths of the path; empty unless the scene has exactly one path.

@@ -56,17 +56,12 @@ const MAX_ROUNDS: usize = 8;
 impl<'a> Session<'a> {
     /// Opens a session on the files of a workspace.
     pub fn new(context: &'a Workspace) -> Self {
-        Self::with_system(context, false, Arc::clone(&context.system))
+        Self::open(context, false)
     }
 
-    /// Opens a session that traces inputs, so that its results can be cached.
-    pub fn with_tracing(context: &'a Workspace) -> Self {
-        Self { is_traced: true, ..Self::with_system(context, true, Arc::clone(&context.system)) }
-    }
-
-    /// Opens a session that traces inputs if `is_traced`.
+    /// Opens a session that traces inputs if `is_traced`, so that its results can be cached.
     pub fn open(context: &'a Workspace, is_traced: bool) -> Self {
-        if is_traced { Self::with_tracing(context) } else { Self::new(context) }
+        Self::with_system(context, is_traced, Arc::clone(&context.system))
     }
 
     /// Invalidates a drawing that may have changed, appeared or disappeared.
@@ -97,13 +92,13 @@ impl<'a> Session<'a> {
         }
     }
 
-    fn with_system(context: &'a Workspace, is_hashed: bool, system: Arc<dyn System>) -> Self {
+    fn with_system(context: &'a Workspace, is_traced: bool, system: Arc<dyn System>) -> Self {
         let db = Database::new(system);
-        settings::apply(&db, context, is_hashed);
+        settings::apply(&db, context, is_traced);
         Self {
             db,
             context,
-            is_traced: false,
+            is_traced,
             watchdog: OnceLock::new(),
             progress: None,
             workers: OnceLock::new(),

@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::reasons::{DEVICE_NAME, NO_FILE_NAME};
 use pathbuild_diagnostic::{Diagnostic, Text};
-use pathbuild_gcode::native::{self, Header, WriteOptions};
+use pathbuild_gcode::native::{self, WriteOptions};
 use pathbuild_toolpath::Program;
 
 use crate::config::types::SheetFormat;
@@ -116,25 +116,14 @@ impl OutputKind {
         provenance: &str,
         writing: &WriteSettings,
     ) -> Result<Option<String>, Box<Diagnostic>> {
-        let header = Header { provenance: provenance.to_owned() };
         match self {
-            Self::Milling | Self::Clean => writing.text(program, &header).map(Some),
-            Self::Probing => Ok(Some(native::probing_program(program, &header, &writing.options))),
+            Self::Milling | Self::Clean => {
+                native::write_program(program, provenance, &writing.options, writing.most_bytes).map(Some)
+            }
+            Self::Probing => Ok(Some(native::probing_program(program, provenance, &writing.options))),
             Self::Values => Ok(Some(native::values_file(program, &writing.options))),
             Self::SheetPdf | Self::SheetHtml | Self::SheetSvg => Ok(None),
         }
-    }
-}
-
-impl WriteSettings {
-    /// Generates the text of a native program.
-    ///
-    /// # Errors
-    /// PB005 if it is too large.
-    pub fn text(&self, program: &Program, header: &Header) -> Result<String, Box<Diagnostic>> {
-        let mut text = native::write_program_within(program, header, &self.options, self.most_bytes)?;
-        text.shrink_to_fit();
-        Ok(text)
     }
 }
 

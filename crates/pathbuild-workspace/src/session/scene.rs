@@ -7,7 +7,7 @@ use pathbuild_db::{
     uncut_rings,
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Number};
-use pathbuild_gcode::native::{Header, WriteOptions};
+use pathbuild_gcode::native::{WriteOptions, write_program};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::{ElementParameters, PathName, PathRole};
 use pathbuild_toolpath::{Correction, PlannedMove, ProgramStep};
@@ -138,7 +138,7 @@ pub(crate) fn program_scene(
     let correction = Correction { longest: 0.0, ..writing.options.correction };
     let options = WriteOptions { correction, ..writing.options };
     let is_shown = emitted.is_none_or(|emitted| emitted.is_posted);
-    let native = is_shown.then(|| WriteSettings { options, ..*writing }.text(program, &Header::default()));
+    let native = is_shown.then(|| write_program(program, "", &options, writing.most_bytes));
     let native = native.transpose()?;
     let rapid = (options.rapid > 0.0).then_some(options.rapid);
     Ok(Some(view::program_path(&ProgramSource {

@@ -31,7 +31,7 @@ use writing::Writer;
 impl Request<'_> {
     /// Watches until the end is requested, or until watching must start again.
     pub fn run(&self, workspace: &Workspace, listener: &dyn Listener) -> WatchEnd {
-        let session = Session::with_tracing(workspace);
+        let session = Session::open(workspace, true);
         if self.inputs.inputs.is_empty() && !session.has_library() {
             return WatchEnd::NothingNamed;
         }

@@ -64,7 +64,7 @@ impl Place {
 
     /// Returns the watched library, after its first check.
     fn watched(&self) -> Library<'_> {
-        let mut library = Library::new(Session::with_tracing(&self.workspace), &self.inputs);
+        let mut library = Library::new(Session::open(&self.workspace, true), &self.inputs);
         let mut found = library.find();
         check_all(&mut library, &mut found);
         assert!(found.now.is_empty(), "{found:#?}");

@@ -5,6 +5,7 @@ use serde_json::json;
 use crate::args::{ConfigArgs, ConfigCommand};
 use crate::context::Context;
 use crate::exit::ExitStatus;
+use crate::printer::Stream;
 use crate::render::Format;
 use pathbuild_workspace::config::{KeyValue, schema, settings, show};
 
@@ -18,7 +19,7 @@ pub fn run(context: &Context, args: &ConfigArgs) -> ExitStatus {
             }
         }
         ConfigCommand::Show { origin, .. } => context.printer.result(show(&context.settings, origin)),
-        ConfigCommand::Schema => context.printer.result_json(format_args!("{:#}", schema())),
+        ConfigCommand::Schema => context.printer.json(Stream::Stdout, format_args!("{:#}", schema())),
     }
     ExitStatus::Success
 }

@@ -1,5 +1,7 @@
 //! The operations of a setup sheet: a table that explains each number in the picture.
 
+use pathbuild_diagnostic::{Noun, counted};
+
 use super::data::{Sheet, Words};
 use crate::scene::{Element, ElementKind, ScenePath, Shape};
 use crate::svg::canvas::mm;
@@ -30,11 +32,12 @@ pub(super) fn rows(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
     let more = rows.len().saturating_sub(MAX_ROWS);
     if more > 0 {
         rows.truncate(MAX_ROWS);
-        let text = words.choose(format!("{more} more operations"), format!("{more} weitere Arbeitsgänge"));
-        rows.push(vec!["…".to_owned(), String::new(), text, String::new()]);
+        rows.push(vec!["…".to_owned(), String::new(), counted(more, MORE, words.0), String::new()]);
     }
     rows
 }
+
+const MORE: Noun = [["more operation", "more operations"], ["weiterer Arbeitsgang", "weitere Arbeitsgänge"]];
 
 fn row(operation: Operation) -> Vec<String> {
     let Operation { numbers: [first, last], work } = operation;
