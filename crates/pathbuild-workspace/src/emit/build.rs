@@ -40,12 +40,19 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     let provenance = settings.provenances.of(&programs);
     let line = provenance.to_string();
     delivered.provenance = Some(provenance);
+    let at = |problem: Diagnostic| problem.in_file(job.drawing(db).path(db)).in_path(&job.path);
     let unsafe_moves = unsafe_moves(db, job, &programs, settings, &mut delivered.problems);
-    let result = if unsafe_moves.is_empty() {
-        outputs(db, job, &programs, &line, settings, &mut delivered)
-    } else {
-        Err(unsafe_moves)
+    let result = match (settings.post_processor, &*programs) {
+        _ if !unsafe_moves.is_empty() => Err(unsafe_moves),
+        (Some(post_processor), programs) => {
+            let lang = settings.writing.options.lang;
+            write_through_post(job, programs, &line, post_processor, lang, at, &mut delivered)
+        }
+        (None, [program]) => write_native(job, program, &line, settings, at, &mut delivered),
+        // Native programs are never joined: only a post-processor can do that.
+        (None, _) => Ok(Vec::new()),
     };
+    let result = result.and_then(|outputs| with_sheets(outputs, db, job, settings));
     let outputs = result.unwrap_or_else(|problems| {
         delivered.is_refused = true;
         delivered.problems.extend(problems);
@@ -76,6 +83,29 @@ fn unsafe_moves(
     unsafe_moves
 }
 
+/// Adds the setup sheets to the files of a program.
+///
+/// # Errors
+/// PB005 if a file is too large; problems of the sheets.
+fn with_sheets(
+    mut outputs: Vec<Output>,
+    db: &Database,
+    job: &Job,
+    settings: &OutputSettings<'_>,
+) -> Result<Vec<Output>, Vec<Diagnostic>> {
+    for (kind, path) in &job.files {
+        if let Some(format) = kind.sheet()
+            && let Some(text) = sheet::bytes(db, job, format, settings).map_err(|problem| vec![*problem])?
+        {
+            outputs.push(Output { kind: *kind, path: path.clone(), text });
+        }
+    }
+    match outputs.iter().find(|output| output.text.len() > settings.writing.most_bytes) {
+        Some(output) => Err(vec![file_too_large(db, job, output, &settings.writing)]),
+        None => Ok(outputs),
+    }
+}
+
 /// Returns PB005 for an output file that is too large. The limit is the same for reading files on disk, so a larger file could not be compared.
 fn file_too_large(db: &Database, job: &Job, output: &Output, writing: &WriteSettings) -> Diagnostic {
     Diagnostic::new(&files::FILE_TOO_LARGE)
@@ -84,18 +114,6 @@ fn file_too_large(db: &Database, job: &Job, output: &Output, writing: &WriteSett
         .quoting("key", "output-size")
         .in_file(job.drawing(db).path(db))
         .in_path(&job.path)
-}
-
-fn sheets(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> Result<Vec<Output>, Box<Diagnostic>> {
-    let mut outputs = Vec::new();
-    for (kind, path) in &job.files {
-        if let Some(format) = kind.sheet()
-            && let Some(text) = sheet::bytes(db, job, format, settings)?
-        {
-            outputs.push(Output { kind: *kind, path: path.clone(), text });
-        }
-    }
-    Ok(outputs)
 }
 
 /// Returns errors that keep a program from being written, which are rapid moves into material and moves beyond the machine's capabilities, and
@@ -165,34 +183,6 @@ pub(super) struct Output {
     pub(super) text: Vec<u8>,
 }
 
-/// Generates the program and its setup sheet.
-fn outputs(
-    db: &Database,
-    job: &Job,
-    programs: &[Arc<Program>],
-    provenance: &str,
-    settings: &OutputSettings<'_>,
-    delivered: &mut ProgramOutcome,
-) -> Result<Vec<Output>, Vec<Diagnostic>> {
-    let drawing = job.drawing(db).path(db);
-    let at = |problem: Diagnostic| problem.in_file(drawing).in_path(&job.path);
-    let mut outputs = match (settings.post_processor, programs) {
-        (Some(post_processor), programs) => {
-            let lang = settings.writing.options.lang;
-            vec![write_through_post(job, programs, provenance, post_processor, lang, at, delivered)?]
-        }
-        (None, [program]) => write_native(job, program, provenance, settings, at, delivered)
-            .map_err(|problem| vec![*problem])?,
-        // Native programs are never joined: only a post-processor can do that.
-        (None, _) => Vec::new(),
-    };
-    outputs.extend(sheets(db, job, settings).map_err(|problem| vec![*problem])?);
-    match outputs.iter().find(|output| output.text.len() > settings.writing.most_bytes) {
-        Some(output) => Err(vec![file_too_large(db, job, output, &settings.writing)]),
-        None => Ok(outputs),
-    }
-}
-
 fn write_native(
     job: &Job,
     program: &Program,
@@ -200,11 +190,11 @@ fn write_native(
     settings: &OutputSettings<'_>,
     at: impl Fn(Diagnostic) -> Diagnostic,
     delivered: &mut ProgramOutcome,
-) -> Result<Vec<Output>, Box<Diagnostic>> {
+) -> Result<Vec<Output>, Vec<Diagnostic>> {
     let correction = settings.writing.options.correction;
     let steps = correction.count(program);
     if let Some(problem) = too_many_pieces(steps, program, &settings.writing) {
-        return Err(Box::new(at(problem)));
+        return Err(vec![at(problem)]);
     }
     if correction.lacks_slope(program) {
         delivered.problems.push(at(Diagnostic::new(&probes::WITHOUT_SLOPE)));
@@ -214,12 +204,12 @@ fn write_native(
         // This warning would say nothing new about probes outside the program, so it is given only if there are none.
         None => delivered.problems.extend(unused_probes(program, correction).map(&at)),
     }
+    let fault = |problem: Box<Diagnostic>| vec![at(*problem)];
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
-        let text =
-            kind.text(program, provenance, &settings.writing).map_err(|problem| Box::new(at(*problem)))?;
+        let text = kind.text(program, provenance, &settings.writing).map_err(fault)?;
         let Some(text) = text else { return Ok(None) };
-        too_long_line(&text, path).map_or(Ok(()), |problem| Err(Box::new(at(problem))))?;
-        kind.read_back(&text, program).map_err(|problem| Box::new(at(*problem)))?;
+        too_long_line(&text, path).map_or(Ok(()), |problem| Err(vec![at(problem)]))?;
+        kind.read_back(&text, program).map_err(fault)?;
         Ok(Some(Output { kind: *kind, path: path.clone(), text: text.into_bytes() }))
     };
     job.files.iter().map(output).filter_map(Result::transpose).collect()
@@ -250,7 +240,7 @@ fn write_through_post(
     lang: Lang,
     at: impl Fn(Diagnostic) -> Diagnostic,
     delivered: &mut ProgramOutcome,
-) -> Result<Output, Vec<Diagnostic>> {
+) -> Result<Vec<Output>, Vec<Diagnostic>> {
     let program = job.files.iter().find(|(kind, _)| kind.is_program());
     let Some((kind, path)) = program else { return Err(Vec::new()) };
     let (mut program, warnings) =
@@ -266,7 +256,7 @@ fn write_through_post(
     delivered.problems.extend(warnings.into_iter().chain(output.warnings).map(located));
     delivered.notes.extend(output.notes);
     delivered.post_build = output.post_build.map(|command| (command, path.clone()));
-    Ok(Output { kind: *kind, path: path.clone(), text: output.text })
+    Ok(vec![Output { kind: *kind, path: path.clone(), text: output.text }])
 }
 
 fn about_job(problem: Diagnostic, job: &Job) -> Diagnostic {
