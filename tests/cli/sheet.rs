@@ -204,7 +204,7 @@ fn a_pdf_is_true_to_scale() {
     let has = |size: [f64; 2]| {
         extents.iter().any(|extent| (0..2).all(|axis| (extent[axis] - size[axis]).abs() < 0.01))
     };
-    assert!(has([25.0, 50.0]), "no half of the circle in {extents:?}");
+    assert!(has([50.0, 50.0]), "no circle in {extents:?}");
     assert!(has([52.0, 52.0]), "no rectangle around the removed material in {extents:?}");
     assert!(has([50.0, 8.0 / 3.0]), "no ruler in {extents:?}");
 }

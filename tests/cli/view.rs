@@ -574,7 +574,8 @@ fn a_line_has_the_colour_of_its_deepest_pass_whichever_way_it_goes() {
     let svg = place.read("a.svg");
     let cuts = svg.split("id=\"cuts\"").nth(1).unwrap().split("</g>").next().unwrap();
     let strokes: Vec<&str> = cuts.split("stroke=\"").skip(1).map(|text| &text[..7]).collect();
-    assert_eq!(strokes, ["#2a1454"; 4], "{run}\n{cuts}");
+    assert!(strokes.iter().all(|colour| *colour == "#2a1454"), "{run}\n{cuts}");
+    assert_eq!(cuts.matches('M').count(), 4, "{cuts}");
 }
 
 #[test]

@@ -185,15 +185,33 @@ impl Provenance {
 pub(super) fn hash<'a>(programs: impl Iterator<Item = &'a Program>) -> Hash {
     let mut hasher = Hasher::new();
     for program in programs {
-        let mut bytes = HashedBytes(Vec::with_capacity(48 * program.steps.len()));
-        bytes.number(program.tool);
-        bytes.number(program.sweep_height);
-        program.steps.iter().for_each(|step| bytes.step(program, step));
-        program.probes.iter().for_each(|probe| bytes.probe(probe));
-        hasher.update(&(bytes.0.len() as u64).to_le_bytes());
-        hasher.update(&bytes.0);
+        let mut length = 0;
+        each_block(program, |block| length += block.len() as u64);
+        hasher.update(&length.to_le_bytes());
+        each_block(program, |block| {
+            hasher.update(block);
+        });
     }
     hasher.finalize()
+}
+
+/// Number of bytes after which a block ends. All bytes of a program together would take as much memory as the program.
+const BLOCK_BYTES: usize = 1 << 16;
+
+/// Calls `use_block` with the bytes to hash of a program, block by block.
+fn each_block(program: &Program, mut use_block: impl FnMut(&[u8])) {
+    let mut bytes = HashedBytes(Vec::new());
+    bytes.number(program.tool);
+    bytes.number(program.sweep_height);
+    for step in &program.steps {
+        bytes.step(program, step);
+        if bytes.0.len() >= BLOCK_BYTES {
+            use_block(&bytes.0);
+            bytes.0.clear();
+        }
+    }
+    program.probes.iter().for_each(|probe| bytes.probe(probe));
+    use_block(&bytes.0);
 }
 
 struct HashedBytes(Vec<u8>);

@@ -30,12 +30,12 @@ static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// Renders a scene as PNG.
+/// Renders a scene as PNG. The scene is dropped first: a large one takes more memory than its picture.
 ///
 /// # Errors
 /// The picture is too large for memory. Any other error is a bug.
-pub fn png(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
-    let tree = tree(&svg(scene, shown))?;
+pub fn png(scene: Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
+    let tree = scene_tree(scene, shown)?;
     let size = tree
         .size()
         .to_int_size()
@@ -46,12 +46,12 @@ pub fn png(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
     pixels.encode_png().map_err(Value::foreign)
 }
 
-/// Renders a scene as PDF.
+/// Renders a scene as PDF. The scene is dropped first, as for a PNG.
 ///
 /// # Errors
 /// An error is always a bug.
-pub fn pdf(scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
-    document(&[tree(&svg(scene, shown))?], FONT, None).map_err(Value::foreign)
+pub fn pdf(scene: Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
+    document(&[scene_tree(scene, shown)?], FONT, None).map_err(Value::foreign)
 }
 
 /// Renders a setup sheet as PDF, with A4 pages.
@@ -62,6 +62,12 @@ pub fn sheet_pdf(sheet: &Sheet, lang: Lang) -> Result<Vec<u8>, Value> {
     let pages = sheet_pages(sheet, lang);
     let trees: Vec<Tree> = pages.iter().map(|page| tree(page)).collect::<Result<_, _>>()?;
     document(&trees, FONT, Some(&xmp(&sheet.head))).map_err(Value::foreign)
+}
+
+fn scene_tree(scene: Scene, shown: VisibleParts) -> Result<Tree, Value> {
+    let svg = svg(&scene, shown);
+    drop(scene);
+    tree(&svg)
 }
 
 fn tree(svg: &str) -> Result<Tree, Value> {

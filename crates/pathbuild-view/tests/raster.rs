@@ -7,7 +7,7 @@ use pathbuild_diagnostic::Lang;
 use pathbuild_view::{BilingualText, Finding, Scene, VisibleParts, page, pdf, png, svg};
 
 fn picture(title: &str) -> Vec<u8> {
-    png(&Scene::new(title), VisibleParts::all(Lang::En)).unwrap()
+    png(Scene::new(title), VisibleParts::all(Lang::En)).unwrap()
 }
 
 #[test]
@@ -21,7 +21,7 @@ fn letters_and_arrows_are_in_pictures() {
 
 #[test]
 fn a_pdf_brings_its_font() {
-    let made = pdf(&Scene::new("Ø ß →"), VisibleParts::all(Lang::En)).unwrap();
+    let made = pdf(Scene::new("Ø ß →"), VisibleParts::all(Lang::En)).unwrap();
     let has = |part: &[u8]| made.windows(part.len()).any(|window| window == part);
     assert!(has(b"DejaVuSans") && has(b"/ToUnicode"));
 }

@@ -12,7 +12,19 @@ const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
 /// An SVG picture under construction.
 pub(super) struct Canvas {
     text: String,
+    /// The path element at the end of the text, if it may still grow.
+    open_path: Option<OpenPath>,
 }
+
+/// A path element without its end, to which similar paths are added.
+struct OpenPath {
+    attributes: String,
+    count: usize,
+}
+
+/// Maximum number of paths in one element. One element for each takes ten times the memory when the picture is rendered; a single element for all
+/// would take as much again for its edges.
+const MAX_MERGED_PATHS: usize = 1000;
 
 /// The part of a text that is placed at the text's point.
 #[derive(Clone, Copy)]
@@ -38,18 +50,21 @@ impl Canvas {
             text,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {across} {down}\" font-family=\"{FONT}\">"
         );
-        let mut canvas = Self { text };
+        let mut canvas = Self { text, open_path: None };
         canvas.raw(&format!("<rect width=\"{across}\" height=\"{down}\" fill=\"#fff\"/>"));
         canvas
     }
 
     pub(super) fn finish(mut self) -> String {
-        self.text.push_str("</svg>\n");
+        self.raw("</svg>");
         self.text
     }
 
     /// Writes a line of SVG without escaping it.
     pub(super) fn raw(&mut self, line: &str) {
+        if self.open_path.take().is_some() {
+            self.text.push_str("\"/>\n");
+        }
         self.text.push_str(line);
         self.text.push('\n');
     }
@@ -79,6 +94,20 @@ impl Canvas {
 
     pub(super) fn path(&mut self, data: &str, attributes: &str) {
         self.raw(&format!("<path d=\"{data}\" {attributes}/>"));
+    }
+
+    /// Adds a path to the element of the paths before it, if they have the same attributes. It must look the same alone and among them: it is a line,
+    /// or a filled shape that runs round in the same direction as all others.
+    pub(super) fn merged_path(&mut self, data: &str, attributes: &str) {
+        match &mut self.open_path {
+            Some(open) if open.attributes == attributes && open.count < MAX_MERGED_PATHS => open.count += 1,
+            _ => {
+                self.raw(&format!("<path {attributes} d=\""));
+                self.text.pop();
+                self.open_path = Some(OpenPath { attributes: attributes.to_owned(), count: 1 });
+            }
+        }
+        self.text.push_str(data);
     }
 
     pub(super) fn circle(&mut self, [x, y]: Point, radius: f64, attributes: &str) {

@@ -35,7 +35,7 @@ pub(super) fn draw(
     if let Some(tool) = path.tool {
         let width = svg_number((tool * place.scale()).max(0.5));
         for movement in cuts.iter().filter(|movement| movement.way.kind != MoveKind::Plunge) {
-            canvas.path(
+            canvas.merged_path(
                 &path_data(&movement.way.way, place),
                 &format!("stroke=\"{KERF_COLOUR}\" stroke-width=\"{width}\""),
             );
@@ -84,7 +84,7 @@ fn draw_cut(
         );
     }
     let dashes = if movement.kind == MoveKind::Mark { " stroke-dasharray=\"2 3\"" } else { "" };
-    canvas.path(&path_data(&movement.way, place), &format!("stroke=\"{color}\"{dashes}"));
+    canvas.merged_path(&path_data(&movement.way, place), &format!("stroke=\"{color}\"{dashes}"));
 }
 
 /// Whether a plunge is drawn as a hole: its element is a circle, or it has no element.
@@ -146,14 +146,12 @@ fn micrometres(value: f64) -> i64 {
 }
 
 fn draw_rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, shown: VisibleParts) {
-    let style = format!(
-        "id=\"rapids\" fill=\"none\" stroke=\"{RAPID_COLOUR}\" stroke-width=\"0.9\" stroke-dasharray=\"6 4\""
-    );
-    canvas.open(&style);
+    canvas.open("id=\"rapids\" fill=\"none\" stroke-width=\"0.9\" stroke-dasharray=\"6 4\"");
+    let colour = format!("stroke=\"{RAPID_COLOUR}\"");
     let sweeps =
         || path.moves.iter().filter(|movement| movement.kind == MoveKind::Sweep && movement.is_placed());
     for movement in sweeps() {
-        canvas.path(&path_data(&movement.way, place), "");
+        canvas.merged_path(&path_data(&movement.way, place), &colour);
     }
     canvas.close();
     if shown.arrows {
@@ -178,7 +176,7 @@ fn draw_arrow(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, 
     let foot = [at[0] - dx * 4.0, at[1] - dy * 4.0];
     let (left, right) = ([foot[0] - dy * 3.4, foot[1] + dx * 3.4], [foot[0] + dy * 3.4, foot[1] - dx * 3.4]);
     let [tip, left, right] = [tip, left, right].map(|[x, y]| format!("{} {}", svg_number(x), svg_number(y)));
-    canvas.path(&format!("M{tip}L{left}L{right}Z"), &format!("fill=\"{color}\""));
+    canvas.merged_path(&format!("M{tip}L{left}L{right}Z"), &format!("fill=\"{color}\""));
 }
 
 /// Returns the point at a fraction (0 to 1) of a move's length.

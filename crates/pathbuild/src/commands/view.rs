@@ -34,7 +34,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
     if output.shown.stock && !has_stock(&scene) {
         return report_missing_stock(context, &findings);
     }
-    if let Err(problem) = output.deliver(context, &scene) {
+    if let Err(problem) = output.deliver(context, scene) {
         return context.fail(vec![*problem]);
     }
     ExitStatus::of(&findings)
@@ -175,16 +175,16 @@ impl Format {
         }
     }
 
-    fn bytes(self, scene: &Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
+    fn bytes(self, scene: Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
         match self {
-            Self::Svg => Ok(pathbuild_view::svg(scene, shown).into_bytes()),
+            Self::Svg => Ok(pathbuild_view::svg(&scene, shown).into_bytes()),
             Self::Json => Ok((scene.to_json() + "\n").into_bytes()),
             #[cfg(feature = "pictures")]
             Self::Png => pathbuild_view::png(scene, shown),
             #[cfg(feature = "pictures")]
             Self::Pdf => pathbuild_view::pdf(scene, shown),
             #[cfg(feature = "pictures")]
-            Self::Html => Ok(pathbuild_view::page(scene, shown.lang).into_bytes()),
+            Self::Html => Ok(pathbuild_view::page(&scene, shown.lang).into_bytes()),
         }
     }
 }
@@ -227,7 +227,7 @@ impl Output {
     ///
     /// # Errors
     /// The scene cannot be written or shown.
-    fn deliver(&self, context: &Context, scene: &Scene) -> Result<(), Box<Diagnostic>> {
+    fn deliver(&self, context: &Context, scene: Scene) -> Result<(), Box<Diagnostic>> {
         let bytes = self.format.bytes(scene, self.shown);
         match &self.file {
             Some(file) => deliver(context, file, bytes),
