@@ -515,6 +515,18 @@ fn a_program_is_shown_with_its_findings_and_checks() {
     );
 }
 
+/// A probing move ends at an unknown height, where the probe makes contact.
+#[test]
+fn the_end_of_a_probing_move_is_unknown() {
+    let place = Place::new().file("a.nc", "G21 G90 G17 G94\nG0 X1 Y2 Z5\nG38.2 Z-10 F50\nG0 X3\nM30\n");
+    let json = place.path().join("x.json").to_str().unwrap().to_owned();
+    let scene = scene(&place.run_with(&["view", "a.nc", "--dialect", "linuxcnc", "-o", &json]));
+    let moves = scene["paths"][0]["moves"].as_array().unwrap();
+    let probe = moves.iter().find(|it| it["kind"] == "probe").unwrap();
+    assert_eq!(probe["from"], serde_json::json!([1.0, 2.0, 5.0]));
+    assert_eq!(probe["to"], serde_json::json!([1.0, 2.0, null]));
+}
+
 /// The scale of depths reaches the lowest point of an arc in a vertical plane, not only its ends.
 #[test]
 fn the_depth_of_an_arc_is_that_of_its_lowest_point() {
@@ -681,6 +693,26 @@ fn without_cutter_or_surface_there_is_no_stock() {
     ] {
         let run = place.run(line);
         assert!(run.status != Some(0) && run.stderr.contains(said), "{run}");
+    }
+}
+
+/// Whether a plate is cut through follows only from its thickness: it is known if the material lies on Z 0.
+#[test]
+fn cuts_go_through_material_that_lies_on_zero() {
+    let drawn = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0\nend 40,0";
+    let program = "G21 G90 G17 G94\nG0 Z9\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 Z9\nM30\n";
+    let place = Place::new().file("1234.1P.dxf", sheet(drawn).unwrap().to_dxf()).file("a.nc", program);
+    place.run("emit 1234.1P --rapid 1000 --sweep-height 20");
+    for (view, is_through) in [
+        ("1234.1P", true),
+        ("1234.1P_Milling.gcode", true),
+        ("1234.1P_Milling.gcode --surface 5", true),
+        ("1234.1P_Milling.gcode --surface 0", false),
+        ("a.nc --cutter 2 --surface 5", true),
+        ("a.nc --cutter 2 --surface 0", false),
+    ] {
+        let run = place.run(&format!("view {view} --stock -o a.svg"));
+        assert_eq!(place.read("a.svg").contains("cut through"), is_through, "{view}: {run}");
     }
 }
 

@@ -64,6 +64,8 @@ pub struct ProgramRecord {
     pub cutters: Vec<ToolSpan>,
     /// Z in mm of the material's upper face; `None` if it is unknown or not level.
     pub surface: Option<f64>,
+    /// Whether the material lies on Z 0, so that cuts down to Z 0 go through it. Otherwise its thickness is unknown.
+    pub is_on_zero: bool,
     /// Description of dwells, stops and tool changes, which the totals do not include; `None` if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub waits: Option<BilingualText>,
@@ -663,6 +665,13 @@ impl Serialize for SceneMove {
             [0, 1, 2].map(|axis| end.known.has(Axes::of(axis)).then(|| rounded(end.at[axis])))
         };
         let motion::Move { from, to, shape, pace, .. } = &self.way;
+        // A probing move ends wherever the probe makes contact.
+        let is_reached = |axis: usize| {
+            !matches!(pace, Pace::Probe { .. })
+                || from.known.has(Axes::of(axis)) && from.at[axis] == to.at[axis]
+        };
+        let mut end = place(to);
+        (0..3).filter(|axis| !is_reached(*axis)).for_each(|axis| end[axis] = None);
         let arc = match shape {
             MoveShape::Line => None,
             MoveShape::Arc(arc) => Some(ArcJson {
@@ -675,7 +684,7 @@ impl Serialize for SceneMove {
         let written = MoveJson {
             kind: self.kind,
             from: place(from),
-            to: place(to),
+            to: end,
             arc,
             feed: pace.feed(),
             length: rounded(self.length),

@@ -4,7 +4,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang, Noun, counted, with_decimal_separator};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::header::HeaderReader;
+use pathbuild_gcode::header::{Header, HeaderReader};
 use pathbuild_gcode::statistics::Summary;
 use pathbuild_gcode::verify::StockSpan;
 use pathbuild_view::{BilingualText, ProgramRecord, Scene, ScenePath, ShownCheck, ToolSpan};
@@ -77,12 +77,12 @@ pub fn program_scene(
     options: VerifyOptions,
 ) -> Result<SceneReport, Failure> {
     let workspace = session.workspace();
-    let cutter = options.cutter;
+    let (cutter, given_surface) = (options.cutter, options.surface);
     let verifier = Verifier::new(session, options)?;
     let program = &verifier.read(file, text).map_err(|problem| Failure::Found(vec![*problem]))?;
     let verified = verifier.verify_stored(program);
     let rapids = verified.checks.iter().find_map(CheckRecord::values);
-    let (cutters, surface) = stated_cutters_and_surface(program, rapids);
+    let (header, cutters, surface) = stated_cutters_and_surface(program, rapids);
     let mut path = program.scene_path(workspace);
     set_cutters(&mut path, cutter, &cutters, rapids);
     if let (Some(stock), _) = verifier.stock(program) {
@@ -98,6 +98,10 @@ pub fn program_scene(
         checks: verified.checks.iter().map(shown_check).collect(),
         cutters,
         surface,
+        is_on_zero: match given_surface {
+            Some(given) => given > 0.0,
+            None => header.is_of_pathbuild || program.dialect == Dialect::Native,
+        },
         waits: describe_waits(&summary, Lang::En)
             .zip(describe_waits(&summary, Lang::De))
             .map(|(en, de)| BilingualText { en, de }),
@@ -153,11 +157,11 @@ impl Assumptions {
     }
 }
 
-/// Returns the cutters that a program states, and the height of the material's upper face; `None` if it does not state that height.
+/// Returns the header of a program, the cutters that it states, and the height of the material's upper face; `None` if it does not state that height.
 fn stated_cutters_and_surface(
     program: &Program,
     rapids: Option<&RapidValues>,
-) -> (Vec<ToolSpan>, Option<f64>) {
+) -> (Header, Vec<ToolSpan>, Option<f64>) {
     let mut header = HeaderReader::default();
     for step in &program.read.steps {
         header.step(step);
@@ -167,7 +171,8 @@ fn stated_cutters_and_surface(
         Some(ToolSpan { line: tool.line, diameter: tool.cutter?.diameter, surface: None })
     };
     let surface = rapids.filter(|values| values.is_level).map(|values| values.surface).or(header.surface);
-    (header.tools.iter().filter_map(span).collect(), surface)
+    let cutters = header.tools.iter().filter_map(span).collect();
+    (header, cutters, surface)
 }
 
 /// Sets the cutters with which a path is shown: the diameter that the user typed in, or those with which its rapid moves were checked.

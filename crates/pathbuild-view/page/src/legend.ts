@@ -13,10 +13,15 @@ const scale = $("scale");
 const depths = $("depths");
 const items = $("meanings");
 
+/** Side in mm of the squares of the stock from which it is shown: grooves then have visible steps, and heights are those of a whole square. */
+const COARSE = 0.1;
+
 /** The kinds of things that the picture shows in addition to cuts. */
 export interface Shown {
   rapids: boolean;
   stock: boolean;
+  /** Side in mm of the squares in which the stock is known. */
+  texel: number;
   /** Whether the stock shows rapid moves through material. */
   rapidCuts: boolean;
   clamps: boolean;
@@ -46,7 +51,8 @@ export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
       const item = document.createElement("li");
       const patch = document.createElement("i");
       patch.style.background = `var(--${name})`;
-      item.append(patch, say(word, lang));
+      const isCoarse = word === "legendUncut" && shown.texel >= COARSE;
+      item.append(patch, say(word, lang) + (isCoarse ? `, ${say("legendSquares", lang)} ${mm(Number(shown.texel.toFixed(2)))} mm` : ""));
       return item;
     }),
   );

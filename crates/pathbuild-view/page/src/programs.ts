@@ -44,6 +44,8 @@ export interface ProgramRecord {
   /** Cutter diameters in mm that the program itself states. */
   cutters: { line: number; diameter: number }[];
   surface: number | null;
+  /** Whether the material lies on Z 0. Otherwise its thickness is unknown. */
+  is_on_zero: boolean;
   /** Description of dwells, stops and tool changes, which the times do not include. */
   waits?: { en: string; de: string };
 }

@@ -240,13 +240,19 @@ function start(keepsView: boolean): void {
   else stage?.fit(space);
 }
 
-/** Returns the values to assume: those that the user entered, and the program's surface if none was entered. */
+/** Returns the thickness in mm that a program states, with its upper face at this height. */
+function statedThickness(surface: number | null): number | null {
+  const { program } = scene;
+  return program?.is_on_zero && surface === program.surface && surface !== null && surface > 0 ? surface : null;
+}
+
+/** Returns the values to assume: those that the user entered, and those of the program where none were entered. */
 function assumed(): Assumed {
   const typed = (id: string) => $<HTMLInputElement>(id).valueAsNumber;
   const [tool, thickness] = [typed("assumedTool"), typed("assumedThickness")];
-  const surface = typed("assumedSurface");
-  const known = scene.program?.surface ?? null;
-  return { tool: tool > 0 ? tool : null, thickness: thickness > 0 ? thickness : null, surface: Number.isFinite(surface) ? surface : known };
+  const typedSurface = typed("assumedSurface");
+  const surface = Number.isFinite(typedSurface) ? typedSurface : (scene.program?.surface ?? null);
+  return { tool: tool > 0 ? tool : null, thickness: thickness > 0 ? thickness : statedThickness(surface), surface };
 }
 
 /** Shows the stock under the moves, or hides it. */
@@ -274,7 +280,7 @@ function placeStock(): void {
 
 function legend(): void {
   const hasStock = shown.stock && !!stock;
-  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, rapidCuts: !!stock?.map.hasRapidCut, parts: scene.paths.flatMap(({ parts }) => parts ?? []), clamps: scene.keep_outs.length > 0 }, lang);
+  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, texel: stock?.map.texel ?? 0, rapidCuts: !!stock?.map.hasRapidCut, parts: scene.paths.flatMap(({ parts }) => parts ?? []), clamps: scene.keep_outs.length > 0 }, lang);
   showLegend(shown.explain);
   stage?.placeLabels();
 }

@@ -60,6 +60,7 @@ const words = {
   legend: ["Legend", "Legende"],
   legendAhead: ["cuts ahead", "noch zu fräsen"],
   legendUncut: ["uncut stock", "ungeschnittenes Rohteil"],
+  legendSquares: ["in squares of", "in Quadraten von"],
   legendThrough: ["cut through", "durchgefräst"],
   legendRapid: ["rapid in material", "Eilgang im Material"],
   legendGouge: ["cut into a part or bar", "Schnitt in Teil oder Steg"],

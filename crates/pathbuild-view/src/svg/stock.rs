@@ -476,7 +476,8 @@ fn cutting_conditions(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> 
     let stated = tool.and_then(|tool| tool.surface);
     let top = stated.or(component.map(|component| component.thickness)).or(path.thickness)?;
     let raised = component.map_or(0.0, |component| component.raised);
-    let through = if top > raised { raised + scene.through } else { f64::NEG_INFINITY };
+    let is_on_zero = scene.program.as_ref().is_none_or(|program| program.is_on_zero);
+    let through = if is_on_zero && top > raised { raised + scene.through } else { f64::NEG_INFINITY };
     Some(CuttingConditions { diameter: tool.map(|tool| tool.diameter).or(path.tool)?, top, through })
 }
 
