@@ -81,6 +81,17 @@ impl Stamp {
 }
 
 impl Clock {
+    /// Returns the time an hour ago, by this machine's clock. A file that was at rest by then is at rest now, even if the clock of its file system
+    /// differs by minutes.
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "decides which files are compared once more, and no result"
+    )]
+    pub fn an_hour_ago() -> Self {
+        let now = SystemTime::now();
+        Self(now.checked_sub(Duration::from_hours(1)).unwrap_or(UNIX_EPOCH))
+    }
+
     /// Returns the current time of a directory's file system: the modification time of a new file in it.
     ///
     /// # Errors

@@ -259,11 +259,35 @@ fn a_drawing_that_never_ends_is_taken_as_it_is() {
 fn polling_notices_the_same() {
     let place = library();
     let watch = Watch::begin(&place, "watch --poll --format concise");
-    // Polling detects changes by the modification time, which must differ.
-    std::thread::sleep(Duration::from_millis(1100));
     watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
     let said = watch.until("1001.dxf: changed");
     assert!(said.iter().any(|line| line.contains("PB506")), "{said:#?}");
+}
+
+/// Polling sees only later modification times, in whole seconds. A drawing that has other contents under the same time, or an earlier one, is noticed all
+/// the same; one with the same contents under an earlier time is not reported.
+#[test]
+fn polling_notices_a_drawing_without_a_later_time() {
+    let place = library();
+    let file = |name: &str| place.path().join(name);
+    let time = |name: &str| fs::metadata(file(name)).unwrap().modified().unwrap();
+    let set = |name: &str, time| {
+        fs::File::options().append(true).open(file(name)).unwrap().set_modified(time).unwrap();
+    };
+    let (same, unchanged) = ("library/parts/1001.dxf", "library/parts/1002.dxf");
+    let before = time(same);
+    let watch = Watch::begin(&place, "watch --poll --format concise");
+    set(unchanged, before - Duration::from_secs(100));
+    watch.write(same, dxf("1001.1P", 4, &[]));
+    set(same, before);
+    let said = watch.until("1001.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("PB506")), "{said:#?}");
+    assert!(!said.iter().any(|line| line.contains("1002.dxf: changed")), "{said:#?}");
+
+    watch.write(same, dxf("1001.1P", 5, &[]));
+    set(same, before - Duration::from_secs(100));
+    let said = watch.until("1001.dxf: changed");
+    assert!(said.last().unwrap().contains(" 0 new findings, "), "{said:#?}");
 }
 
 #[test]

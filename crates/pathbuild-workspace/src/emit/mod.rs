@@ -42,9 +42,7 @@ use select::TargetSelection;
 use settle::build_and_settle;
 pub use sheet::sheet_bytes;
 use stale_programs::{EarlierPrograms, StaleOutcome, has_stale_adjusted_program};
-#[cfg(not(target_family = "wasm"))]
-pub(crate) use written_programs::Scope;
-pub use written_programs::WrittenPrograms;
+pub use written_programs::{Scope, WrittenPrograms};
 
 /// A request to emit programs.
 #[derive(Clone, Debug, Default)]

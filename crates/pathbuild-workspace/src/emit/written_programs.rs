@@ -29,13 +29,14 @@ pub struct WrittenPrograms {
 }
 
 /// The drawings that a session covers.
-pub(crate) struct Scope<'a> {
+#[derive(Clone, Copy, Debug)]
+pub struct Scope<'a> {
     /// Whether these are the drawings of the library, among which each configured target must match a path.
-    pub(crate) is_library: bool,
+    pub is_library: bool,
     /// Drawings that were found in directories, and of which all paths were therefore considered.
-    pub(crate) drawings: &'a [Utf8PathBuf],
+    pub drawings: &'a [Utf8PathBuf],
     /// Directories that were searched for drawings.
-    pub(crate) directories: &'a [Utf8PathBuf],
+    pub directories: &'a [Utf8PathBuf],
 }
 
 impl WrittenPrograms {
@@ -178,8 +179,7 @@ impl WrittenPrograms {
 
     /// Returns what `emit` says of all programs together: file names that several targets claim, programs on disk that are stale, and configured targets
     /// that match no path.
-    #[cfg(not(target_family = "wasm"))]
-    pub(crate) fn common_problems(
+    pub fn common_problems(
         &mut self,
         session: &Session<'_>,
         post_processor: Option<&PostProcessor>,

@@ -14,6 +14,7 @@ use pathbuild_db::system::is_drawing;
 use super::directories::{EventPath, WatchedDirectories, event_path};
 use super::events::{Changes, Request, Restart, Signal, WakeHandle};
 use super::library::Library;
+use super::polled_files::PolledFiles;
 use crate::session::{Session, is_ignore_file};
 
 /// A watcher of a library's directories, which collects changes in batches.
@@ -38,8 +39,9 @@ pub(super) struct Watcher {
     is_woken: bool,
     /// Whether the end of watching was requested.
     is_over: bool,
-    /// Time at which to check the configuration once more; `None` if all of its changes are reported.
-    configuration_check: Option<Instant>,
+    /// Time at which to check the configuration and the files on which results depend once more; `None` if all of their changes are reported.
+    next_poll: Option<Instant>,
+    polled: PolledFiles,
     /// Incomplete drawings, each with the time after which it is read although it is incomplete.
     unfinished: BTreeMap<Utf8PathBuf, Instant>,
 }
@@ -104,7 +106,8 @@ impl Watcher {
                 || configuration.iter().any(|file| file.is_relative()))
             .then(|| current_directory(&*workspace.system)),
             next_directory_check: Instant::now() + DIRECTORY_CHECK_INTERVAL,
-            configuration_check: is_polling.then(|| Instant::now() + POLL_RESOLUTION),
+            next_poll: is_polling.then(|| Instant::now() + POLL_RESOLUTION),
+            polled: PolledFiles::default(),
             configuration,
             directories,
             pending: Changes::default(),
@@ -140,7 +143,9 @@ impl Watcher {
             if self.has_moved() {
                 return Batch::Restart(Restart::Directories);
             }
-            if self.configuration_check.take_if(|due| *due <= Instant::now()).is_some() {
+            if self.next_poll.is_some_and(|due| due <= Instant::now()) {
+                self.next_poll = Some(Instant::now() + POLL_RESOLUTION);
+                self.poll_files(library);
                 return Batch::ConfigurationInDoubt;
             }
             let patience = self.time_to_deadline(library);
@@ -203,6 +208,15 @@ impl Watcher {
         }
     }
 
+    /// Adds the files that changed although no event reported it.
+    fn poll_files(&mut self, library: &Library<'_>) {
+        let changed = self.polled.changed(library.session(), library.known_files());
+        if !changed.is_empty() {
+            self.pending.paths.extend(changed);
+            self.restart_debounce();
+        }
+    }
+
     /// Whether the working directory was moved or removed. The process keeps the old directory, in which its relative paths are resolved. The path
     /// is polled because events report its change only if every directory above can be watched.
     fn has_moved(&mut self) -> bool {
@@ -217,7 +231,7 @@ impl Watcher {
 
     fn wait(&self, patience: Duration) -> Result<Signal, RecvTimeoutError> {
         let until_check = |due: Instant| due.saturating_duration_since(Instant::now());
-        let patience = patience.min(self.configuration_check.map_or(Duration::MAX, until_check));
+        let patience = patience.min(self.next_poll.map_or(Duration::MAX, until_check));
         if self.working_directory.is_some() {
             return self.signals.recv_timeout(patience.min(DIRECTORY_CHECK_INTERVAL));
         }

@@ -231,6 +231,11 @@ impl<'a> Library<'a> {
         self.open.values().copied()
     }
 
+    /// Returns the files on which results depend, and the drawings still to be checked; a file may occur twice.
+    pub(super) fn known_files(&self) -> impl Iterator<Item = SourceFile> {
+        self.reverse.files().chain(self.unchecked_drawings())
+    }
+
     pub(super) fn check_again(&mut self, drawings: Vec<SourceFile>) {
         let db = self.session.db();
         self.open.extend(drawings.into_iter().map(|file| (file.path(db).clone(), file)));
@@ -270,15 +275,14 @@ impl<'a> Library<'a> {
     fn changed_files(&self, changes: &Changes) -> BTreeSet<Utf8PathBuf> {
         let db = self.session.db();
         let mut files: BTreeSet<Utf8PathBuf> = BTreeSet::new();
-        let known = || self.reverse.files().chain(self.unchecked_drawings());
         if changes.is_incomplete {
-            files.extend(known().map(|file| file.path(db).clone()));
+            files.extend(self.known_files().map(|file| file.path(db).clone()));
         }
         for path in &changes.paths {
             if is_drawing(path) {
                 files.insert(path.clone());
             } else {
-                let below = known().filter(|file| file.path(db).starts_with(path));
+                let below = self.known_files().filter(|file| file.path(db).starts_with(path));
                 files.extend(below.map(|file| file.path(db).clone()));
                 if self.session.is_directory(path) {
                     let drawings = self.session.drawings_below(path);

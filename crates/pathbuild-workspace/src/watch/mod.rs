@@ -9,6 +9,7 @@ mod directories;
 mod events;
 mod finding_tally;
 mod library;
+mod polled_files;
 #[cfg(test)]
 mod tests;
 mod writing;
