@@ -84,26 +84,48 @@ fn a_page_has_picture_measures_checklist_and_facts() {
     assert_snapshot!(texts(&place.read("sheet.svg")).join("\n"));
 }
 
+/// Returns the texts of the sheet of a project that embeds a path twice, each time with a text. The path embeds another one.
+fn sheet_of_two(components: [&str; 2]) -> String {
+    let [first, second] = components;
+    let project = format!(
+        "layer 8001.1P\nstart 0,0 \"T2 O2 S30 MX\"\nsubpath 0,0 50,0 \"{first}\"\nsubpath 50,0 100,0 \"{second}\"\nend 100,0"
+    );
+    let outer = "layer 1300.1P\nstart 0,0 \"T2 O2 I1 B0 MX\"\nmill 0,0 40,0\nsubpath 40,0 50,0 \">1301.1P\"\nend 50,0";
+    let inner = "layer 1301.1P\nstart 0,0 \"T2 O2 I1 B0 MX\"\nmill 0,0 10,0\nend 10,0";
+    let place = place("").file("8001.1P.dxf", dxf(&project)).file("1300.1P.dxf", dxf(outer));
+    let place = place.file("1301.1P.dxf", dxf(inner));
+    let run = place.run("sheet 8001.1P -o sheet.svg");
+    assert_eq!(run.status, Some(0), "{run}");
+    texts(&place.read("sheet.svg")).join(" ")
+}
+
 /// Material on shims (H) lies higher than on the plate: without the shims, the cutter would mill air, or would not cut through.
+/// Numbers tell which pieces lie on which shims, also those of paths that a raised path embeds.
 #[test]
 fn shims_are_in_the_checklist() {
-    let checks = |h: &str| {
-        let project = format!(
-            "layer 8001.1P\nstart 0,0 \"T2 O2 S30 MX\"\nsubpath 0,0 40,0 \">1300.1P {h}\"\nsubpath 40,0 80,0 \">1300.1P\"\nend 80,0"
-        );
-        let component = "layer 1300.1P\nstart 0,0 \"T2 O2 I1 B0 MX\"\nmill 0,0 40,0\nend 40,0";
-        let place = place("").file("8001.1P.dxf", dxf(&project)).file("1300.1P.dxf", dxf(component));
-        let run = place.run("sheet 8001.1P -o sheet.svg");
-        assert_eq!(run.status, Some(0), "{run}");
-        let svg = place.read("sheet.svg");
-        texts(&svg).join(" ")
-    };
-    let with = checks("H5");
-    assert!(
-        with.contains("Shims of 5 mm") && with.contains("1300.1P") && with.contains("upper face is at Z 7"),
-        "{with}"
-    );
-    assert!(!checks("").contains("Shims"));
+    let sheet = sheet_of_two([">1300.1P", ">1300.1P H5"]);
+    let expected = "Shims of 5 mm lie under the material of 1300.1P (No. 3, 4); its upper face is at Z 7";
+    assert!(sheet.contains(expected), "{sheet}");
+    let sheet = sheet_of_two([">1300.1P H1.5", ">1300.1P H5"]);
+    for expected in ["Shims of 1.5 mm lie under the material of 1300.1P (No. 1, 2)", expected] {
+        assert!(sheet.contains(expected), "{sheet}");
+    }
+    assert!(!sheet_of_two([">1300.1P", ">1300.1P"]).contains("Shims"));
+}
+
+/// One plate cannot lie at two heights.
+#[test]
+fn material_at_several_heights_is_several_pieces() {
+    let pieces = "2 mm thick, in separate pieces for 2 heights, which cover 102 × 2 mm together";
+    let plate = "2 mm thick, at least 102 × 2 mm";
+    for (components, expected) in [
+        ([">1300.1P", ">1300.1P H5"], pieces),
+        ([">1300.1P H5", ">1300.1P H5"], plate),
+        ([">1300.1P", ">1300.1P"], plate),
+    ] {
+        let sheet = sheet_of_two(components);
+        assert!(sheet.contains(&format!("Material is ready: X, {expected}")), "{sheet}");
+    }
 }
 
 /// Each number of the picture is explained, or listed as one that does not fit. A table that continues on a new page repeats its title.
@@ -396,16 +418,69 @@ fn another_version_of_pathbuild_makes_no_sheet_outdated() {
     assert!(older.contains("pathbuild 0.0.9"));
 }
 
+/// Paths with two cutters, which are configured.
+fn place_with_two_cutters() -> Place {
+    let second = DRAWING.replace("1234.1P", "1235.1P").replace("O2", "O3");
+    let tools = "spindle = \"tool\"\n[emit]\nsheet = \"svg\"\n[tool.two]\ndiameter = 2\nspindle = 12000\nnumber = 1\nflutes = 2\nlength = 8\n[tool.three]\ndiameter = 3\nspindle = 9000\nnumber = 4\n";
+    place(tools)
+        .file("1235.1P.dxf", dxf(&second))
+        .file("1236.1P.dxf", dxf(&DRAWING.replace("1234.1P", "1236.1P")))
+}
+
+/// A control without a tool changer and tool lengths starts with the cutter that is in, and needs a new Z0 after each change.
+#[test]
+fn the_sheet_tells_of_changes_by_hand() {
+    let place = place_with_two_cutters();
+    for (post, has_manual_changes) in
+        [("grbl", true), ("marlin", true), ("estlcam", true), ("linuxcnc", false), ("mach3", false)]
+    {
+        for (paths, first, changes) in [
+            ("1235.1P 1234.1P", "T4 Ø 3 mm (three), 9000 rpm", "(1): T1 Ø 2 mm (two);"),
+            (
+                "1234.1P 1235.1P 1236.1P",
+                "T1 Ø 2 mm (two), 2 flutes",
+                "(2): T4 Ø 3 mm (three), T1 Ø 2 mm (two);",
+            ),
+        ] {
+            place.run(&format!("emit {paths} --post {post} --join all"));
+            let svg = place.read("all_Sheet.svg");
+            let text = texts(&svg).join(" ");
+            assert_eq!(
+                text.contains(&format!("First cutter is in and sharp: {first}")),
+                has_manual_changes,
+                "{text}"
+            );
+            let changes = format!("changes of the cutter by hand {changes} Z0 is set again after each");
+            assert_eq!(text.contains(&changes), has_manual_changes, "{text}");
+            assert_eq!(
+                text.contains("Cutters (2) are in the places of the table"),
+                !has_manual_changes,
+                "{text}"
+            );
+        }
+        place.run(&format!("emit 1234.1P 1236.1P --post {post} --join all"));
+        let svg = place.read("all_Sheet.svg");
+        let text = texts(&svg).join(" ");
+        assert!(text.contains("Cutter is in and sharp: T1") && !text.contains("by hand"), "{text}");
+    }
+}
+
 #[test]
 fn joined_paths_have_one_sheet_with_all_cutters() {
-    let second = DRAWING.replace("1234.1P", "1235.1P").replace("O2", "O3");
-    let tools = "spindle = \"tool\"\n[emit]\nsheet = \"svg\"\n[tool.two]\ndiameter = 2\nspindle = 12000\nnumber = 1\n[tool.three]\ndiameter = 3\nspindle = 9000\nnumber = 4\n";
-    let place = place(tools).file("1235.1P.dxf", dxf(&second));
+    let place = place_with_two_cutters();
     let run = place.run("emit 1234.1P 1235.1P --post linuxcnc --join both");
     assert!(run.stderr.contains("both_Sheet.svg: written"), "{run}");
     let svg = place.read("both_Sheet.svg");
     let texts = texts(&svg);
-    for text in ["two", "three", "12000 rpm clockwise", "9000 rpm clockwise", "1234.1P", "1235.1P"] {
+    for text in [
+        "two",
+        "three",
+        "2 flutes, cuts 8 mm deep",
+        "12000 rpm clockwise",
+        "9000 rpm clockwise",
+        "1234.1P",
+        "1235.1P",
+    ] {
         assert!(texts.contains(&text), "{text} in {texts:?}");
     }
     assert!(!svg.contains("started by hand"));

@@ -193,6 +193,12 @@ impl PostProcessor {
         !self.options.manual_spindle
     }
 
+    /// Whether programs of this post-processor are for controls without tool changer and tool lengths: the operator changes the tool and sets Z
+    /// again.
+    pub fn has_manual_changes(&self) -> bool {
+        matches!(self.reader(), Some(Dialect::Grbl | Dialect::Marlin | Dialect::Estlcam))
+    }
+
     /// Returns the configured feed in mm/min for cuts without a feed of their own.
     pub fn feed(&self) -> Option<f64> {
         self.feed

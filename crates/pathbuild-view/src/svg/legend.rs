@@ -195,7 +195,7 @@ pub(super) fn draw_hidden_numbers(
 }
 
 /// Formats ascending numbers, with a dash for three or more consecutive ones: `3, 7–9`.
-fn ranges(numbers: &[u32]) -> String {
+pub(super) fn ranges(numbers: &[u32]) -> String {
     let runs = numbers.chunk_by(|one, next| one + 1 == *next);
     let run = |run: &[u32]| match run {
         [first, _, .., last] => format!("{first}–{last}"),

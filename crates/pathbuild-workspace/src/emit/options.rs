@@ -132,13 +132,15 @@ pub(super) struct SheetSettings {
     /// The configured tools, in the same order as `tools`.
     pub(super) shapes: Vec<types::Tool>,
     pub(super) starts_spindle: bool,
+    pub(super) has_manual_changes: bool,
 }
 
 impl SheetSettings {
     pub(super) fn new(settings: &Settings, tools: ToolTable, post_processor: Option<&PostProcessor>) -> Self {
         let starts_spindle = post_processor.is_some_and(PostProcessor::starts_spindle);
+        let has_manual_changes = post_processor.is_some_and(PostProcessor::has_manual_changes);
         let shapes = settings.tables.tools.value.clone();
-        Self { lang: settings.comment_lang(), tools, shapes, starts_spindle }
+        Self { lang: settings.comment_lang(), tools, shapes, starts_spindle, has_manual_changes }
     }
 }
 

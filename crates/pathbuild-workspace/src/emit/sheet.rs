@@ -60,6 +60,7 @@ pub(super) fn sheet(
         programs.push(program);
     }
     let provenance = settings.provenances.of(&programs);
+    let (tools, tool_order) = tools(&programs, &settings.sheets);
     let total = total(&programs, settings.writing.options.rapid);
     let drawings = job.targets.iter().map(|target| file_name(db, target.file(db)));
     let mut drawings: Vec<String> = drawings.collect();
@@ -75,7 +76,9 @@ pub(super) fn sheet(
         values: names(|kind| kind == OutputKind::Values).next(),
         hashes: hashes(&provenance),
         head: [provenance.to_string(), job.title.clone()],
-        tools: tools(&programs, &settings.sheets),
+        tools,
+        tool_order,
+        has_manual_changes: settings.sheets.has_manual_changes,
         starts_spindle: settings.sheets.starts_spindle,
         cutting_box: programs.iter().map(|program| cutting_box(program)).fold([None; 3], bounding_box),
         length: total.length,
@@ -139,9 +142,9 @@ fn bounding_box(a: [Option<(f64, f64)>; 3], b: [Option<(f64, f64)>; 3]) -> [Opti
     [either(a[0], b[0]), either(a[1], b[1]), either(a[2], b[2])]
 }
 
-/// Returns the tools of the programs, without duplicates.
-fn tools(programs: &[Arc<Program>], settings: &SheetSettings) -> Vec<SheetTool> {
-    let mut tools: Vec<SheetTool> = Vec::new();
+/// Returns the tools of the programs without duplicates, and their indexes in the order of use.
+fn tools(programs: &[Arc<Program>], settings: &SheetSettings) -> (Vec<SheetTool>, Vec<usize>) {
+    let (mut tools, mut order): (Vec<SheetTool>, Vec<usize>) = (Vec::new(), Vec::new());
     for program in programs {
         let index = settings.tools.position(&program.path, program.tool);
         let entry = index.map(|index| &settings.tools.entries[index]);
@@ -161,14 +164,16 @@ fn tools(programs: &[Arc<Program>], settings: &SheetSettings) -> Vec<SheetTool> 
             length: shape.and_then(|shape| shape.length),
             paths: Vec::new(),
         };
-        let known =
-            tools.iter_mut().find(|known| SheetTool { paths: Vec::new(), ..(*known).clone() } == tool);
-        match known {
-            Some(known) => known.paths.push(program.path.to_string()),
-            None => tools.push(SheetTool { paths: vec![program.path.to_string()], ..tool }),
-        }
+        let known = tools.iter().position(|known| SheetTool { paths: Vec::new(), ..known.clone() } == tool);
+        let index = known.unwrap_or_else(|| {
+            tools.push(tool);
+            tools.len() - 1
+        });
+        tools[index].paths.push(program.path.to_string());
+        order.push(index);
     }
-    tools
+    order.dedup();
+    (tools, order)
 }
 
 fn probes(program: &Program) -> impl Iterator<Item = SheetProbe> {

@@ -2,10 +2,10 @@
 
 use super::data::{Sheet, SheetTool, Words, distinct};
 use super::flow::Block;
-use super::operations;
+use super::{operations, shims};
 use pathbuild_diagnostic::with_decimal_separator;
 
-use crate::scene::{BilingualText, EmbeddedPath, MoveKind, Point, ScenePath};
+use crate::scene::{BilingualText, MoveKind, Point};
 use crate::svg::canvas::mm;
 use crate::svg::sheet::data::clamp_box;
 use crate::svg::sheet::data::feeds;
@@ -15,7 +15,7 @@ use crate::svg::sheet::data::removed_box;
 /// Returns the steps before running the program, in the order in which the operator carries them out.
 pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut checks = vec![program(sheet, words), material(sheet, words)];
-    checks.extend(shims(sheet, words));
+    checks.extend(shims::checks(sheet, words));
     if let Some((deepest, _)) = sheet.cutting_box[2].filter(|(deepest, _)| *deepest < 0.0) {
         let depth = words.mm(-deepest);
         checks.push(words.choose(
@@ -24,7 +24,7 @@ pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
         ));
     }
     checks.push(clamped_text(sheet, words));
-    checks.push(cutter(sheet, words));
+    checks.extend(cutters(sheet, words));
     if !sheet.starts_spindle {
         checks.push(words.choose("Spindle is started by hand", "Spindel wird von Hand eingeschaltet").into());
     }
@@ -69,39 +69,21 @@ fn material(sheet: &Sheet, words: Words) -> String {
             .chain(thicknesses(sheet).map(|thickness| with_decimal_separator(thickness, words.0)).map(
                 |thickness| words.choose(format!("{thickness} mm thick"), format!("{thickness} mm dick")),
             ))
-            .chain(
-                size(sheet, words)
-                    .map(|size| words.choose(format!("at least {size}"), format!("mindestens {size}"))),
-            )
+            .chain(size(sheet, words).map(|size| pieces(sheet, &size, words)))
             .collect();
     let facts = facts.join(", ");
     words.choose(format!("Material is ready: {facts}"), format!("Material liegt bereit: {facts}"))
 }
 
-/// Describes the shims on which the material of embedded paths lies (H), one sentence for each height. The paths that a raised path embeds lie on
-/// its shims.
-fn shims(sheet: &Sheet, words: Words) -> Vec<String> {
-    let raised: Vec<(&EmbeddedPath, f64)> = sheet.scene.paths.iter().flat_map(raised_paths).collect();
-    let text = |height: f64| {
-        let of_height = || raised.iter().filter(|(_, raise)| *raise == height).map(|(path, _)| *path);
-        let names = distinct(of_height().map(|path| path.name.clone())).join(", ");
-        let tops = format_numbers(&distinct(of_height().map(|path| path.thickness))).unwrap_or_default();
-        let (count, height) = (of_height().count(), words.mm(height));
-        words.choose(
-            format!("Shims of {height} mm lie under the material of {names} ({count} in the picture); its upper face is at Z {tops}"),
-            format!("{height} mm hohe Unterlagen liegen unter dem Material von {names} ({count} im Bild); dessen Oberseite ist bei Z {tops}"),
-        )
-    };
-    distinct(raised.iter().map(|(_, raise)| *raise)).into_iter().map(text).collect()
-}
-
-/// Returns the paths that are raised above the path that embeds them, each with the difference in height in mm.
-fn raised_paths(path: &ScenePath) -> impl Iterator<Item = (&EmbeddedPath, f64)> {
-    path.embedded.iter().filter_map(|embedded| {
-        let embedder = &path.elements[embedded.by? as usize];
-        let raise = embedded.raised - path.embedded[embedder.path as usize].raised;
-        (raise > 0.0).then(|| (embedded, (raise * 1000.0).round() / 1000.0))
-    })
+/// Describes how much material is needed. Material at different heights is not one plate.
+fn pieces(sheet: &Sheet, size: &str, words: Words) -> String {
+    match shims::height_count(sheet) {
+        0 | 1 => words.choose(format!("at least {size}"), format!("mindestens {size}")),
+        heights => words.choose(
+            format!("in separate pieces for {heights} heights, which cover {size} together"),
+            format!("in getrennten Stücken für {heights} Höhen, die zusammen {size} bedecken"),
+        ),
+    }
 }
 
 fn clamped_text(sheet: &Sheet, words: Words) -> String {
@@ -121,23 +103,47 @@ fn clamped_text(sheet: &Sheet, words: Words) -> String {
     }
 }
 
-fn cutter(sheet: &Sheet, words: Words) -> String {
-    match sheet.tools.as_slice() {
-        [tool] => {
+fn cutters(sheet: &Sheet, words: Words) -> Vec<String> {
+    match (sheet.tools.as_slice(), sheet.tool_order.as_slice()) {
+        ([tool], _) => {
             let tool = tool_text(tool, words).join(", ");
-            words.choose(
+            vec![words.choose(
                 format!("Cutter is in and sharp: {tool}"),
                 format!("Fräser sitzt und ist scharf: {tool}"),
-            )
+            )]
         }
-        tools => {
+        (tools, [first, changes @ ..]) if sheet.has_manual_changes => {
+            let first = tool_text(&tools[*first], words).join(", ");
+            let first = words.choose(
+                format!("First cutter is in and sharp: {first}"),
+                format!("Der erste Fräser sitzt und ist scharf: {first}"),
+            );
+            vec![first, manual_changes(tools, changes, words)]
+        }
+        (tools, _) => {
             let count = tools.len();
-            words.choose(
+            vec![words.choose(
                 format!("Cutters ({count}) are in the places of the table, their lengths are set"),
                 format!("Fräser ({count}) sitzen an den Plätzen der Tabelle, ihre Längen sind gesetzt"),
-            )
+            )]
         }
     }
+}
+
+/// Describes the stops at which the operator changes the cutter.
+fn manual_changes(tools: &[SheetTool], changes: &[usize], words: Words) -> String {
+    const MAX_LISTED: usize = 12;
+    let count = changes.len();
+    let listed = changes
+        .iter()
+        .take(MAX_LISTED)
+        .filter_map(|&index| tool_text(&tools[index], words).into_iter().next());
+    let more = (count > MAX_LISTED).then(|| "…".to_owned());
+    let listed = listed.chain(more).collect::<Vec<_>>().join(", ");
+    words.choose(
+        format!("Program stops for changes of the cutter by hand ({count}): {listed}; Z0 is set again after each"),
+        format!("Das Programm hält für Fräserwechsel von Hand an ({count}): {listed}; nach jedem wird Z0 neu gesetzt"),
+    )
 }
 
 /// Describes where to set the zero point.
@@ -166,7 +172,9 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     facts.heading("Material", "Material");
     facts.fact("M", "M", materials(sheet));
     facts.fact("T", "T", thicknesses(sheet).map(|thickness| format!("{thickness} mm")));
-    facts.fact("at least", "mindestens", size(sheet, words));
+    let [en, de] =
+        if shims::height_count(sheet) > 1 { ["together", "zusammen"] } else { ["at least", "mindestens"] };
+    facts.fact(en, de, size(sheet, words));
     if let [tool] = sheet.tools.as_slice() {
         facts.heading("Cutter", "Fräser");
         facts.fact("O", "O", Some(format!("Ø {} mm", words.mm(tool.diameter))));
@@ -265,11 +273,12 @@ pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
     if sheet.tools.len() > 1 {
         table(
             words.choose("Cutters", "Fräser"),
-            &[0.1, 0.12, 0.22, 0.24, 0.32],
+            &[0.06, 0.09, 0.15, 0.28, 0.24, 0.18],
             &[
                 "T",
                 "Ø mm",
                 words.choose("name", "Name"),
+                words.choose("cutting edges", "Schneiden"),
                 words.choose("spindle", "Spindel"),
                 words.choose("paths", "Pfade"),
             ],
@@ -315,6 +324,7 @@ fn tool_row(tool: &SheetTool, words: Words) -> Vec<String> {
         tool.number.map(|number| number.to_string()).unwrap_or_default(),
         mm(tool.diameter),
         tool.name.clone().unwrap_or_default(),
+        edges(tool, words).unwrap_or_default(),
         spindle(tool, words).unwrap_or_default(),
         tool.paths.join(", "),
     ]

@@ -29,8 +29,12 @@ pub struct Sheet {
     pub hashes: String,
     /// The scene, in coordinates of the program.
     pub scene: Scene,
-    /// The cutters in order of use.
+    /// The cutters in order of first use.
     pub tools: Vec<SheetTool>,
+    /// Indexes into `tools` in the order in which the cutters are used: a change of the cutter lies between each two.
+    pub tool_order: Vec<usize>,
+    /// Whether the program stops for the operator to change the cutter, whose length the control does not know.
+    pub has_manual_changes: bool,
     /// Whether the program starts the spindle.
     pub starts_spindle: bool,
     /// Ranges of X, Y and Z of the tool tip while cutting.

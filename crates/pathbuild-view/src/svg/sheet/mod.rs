@@ -8,6 +8,7 @@ mod flow;
 mod operations;
 mod page;
 mod picture;
+mod shims;
 
 use std::fmt::Write;
 
