@@ -217,7 +217,11 @@ fn clamps_of_components_lie_where_they_are_embedded() {
             let run = place.run(&format!("{command} --format concise"));
             assert_eq!(codes(&run).len(), expected, "{run}");
             assert!(codes(&run).iter().all(|code| code == "407"), "{run}");
-            assert!(expected == 0 || format!("{run}").contains("8001.1P.dxf"), "{run}");
+            let place = "8001.1P.dxf:";
+            assert!(expected == 0 || format!("{run}").contains(place), "{run}");
+            let clamp =
+                "the clamp of layer clamps from 1234.1P.dxf at (17, 2) of this drawing, which is 20 mm high";
+            assert!(expected == 0 || format!("{run}").contains(clamp), "{run}");
         }
     }
     // Raised by 2 mm, the clamp is higher than S.
@@ -318,7 +322,7 @@ fn clamps_of_one_drawing_hold_for_joined_paths_of_others() {
     };
     let hit = emit("9.01", "21", "5");
     assert_eq!(codes(&hit), ["407"], "{hit}");
-    assert!(hit.stderr.contains("in 1234.1P.dxf, which is 20 mm high: cut, lowest Z 0, moves: 1"), "{hit}");
+    assert!(hit.stderr.contains("in 1234.1P.dxf, which lies at (20, 10) in the program and is 20 mm high: cut, lowest Z 0, moves: 1"), "{hit}");
     assert_eq!(codes(&emit("9", "21", "5")), [""; 0]);
     // All rapid moves between the paths are at the greater S.
     assert_eq!(codes(&emit("9", "10", "5")), [""; 0]);

@@ -135,6 +135,10 @@ words! {
     OPTION: "option", "Option";
     /// Source of a value: the default.
     DEFAULT: "default", "Vorgabe";
+    /// Place of a clamp in the drawing that a message is about.
+    CLAMP_OF_DRAWING: "at {point}", "bei {point}";
+    /// Place of a clamp that an embedded path brings along.
+    CLAMP_OF_COMPONENT: "from {drawing} at {point} of this drawing", "aus {drawing} bei {point} dieser Zeichnung";
 }
 
 /// Deserializes a text as a `&'static Text`. Each distinct text is leaked once; there are only a few dozen.

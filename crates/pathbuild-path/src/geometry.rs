@@ -164,6 +164,11 @@ impl Placement {
         self.turn * point + self.shift
     }
 
+    /// Returns the point that the placement moves to this one.
+    pub fn unplace(&self, placed: Xy) -> Xy {
+        self.turn.inverse() * (placed - self.shift)
+    }
+
     /// Applies the placement to a curve.
     pub fn place_curve(&self, curve: &Curve) -> Curve {
         match curve {

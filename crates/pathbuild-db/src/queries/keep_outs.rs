@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::paths as messages;
-use pathbuild_diagnostic::{Diagnostic, Message, Number, Point, Text, words};
+use pathbuild_diagnostic::{Diagnostic, Message, Number, Point, Sentence, Text, words};
+use pathbuild_path::approx::coincide;
 use pathbuild_path::{Curve, KeepOut, KeepOutMap, TipMove};
 use pathbuild_toolpath::{ProbeOrigin, StepOrigin, kind_of_move, tip_move};
 use rustc_hash::FxHashSet;
@@ -22,6 +23,8 @@ pub struct PlacedKeepOut {
     pub placed: KeepOut,
     /// The clamp as drawn.
     pub drawn: KeepOut,
+    /// File name of the drawing that contains the clamp.
+    pub drawing: String,
     /// Index into [`Trace::occurrences`](pathbuild_toolpath::Trace::occurrences) of a path in the drawing that contains the clamp.
     pub occurrence: u32,
 }
@@ -46,12 +49,14 @@ fn compute_placed_keep_outs(db: &dyn Db, traced: &TracedProgram) -> Vec<PlacedKe
     let mut known = FxHashSet::default();
     let mut all = Vec::new();
     for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
-        for drawn in keep_outs(db, traced.parts[occurrence.id].file) {
+        let file = traced.parts[occurrence.id].file;
+        for drawn in keep_outs(db, file) {
             let placed = drawn.placed(&occurrence.placement, occurrence.raised);
             let start = placed.outline.first().map_or(placed.at, Curve::start);
             let place = [placed.at.x, placed.at.y, start.x, start.y, placed.height].map(Number);
             if known.insert(place) {
-                all.push(PlacedKeepOut { placed, drawn: drawn.clone(), occurrence: number });
+                let drawing = file.path(db).file_name().unwrap_or_default().to_owned();
+                all.push(PlacedKeepOut { placed, drawn: drawn.clone(), drawing, occurrence: number });
             }
         }
     }
@@ -109,7 +114,7 @@ impl Collision {
         self.lowest = self.lowest.min(way.lowest());
     }
 
-    /// Returns PB407 without a place. Heights are given relative to the path, which is `raised` by this many mm.
+    /// Returns PB407 without the places of the finding and of the clamp. Heights are given relative to the path, which is `raised` by this many mm.
     pub fn diagnostic(
         &self,
         message: &'static Message,
@@ -120,7 +125,6 @@ impl Collision {
         Diagnostic::new(message)
             .with("tool", tool)
             .quoting("layer", clamp.drawn.layer.as_str())
-            .with("clamp", Point::new(clamp.drawn.at.x, clamp.drawn.at.y))
             .with("height", clamp.placed.height - raised)
             .with("what", self.what)
             .with("z", self.lowest - raised)
@@ -169,7 +173,9 @@ impl<'t> Search<'t> {
             None if collision.what == &words::RAPID_MOVE => &messages::MOVES_INTO_CLAMP,
             None => &messages::CUTS_INTO_CLAMP,
         };
-        let found = collision.diagnostic(message, program.largest_cutter(), clamp, around.raised);
+        let found = collision
+            .diagnostic(message, program.largest_cutter(), clamp, around.raised)
+            .with("clamp", self.place_of(clamp, entry.occurrence));
         let all = self.occurrences();
         match entry.probe.filter(|probe| probe.occurrence == entry.occurrence) {
             Some(ProbeOrigin { occurrence, probe }) => {
@@ -177,6 +183,22 @@ impl<'t> Search<'t> {
             }
             None => all.at_element(entry.occurrence, entry.element, found),
         }
+    }
+
+    /// Describes the place of a clamp in the drawing of a path, which contains the clamp itself or embeds a drawing that does.
+    fn place_of(&self, clamp: &PlacedKeepOut, occurrence: u32) -> Sentence {
+        let TracedProgram { parts, trace, .. } = self.traced;
+        let [around, owner] =
+            [occurrence, clamp.occurrence].map(|occurrence| &trace.occurrences[occurrence as usize]);
+        let (at, drawn) = (around.placement.unplace(clamp.placed.at), clamp.drawn.at);
+        if parts[around.id].file == parts[owner.id].file && coincide(at, drawn) {
+            return Sentence::new(&words::CLAMP_OF_DRAWING).with("point", Point::new(drawn.x, drawn.y));
+        }
+        // Exact comparison finds the same clamp again, although the placements of several programs round differently.
+        let [x, y] = [at.x, at.y].map(|coordinate| (coordinate * 1000.0).round() / 1000.0);
+        Sentence::new(&words::CLAMP_OF_COMPONENT)
+            .quoting("drawing", &clamp.drawing)
+            .with("point", Point::new(x, y))
     }
 
     fn occurrences(&self) -> Occurrences<'t> {

@@ -145,29 +145,29 @@ messages! {
     }
     /// A program that moves into a clamp, reported at the drawn element.
     MOVES_INTO_CLAMP: InsideKeepOut {
-        en: "the tool, O{tool}, hits the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
-        de: "der Fräser, O{tool}, trifft das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        en: "the tool, O{tool}, hits the clamp of layer {layer} {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
+        de: "der Fräser, O{tool}, trifft das Spannmittel von Layer {layer} {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "raise S to {height} or more (rapids at S are straight), or move the clamp",
         help_de: "S auf {height} oder mehr erhöhen (Eilgänge auf S verlaufen gerade) oder das Spannmittel versetzen",
     }
     /// A program that cuts into a clamp, reported at the drawn element.
     CUTS_INTO_CLAMP: InsideKeepOut {
-        en: "the tool, O{tool}, hits the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
-        de: "der Fräser, O{tool}, trifft das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        en: "the tool, O{tool}, hits the clamp of layer {layer} {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
+        de: "der Fräser, O{tool}, trifft das Spannmittel von Layer {layer} {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "move the clamp, or keep the cut at least half of O away from its outline",
         help_de: "das Spannmittel versetzen oder den Schnitt mindestens O/2 von seinem Umriss entfernt zeichnen",
     }
     /// A probing program that moves into a clamp, reported at the probe.
     PROBING_INTO_CLAMP: InsideKeepOut {
-        en: "in the probing program the tool, O{tool}, hits the clamp of layer {layer} at {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
-        de: "im Antastprogramm trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} bei {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        en: "in the probing program the tool, O{tool}, hits the clamp of layer {layer} {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
+        de: "im Antastprogramm trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "draw the probe at least half of O away from the outline, or move the clamp; for the straight rapids at S from probe to probe, raise S to {height} or more",
         help_de: "die Probe mindestens O/2 vom Umriss entfernt zeichnen oder das Spannmittel versetzen; für die geraden Eilgänge auf S von Probe zu Probe S auf {height} oder mehr erhöhen",
     }
     /// A path of a joined program that moves into a clamp of another path's drawing.
     JOINED_INTO_CLAMP: InsideKeepOut {
-        en: "joined with the other paths, the tool, O{tool}, hits the clamp of layer {layer} at {clamp} in {drawing}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
-        de: "mit den anderen Pfaden verbunden trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} bei {clamp} in {drawing}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        en: "joined with the other paths, the tool, O{tool}, hits the clamp of layer {layer} in {drawing}, which lies at {clamp} in the program and is {height} mm high: {what}, lowest Z {z}, moves: {count}",
+        de: "mit den anderen Pfaden verbunden trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} in {drawing}, das im Programm bei {clamp} liegt und {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "raise S above the clamps, or write a program for each path: the clamps of all drawings are mounted during the whole program",
         help_de: "S über die Spannmittel anheben oder je Pfad ein Programm schreiben: die Spannmittel aller Zeichnungen stehen während des ganzen Programms",
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pathbuild_db::{Collision, Database, PlacedKeepOut, Target, closure, placed_keep_outs, summary};
 use pathbuild_diagnostic::messages::{parameters, paths as messages};
-use pathbuild_diagnostic::{Diagnostic, words};
+use pathbuild_diagnostic::{Diagnostic, Point, words};
 use pathbuild_path::approx::near;
 use pathbuild_path::{Curve, KeepOutMap, Line, TipMove, Xy};
 use pathbuild_toolpath::{Program, kind_of_move, tip_move};
@@ -52,15 +52,12 @@ fn differing_thickness(db: &Database, job: &Job, programs: &[Arc<Program>]) -> O
 /// Returns PB407 for moves of one path into the clamps of another path's drawing, and for rapid moves from one path to the next into any clamp. There
 /// is one diagnostic for each clamp, path and kind of move.
 pub(super) fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
-    let clamps = job.targets.iter().flat_map(|target| {
-        let drawing = target.file(db).path(db).file_name().unwrap_or_default().to_owned();
-        placed_keep_outs(db, *target).into_iter().map(move |clamp| (clamp, drawing.clone()))
-    });
-    let clamps: Vec<(PlacedKeepOut, String)> = clamps.collect();
+    let clamps: Vec<PlacedKeepOut> =
+        job.targets.iter().flat_map(|target| placed_keep_outs(db, *target)).collect();
     if clamps.is_empty() {
         return Vec::new();
     }
-    let outlines = clamps.iter().map(|(clamp, _)| (clamp.placed.height, &*clamp.placed.outline));
+    let outlines = clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline));
     let map = KeepOutMap::new(outlines);
     let mut collisions = BTreeMap::new();
     for (number, (program, traverse)) in programs.iter().zip(traverses(programs)).enumerate() {
@@ -75,9 +72,12 @@ pub(super) fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Progra
         }
     }
     let diagnostic = |((number, clamp, _), collision): (&(usize, usize, _), &Collision)| {
-        let ((clamp, drawing), program) = (&clamps[*clamp], &programs[*number]);
+        let (clamp, program) = (&clamps[*clamp], &programs[*number]);
         let found = collision.diagnostic(&messages::JOINED_INTO_CLAMP, program.largest_cutter(), clamp, 0.0);
-        let found = found.quoting("drawing", drawing.as_str()).in_path(&program.path);
+        let found = found
+            .quoting("drawing", &clamp.drawing)
+            .with("clamp", Point::new(clamp.placed.at.x, clamp.placed.at.y));
+        let found = found.in_path(&program.path);
         found.in_file(job.targets[*number].file(db).path(db))
     };
     collisions.iter().map(diagnostic).collect()
