@@ -53,7 +53,7 @@ pub use names::{CaseSensitiveName, LayerPattern, PathLayer, PathName, PathPatter
 pub use part::{
     CutElement, DrawnParts, EmbeddedPlace, LeftMaterial, LostBar, NeighbourCuts, NeighbourGouge, Part,
     PartCut, PartFindings, PartRing, PartSettings, PathCuts, PlacedCuts, SeveredPart, SlotPaths, StandingBar,
-    THROUGH_HEIGHT, check_parts, check_path, gouging_moves,
+    THROUGH_HEIGHT, check_parts, gouging_moves,
 };
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,

@@ -17,7 +17,7 @@ use crate::queries::closures::closure;
 use crate::queries::embedding::{Instance, Outcome, embeds};
 use crate::queries::index::lower_to_warnings;
 use crate::queries::part::{file_parts, part_findings, parts_of, path_cuts};
-use crate::queries::programs::{TracedProgram, traced_program};
+use crate::queries::programs::{self, TracedProgram, traced_program};
 
 /// Returns PB214 for cuts of one embedded path into the part of another, PB218 for cuts through its support bars, and PB217 for parts that such cuts
 /// leave loose: one finding per part or bar and element, reported in the path that contains both.
@@ -339,11 +339,9 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     let ways = milled_moves(traced);
     for occurrence in &traced.trace.occurrences {
         let cutting = &traced.parts[occurrence.id];
-        let (Some(found), Some(findings)) = (file_parts(db, cutting.file), part_findings(db, cutting.file))
-        else {
-            continue;
-        };
-        let Some(place) = found.index_of_path(&cutting.path.name) else { continue };
+        let found = file_parts(db, cutting.file);
+        let findings = instance_of(db, target, cutting).and_then(|instance| part_findings(db, instance));
+        let (Some(found), Some((findings, place))) = (found, findings) else { continue };
         // The material left and the bars are known by path, not by part: list them with the first part only.
         let (mut left, mut lost_bars) = (&*findings.left[place], &*findings.lost_bars[place]);
         for part in &findings.parts[place] {
@@ -367,6 +365,16 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
         }
     }
     all
+}
+
+/// Returns the instance of a path in a target's program.
+fn instance_of<'db>(db: &'db dyn Db, target: Target, cutting: &programs::Part) -> Option<Instance<'db>> {
+    let mut instances = closure(db, target).reached.iter().map(|reached| reached.instance);
+    instances.find(|instance| {
+        instance.file(db) == cutting.file
+            && instance.name(db).name(db) == *cutting.path.name
+            && *instance.bindings(db) == cutting.bindings
+    })
 }
 
 fn milled_moves(traced: &TracedProgram) -> Vec<TipMove> {

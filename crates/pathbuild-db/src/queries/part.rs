@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
-use pathbuild_path::{Curve, Part, PartFindings, PathCuts, check_parts, check_path, parts as read_parts};
+use pathbuild_path::{Curve, Part, PartFindings, PathCuts, check_parts, parts as read_parts};
 
 use crate::database::Db;
 use crate::inputs::{Reading, Settings, SourceFile};
@@ -26,7 +26,7 @@ fn indexed_parts(db: &dyn Db, file: SourceFile) -> Option<Arc<FileParts>> {
 }
 
 /// Returns the result of checking a drawing's parts, with example values for the variables of its paths. `None` if it has no parts.
-pub(super) fn part_findings(db: &dyn Db, file: SourceFile) -> Option<&PartFindings> {
+pub(super) fn example_findings(db: &dyn Db, file: SourceFile) -> Option<&PartFindings> {
     let has_parts = file_parts(db, file).is_some_and(|found| !found.parts.is_empty());
     has_parts.then(|| checked_parts(db, file))
 }
@@ -42,28 +42,61 @@ fn checked_parts(db: &dyn Db, file: SourceFile) -> PartFindings {
     findings
 }
 
-/// Returns the findings about the cuts of a path into the parts of its drawing, and about the material that it leaves at them.
-pub(super) fn part_problems<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Diagnostic] {
+/// Returns the result of checking the parts of a path's drawing with the path's values, and with example values for the variables of the drawing's
+/// other paths; and the path's index in that result. `None` if the drawing has no parts, or if the path's cuts are unknown.
+pub(super) fn part_findings<'db>(
+    db: &'db dyn Db,
+    instance: Instance<'db>,
+) -> Option<(&'db PartFindings, usize)> {
     let file = instance.file(db);
-    let Some(findings) = part_findings(db, file) else { return &[] };
+    let example = example_findings(db, file)?;
+    let place = file_parts(db, file)?.index_of_path(&instance.name(db).name(db));
     if is_example(db, instance) {
-        let place = file_parts(db, file).and_then(|found| found.index_of_path(&instance.name(db).name(db)));
-        return place.map_or(&[], |place| &findings.of_paths[place]);
+        return Some((example, place?));
     }
-    part_problems_with_values(db, instance)
+    let findings = parts_checked_with_values(db, instance);
+    (!findings.of_paths.is_empty()).then_some((findings, place.unwrap_or_default()))
 }
 
 #[salsa::tracked]
+fn parts_checked_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> PartFindings {
+    let (Some(settings), Some(found), Some(own)) =
+        (&Settings::get(db).language(db).part, file_parts(db, instance.file(db)), path_cuts(db, instance))
+    else {
+        return PartFindings::default();
+    };
+    let mut findings = match found.index_of_path(&instance.name(db).name(db)) {
+        Some(place) => {
+            let mut cuts: Vec<&PathCuts> = found.cuts.iter().collect();
+            cuts[place] = own;
+            check_parts(&found.parts, &cuts, found.is_complete, settings)
+        }
+        None => check_parts(&found.parts, &[own], false, settings),
+    };
+    lower_to_warnings(db, findings.of_paths.iter_mut().flatten());
+    findings
+}
+
+/// Returns the findings about the cuts of a path into the parts of its drawing, and about the material that it leaves at them.
+pub(super) fn part_problems<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Diagnostic] {
+    let Some((findings, place)) = part_findings(db, instance) else { return &[] };
+    if is_example(db, instance) { &findings.of_paths[place] } else { part_problems_with_values(db, instance) }
+}
+
+/// Returns the findings about a path with its values, and those about other paths of the drawing that its values cause: a part that they leave loose
+/// is reported in the first of the paths that cut it out.
+#[salsa::tracked]
 fn part_problems_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Diagnostic> {
-    let (Some(settings), Some(found)) =
-        (&Settings::get(db).language(db).part, file_parts(db, instance.file(db)))
+    let (Some((findings, place)), Some(example)) =
+        (part_findings(db, instance), example_findings(db, instance.file(db)))
     else {
         return Vec::new();
     };
-    let cuts = path_cuts(db, instance);
-    let mut problems = cuts.map(|cuts| check_path(&found.parts, cuts, settings)).unwrap_or_default();
-    lower_to_warnings(db, &mut problems);
-    problems
+    let of_path = |(path, found): (usize, &'db Vec<Diagnostic>)| {
+        let is_new = move |problem: &&Diagnostic| path == place || !example.of_paths[path].contains(problem);
+        found.iter().filter(is_new)
+    };
+    findings.of_paths.iter().enumerate().flat_map(of_path).cloned().collect()
 }
 
 /// Returns the cuts of a path with its values. `None` if the path has errors, or if the settings name no layers with parts.
@@ -80,14 +113,12 @@ fn cuts_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Option<Pat
 
 /// Returns the parts that a path cuts, among those of its drawing.
 pub(super) fn parts_of<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<&'db Part> {
-    let file = instance.file(db);
-    let (Some(found), Some(findings)) = (file_parts(db, file), part_findings(db, file)) else {
+    let (Some(found), Some((findings, place))) =
+        (file_parts(db, instance.file(db)), part_findings(db, instance))
+    else {
         return Vec::new();
     };
-    let place = found.index_of_path(&instance.name(db).name(db));
-    place
-        .map(|place| findings.parts[place].iter().map(|part| &found.parts[*part]).collect())
-        .unwrap_or_default()
+    findings.parts[place].iter().map(|part| &found.parts[*part]).collect()
 }
 
 fn is_example<'db>(db: &'db dyn Db, instance: Instance<'db>) -> bool {
@@ -97,7 +128,7 @@ fn is_example<'db>(db: &'db dyn Db, instance: Instance<'db>) -> bool {
 
 /// Returns the outlines of a drawing's parts that no path comes near (PB220).
 pub fn uncut_rings(db: &dyn Db, file: SourceFile) -> Vec<&[Curve]> {
-    let (Some(found), Some(findings)) = (file_parts(db, file), part_findings(db, file)) else {
+    let (Some(found), Some(findings)) = (file_parts(db, file), example_findings(db, file)) else {
         return Vec::new();
     };
     let ring = |(part, ring): &(usize, usize)| Some(&*found.parts.get(*part)?.rings.get(*ring)?.curves);
@@ -106,7 +137,7 @@ pub fn uncut_rings(db: &dyn Db, file: SourceFile) -> Vec<&[Curve]> {
 
 /// Returns PB220 for each outline that no path comes near. The drawing is read again for the positions of the outlines.
 pub(super) fn uncut_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
-    let uncut = part_findings(db, file).map(|findings| findings.uncut.as_slice()).unwrap_or_default();
+    let uncut = example_findings(db, file).map(|findings| findings.uncut.as_slice()).unwrap_or_default();
     if uncut.is_empty() {
         return Vec::new();
     }

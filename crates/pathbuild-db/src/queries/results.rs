@@ -14,7 +14,7 @@ use crate::queries::closures::closure;
 use crate::queries::index::{bind, file_index};
 use crate::queries::keep_outs::entered_keep_outs;
 use crate::queries::neighbours::{harmed_neighbours, neighbour_findings};
-use crate::queries::part::{part_findings, uncut_outlines};
+use crate::queries::part::{example_findings, uncut_outlines};
 use crate::queries::programs::ClosurePaths;
 use crate::queries::raw::{locate_in, raw_file, read_layers};
 
@@ -36,7 +36,7 @@ pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
 
 /// Returns the findings about a file as a whole. Its paths are targets of their own.
 pub fn check_file(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
-    let has_uncut = part_findings(db, file).is_some_and(|findings| !findings.uncut.is_empty());
+    let has_uncut = example_findings(db, file).is_some_and(|findings| !findings.uncut.is_empty());
     if has_uncut { problems_with_outlines(db, file) } else { file_index(db, file).diagnostics() }
 }
 

@@ -372,6 +372,33 @@ fn neighbours_in_a_project_need_room_for_the_cutter() {
     }
 }
 
+/// The values of a project decide whether its component is cut through, and thus whether material is left and whether the part is loose. The
+/// component alone is checked with the first value only.
+#[test]
+fn components_are_checked_with_the_values_of_the_project() {
+    let found = |verb: &str, values: &str, value: &str| {
+        let component = component()
+            .replace("B0 D0.8 P3 U8 MX", &format!("B0 D0.8 P3 U8 MX :A{values}"))
+            .replace("bars 3,-12 27,-12", &format!("{verb} 3,-12 27,-12"))
+            .replace("bars to 27,12 3,12", &format!("{verb} to 27,12 3,12"))
+            .replace(" 3,-12\nsweep", &format!("\n{verb} to 3,-12 \"B=A\"\nsweep"));
+        let project = format!(
+            "layer 8001.1P\nstart -10,0 \"T2 O2 MX\"\nsweep -10,0 0,0\nsubpath 0,0 30,0 \">1234.1P :A{value}\"\nend 30,0\n"
+        );
+        let files = [("8001.1P.dxf", &*project), ("1234.1P.dxf", &*component)];
+        let found = PartTest::default().diagnostics(&files);
+        let codes = found.iter().map(|found| found.code().to_string());
+        codes.filter(|code| ["PB215", "PB217"].contains(&code.as_str())).collect::<Vec<_>>()
+    };
+    assert_eq!(found("bars", "0,0.5", "0"), [""; 0]);
+    assert_eq!(found("bars", "0,0.001", "0.001"), [""; 0], "just deep enough");
+    assert_eq!(found("bars", "0,0.002", "0.002"), ["PB215"], "just not");
+    assert_eq!(found("bars", "0,0.5", "0.5"), ["PB215"]);
+    assert_eq!(found("mill", "0.5,0", "0.5"), ["PB215", "PB215"], "of the project and of the component");
+    assert_eq!(found("mill", "0.5,0", "0"), ["PB217", "PB215"], "of the project, and of the component");
+    assert_eq!(found("mill", "0,0.5", "0.5"), ["PB215", "PB217"], "of the project, and of the component");
+}
+
 /// A path that only engraves leaves the outline to others. A path with a through cut anywhere should also cut through along the outline.
 #[test]
 fn only_paths_with_through_cuts_leave_material() {

@@ -89,19 +89,6 @@ pub fn check_parts(
     findings
 }
 
-/// Checks the cuts of one path against the parts of its drawing, for values of its variables other than those that
-/// [`check_parts`] was called with.
-pub fn check_path(parts: &[Part], path: &PathCuts, settings: &PartSettings) -> Vec<Diagnostic> {
-    let paths = [path];
-    let cuts = CutIndex::new(&paths);
-    let mut found = Vec::new();
-    for part in parts {
-        let part = PreparedPart::new(part);
-        found.extend(PartCheck::new(&part, &cuts, settings).gouge_findings().map(|(_, problem)| problem));
-    }
-    found
-}
-
 /// A part with the paths that cut it.
 struct PartCheck<'s> {
     part: &'s PreparedPart<'s>,

@@ -25,7 +25,7 @@ pub(crate) use boxes::{BoxIndex, square};
 pub(crate) use intervals::{Stretch, add_stretches_within, at as at_along, join_stretches};
 
 pub use bars::LostBar;
-pub use check::{PartFindings, check_parts, check_path};
+pub use check::{PartFindings, check_parts};
 pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar, THROUGH_HEIGHT};
 pub use gouge::gouging_moves;
 pub use leftover::LeftMaterial;
