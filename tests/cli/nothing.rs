@@ -214,7 +214,7 @@ fn a_link_that_leads_nowhere_is_not_called_misspelled() {
     let run = place.run("check --lang en");
     assert_eq!(found(&run), (Some(1), vec!["001"]), "{run}");
     assert!(
-        run.stderr.contains("the file that this link leads to") && !run.stderr.contains("did you mean"),
+        run.stderr.contains("the file that this link points to") && !run.stderr.contains("did you mean"),
         "{run}"
     );
     let missing = place.run("check 1236.1P.dxf --lang en");
