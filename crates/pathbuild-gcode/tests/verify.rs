@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use common::{fault_text, spelled_out};
 use pathbuild_diagnostic::{Diagnostic, Lang};
-use pathbuild_gcode::dialect::Dialect::{self, Fanuc, Haas, LinuxCnc, Native, Xpertmill};
+use pathbuild_gcode::dialect::Dialect::{self, Estlcam, Fanuc, Grbl, Haas, LinuxCnc, Native, Xpertmill};
 use pathbuild_gcode::interpret::{Heights, Interpretation, Options, interpret};
 use pathbuild_gcode::read::quote;
 use pathbuild_gcode::verify::{
@@ -374,6 +374,66 @@ fn a_stop_is_above_the_material() {
     }
     assert_eq!(behind_slot("T2\nM0\nG0 Z10"), ["7 tool-change-at-depth"]);
     assert_eq!(behind_slot("M0\nT2\nG0 Z10"), ["7 tool-change-at-depth"]);
+}
+
+/// Returns the findings, without those of other rules, about moves at unknown heights after `words`, which follow a cut with T1.
+fn after_cut(dialect: Dialect, words: &str) -> Vec<String> {
+    let text = format!(
+        "G17 G21 G90 G94\nT1\nG0 Z10\nG0 X0 Y0\nM3 S9000\nG1 Z-1 F100\nG0 Z10\nM5\n{words}\nG1 X9 F100\nG0 Z10\nM30\n"
+    );
+    let steps = interpret(text.as_bytes(), dialect, &Options::default()).steps;
+    let found = pathbuild_gcode::verify::verify(&steps, dialect, None, &mut |_| {});
+    found.iter().map(fault_text).filter(|found| found.ends_with("start-not-raised")).collect()
+}
+
+#[test]
+fn the_height_is_stated_after_a_tool_change_by_hand() {
+    let after = |words: &str| after_cut(Grbl, words);
+    let found = ["11 start-not-raised"];
+    assert_eq!(after("M0\nT2\nG0 X5 Y5\nG0 Z5"), found);
+    assert_eq!(after("M0\nT2\nG0 X0 Y0"), found, "the operator may have moved the axes");
+    assert_eq!(after("M0\nT2\nG0 Z10\nG0 X5 Y5"), FINE, "even a height that has not changed is stated");
+    assert_eq!(after("M0\nT2\nG91 G0 Z10\nG90\nG0 X5 Y5"), FINE);
+    assert_eq!(after("T2\nM0\nG0 X5 Y5"), found);
+    assert_eq!(after("M0\nG0 X5 Y5\nT2"), ["10 start-not-raised"], "T after the move");
+    assert_eq!(after("T2\nG0 Z20\nM0\nG0 X5"), ["12 start-not-raised"], "T before the retract");
+    assert_eq!(after("M0\nT2\nM3 S9000"), ["12 start-not-raised"], "a move at feed");
+    assert_eq!(after("M0\nT2\nG53 G0 X-5"), found);
+    assert_eq!(after("M0\nT2\nG53 G0 Z0\nG0 X5"), FINE);
+}
+
+#[test]
+fn a_stop_without_a_tool_change_leaves_the_height_known() {
+    let after = |words: &str| after_cut(Grbl, words);
+    assert_eq!(after("M0\nG0 X5 Y5"), FINE);
+    assert_eq!(after("M0\nT1\nG0 X5 Y5"), FINE, "the tool of the last cut");
+    assert_eq!(after("M1\nT2\nG0 X5 Y5"), FINE, "a switch at the machine decides whether it stops");
+    assert_eq!(after("M0\nG0 X5 Y5\nG0 Z-1\nG1 X7 F100\nT2"), FINE, "the tool has cut since the stop");
+}
+
+#[test]
+fn a_stop_before_a_new_zero_or_length_is_a_tool_change() {
+    let after = |words: &str| after_cut(LinuxCnc, words);
+    assert_eq!(after("M0\nG92 X0 Y0\nG0 X5 Y5"), ["11 start-not-raised"]);
+    assert_eq!(after("M0\nG92 Z0\nG0 X5 Y5"), FINE, "the zero states the height");
+    assert_eq!(after("G43 H1\nM0\nG43 H1\nG0 X5 Y5"), FINE, "the same length");
+    assert_eq!(after("G43 H1\nM0\nG43 H2\nG0 X5 Y5"), ["12 start-not-raised"]);
+    assert_eq!(after("G43 H1\nM0\nG49\nG0 X5 Y5"), FINE);
+}
+
+#[test]
+fn m6_beside_a_stop_is_a_tool_change_by_hand() {
+    let after = after_cut;
+    for words in ["M0\nT2 M6\nG0 X5. Y5.", "T2 M6\nM0\nG0 X5. Y5."] {
+        assert_eq!(after(LinuxCnc, words), ["11 start-not-raised"]);
+        assert_eq!(after(Fanuc, words), FINE, "a changer raises the tool");
+        assert_eq!(after(LinuxCnc, &format!("G53 G0 Z0\n{words}")), FINE, "raised to a machine position");
+    }
+    assert_eq!(after(LinuxCnc, "T2 M6\nG43 H2\nM0\nG0 X5 Y5"), FINE, "the tool has its length");
+    assert_eq!(after(LinuxCnc, "T2 M6\nG0 X5 Y5"), FINE);
+    assert_eq!(after(Estlcam, "T2 M6\nG0 X5 Y5"), ["10 start-not-raised"], "the operator changes the tool");
+    assert_eq!(after(LinuxCnc, "T2 M6\nG0 Z5\nM0\nG0 X5 Y5"), FINE, "a stop to look at the new tool");
+    assert_eq!(after(LinuxCnc, "T1 M6\nG0 Z10\nG1 X1 F100\nT2\nM0\nG0 X5"), FINE, "T prepares the next M6");
 }
 
 /// Returns the findings about a program in LinuxCNC's dialect, on material up to Z 0 with a cutter of 2 mm, and the number of rapid moves from

@@ -16,12 +16,14 @@ pub struct Step {
     pub action: Action,
     /// The axes for which the program has stated a position since the last tool change. The machine may have moved the other axes during the change.
     pub stated: Axes,
+    /// The axes for which the program has stated a position since the last tool change or stop, at which the operator may have moved the axes.
+    pub stated_since_stop: Axes,
 }
 
 impl Step {
-    /// Creates a move in a program without tool changes.
+    /// Creates a move in a program without tool changes and stops.
     pub fn of_move(line: u32, movement: Move) -> Self {
-        Self { line, action: Action::Move(movement), stated: Axes::ALL }
+        Self { line, action: Action::Move(movement), stated: Axes::ALL, stated_since_stop: Axes::ALL }
     }
 
     /// Returns the line and the move, if the step is a move.

@@ -72,6 +72,9 @@ pub(super) fn check(
         // The text's words may mean something other than the spindle, or the operator switches the spindle and the final M5 is only for safety.
         broken.retain(|problem| !is_rule_of_spindle(problem));
     }
+    if *is_flat || target.is_none() && tolerance.is_none() {
+        broken.retain(|problem| problem.message != &gcode::CHANGE_NOT_RAISED);
+    }
     doubts.extend(work_offset_warnings(&read.steps));
     if let Some(tolerance) = tolerance {
         let mut wanted = moves(job).map_err(|error| vec![*error])?;
@@ -84,8 +87,6 @@ pub(super) fn check(
         }
         match traverse::check(&found, &wanted, clearance, tolerance) {
             Ok(cuts) => {
-                let is_spinning_told =
-                    broken.iter().any(|problem| problem.message == &gcode::SPINNING_AT_CHANGE);
                 let tools = tools::check(
                     &read.steps,
                     job,
@@ -94,8 +95,11 @@ pub(super) fn check(
                     *is_manual,
                     *is_flat,
                 );
-                let is_told =
-                    |problem: &Diagnostic| is_spinning_told && problem.message == &gcode::SPINNING_AT_CHANGE;
+                let of_changes = [&gcode::SPINNING_AT_CHANGE, &gcode::CHANGE_NOT_RAISED];
+                let is_told = |problem: &Diagnostic| {
+                    of_changes.contains(&problem.message)
+                        && broken.iter().any(|told| told.message == problem.message)
+                };
                 problems
                     .extend(tools.into_iter().filter(|problem| !is_told(problem)).map(as_finding_of_post));
                 problems
@@ -293,7 +297,12 @@ fn broken_rules(
     for mut problem in found {
         // Programs that were not written by pathbuild only get a warning for these problems; a program that is about to be written must
         // not have them.
-        let unwanted = [&gcode::SPINDLE_LEFT_ON, &gcode::SPINDLE_WITHOUT_SPEED, &gcode::SPINNING_AT_CHANGE];
+        let unwanted = [
+            &gcode::SPINDLE_LEFT_ON,
+            &gcode::SPINDLE_WITHOUT_SPEED,
+            &gcode::SPINNING_AT_CHANGE,
+            &gcode::CHANGE_NOT_RAISED,
+        ];
         if unwanted.contains(&problem.message) {
             problem.severity = Severity::Error;
         }

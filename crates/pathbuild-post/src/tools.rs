@@ -4,7 +4,7 @@
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Message};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::verify::{LengthFit, ToolState};
+use pathbuild_gcode::verify::{LengthFit, TipHeight, ToolState};
 use pathbuild_motion::{Action, Change, Move, Pace, Step, ToolLength, Turning};
 
 use crate::job::{Job, JobStep, Operation};
@@ -50,6 +50,7 @@ struct Checker<'j> {
     tools: ToolState,
     words: ToolWords,
     is_manual: bool,
+    is_flat: bool,
     /// Height in mm above which cuts are moves in the air.
     surface: f64,
     /// Number of the tool that made the last cut.
@@ -58,6 +59,9 @@ struct Checker<'j> {
     has_stopped: bool,
     /// Line of a stop since the last cut at which the spindle was turning.
     spinning: Option<u32>,
+    tip_height: TipHeight,
+    /// Line of the first move in the plane since the last cut that follows a stop, with no height stated between them.
+    moved_low: Option<u32>,
     /// For each step of the job that is a stop, whether the spindle may turn there.
     stops: Vec<Option<bool>>,
     /// Number of the job's steps before the last cut.
@@ -124,10 +128,13 @@ impl<'j> Checker<'j> {
             tools: ToolState::new(target.unwrap_or(Dialect::LinuxCnc)),
             words: ToolWords::new(steps, target),
             is_manual,
+            is_flat,
             surface: surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY),
             last: None,
             has_stopped: false,
             spinning: None,
+            tip_height: TipHeight::new(target.unwrap_or(Dialect::LinuxCnc)),
+            moved_low: None,
             stops: stops(job),
             reached: 0,
             turning_stops: Vec::new(),
@@ -136,6 +143,8 @@ impl<'j> Checker<'j> {
     }
 
     fn step(&mut self, step: &Step) {
+        self.moved_low = self.moved_low.or(self.tip_height.moved_since_stop());
+        self.tip_height.step(step);
         self.tools.step(step);
         if matches!(step.action, Action::Stop { .. }) {
             // The tool is changed at M6, or in a text without M6 at the first stop. Later stops are pauses.
@@ -175,7 +184,7 @@ impl<'j> Checker<'j> {
             self.last = Some(tool);
         }
         self.check_spindle(line, operation);
-        (self.has_stopped, self.spinning) = (false, None);
+        (self.has_stopped, self.spinning, self.moved_low) = (false, None, None);
     }
 
     fn report(
@@ -193,6 +202,10 @@ impl<'j> Checker<'j> {
         let is_changed = self.last.is_some_and(|last| last != expected);
         if let Some(stop) = self.spinning.filter(|_| is_changed) {
             self.report(&gcode::SPINNING_AT_CHANGE, stop, |d| d);
+        }
+        let is_by_hand = is_changed && !self.words.has_change && !self.is_flat;
+        if let Some(line) = self.moved_low.filter(|_| is_by_hand) {
+            self.report(&gcode::CHANGE_NOT_RAISED, line, |d| d);
         }
         let first = self.words.has_layers.then_some(1);
         let selected = self.tools.selected().filter(|_| !self.words.has_change);

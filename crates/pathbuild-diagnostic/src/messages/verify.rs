@@ -428,6 +428,13 @@ messages! {
         help_en: "begin with G0 Z above the material",
         help_de: "mit G0 Z über dem Material beginnen",
     }
+    /// A program that moves in the plane after a tool change by hand before it raises the cutter.
+    CHANGE_NOT_RAISED: StartNotRaised {
+        en: "the program moves in the plane after a stop for a tool change or a new zero before it states a height: only the controller knows how high the cutter is",
+        de: "das Programm fährt nach einem Halt für Werkzeugwechsel oder Nullpunkt in der Ebene, bevor es eine Höhe nennt: nur die Steuerung weiß, wie hoch der Fräser steht",
+        help_en: "raise the cutter with G0 Z before X and Y; the definition of a post-processor does so at the end of its ToolChange",
+        help_de: "den Fräser mit G0 Z anheben, bevor X und Y kommen; die Definition eines Postprozessors tut das am Ende ihres ToolChange",
+    }
     /// A program that also changes the height in its first move in the plane.
     START_ASLANT: StartNotRaised {
         en: "the first move in the plane also changes the height, which is unknown before it: on its way, the cutter may hit material or clamps",

@@ -15,7 +15,7 @@ pub use comment::{Charset, ascii, is_active_comment, within_comment};
 pub use rules::{
     ArcRules, Blanks, DwellRules, DwellUnit, FeedMode, Grammar, LengthRules, LineLength, MCodeLimit,
     MCodeOrder, NotationSupport, Operators, Percent, RadiusTolerance, Rules, Slash, Spelling, StartMotion,
-    SystemNumbers, UnitChange,
+    SystemNumbers, ToolChanger, UnitChange,
 };
 
 macro_rules! dialects {

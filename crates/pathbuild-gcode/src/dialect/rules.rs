@@ -51,8 +51,8 @@ pub struct Rules {
     pub straight_rapids: bool,
     /// When the M codes for the spindle and the coolant take effect: before or after the move in their line.
     pub m_order: MCodeOrder,
-    /// Whether M6 uses a tool changer, which raises the tool above everything. On other controls, the operator may change the tool where it is.
-    pub has_changer: bool,
+    /// Who changes the tool at M6.
+    pub changer: ToolChanger,
     /// Whether rapid moves use the feed F, as all other moves do.
     pub rapids_at_feed: bool,
     /// Whether `O1234` at the beginning of a file is the program number.
@@ -117,6 +117,17 @@ pub enum UnitChange {
     Unknown,
     /// The control refuses any other unit than the one that it is set to.
     Refused,
+}
+
+/// Who changes the tool at M6.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToolChanger {
+    /// The machine, which raises the tool above everything.
+    Machine,
+    /// The operator, who may set the zero as well.
+    Operator,
+    /// One or the other: the operator may change the tool where it is.
+    Either,
 }
 
 /// Rules for the tool length that a control retains from earlier lines and programs.
@@ -297,7 +308,7 @@ const BASE: Rules = Rules {
     absolute_machine_coordinates: false,
     straight_rapids: true,
     m_order: MCodeOrder::First,
-    has_changer: false,
+    changer: ToolChanger::Either,
     rapids_at_feed: false,
     program_numbers: false,
     least_increments: false,
@@ -500,7 +511,7 @@ pub(super) static FANUC: Rules = Rules {
     m_limit: MCodeLimit::OneOnSome,
     // Parameter 1401#1 (LRP) is 0 by default: positioning is not linear.
     straight_rapids: false,
-    has_changer: true,
+    changer: ToolChanger::Machine,
     ..ISO
 };
 
@@ -523,7 +534,7 @@ pub(super) static HAAS: Rules = Rules {
     systems: Some(SystemNumbers { code: 1540, regular: 0, most: 99 }),
     // Haas Mill Operator's Manual, G00: "Generally, rapid motion will not be in a single straight line."
     straight_rapids: false,
-    has_changer: true,
+    changer: ToolChanger::Machine,
     ..ISO
 };
 
@@ -571,6 +582,7 @@ pub(super) static ESTLCAM: Rules = Rules {
     start_motion: StartMotion::None,
     motion_is_stated: true,
     one_word_each: true,
+    changer: ToolChanger::Operator,
     ..BASE
 };
 

@@ -104,7 +104,8 @@ impl<'i> Interpreter<'i> {
     }
 
     pub(super) fn step(&mut self, block: &Block<'_>, action: Action) {
-        self.out.push(Step { line: block.line, action, stated: self.state.stated_axes });
+        let (stated, stated_since_stop) = (self.state.stated_axes, self.state.stated_since_stop);
+        self.out.push(Step { line: block.line, action, stated, stated_since_stop });
     }
 
     pub(super) fn emit_move(&mut self, block: &Block<'_>, movement: Move) {

@@ -22,6 +22,7 @@ mod modes;
 mod rapids;
 mod rules;
 mod stated_statistics;
+mod tip_height;
 mod tool_state;
 mod words;
 
@@ -46,6 +47,7 @@ pub use modes::foreign_modes;
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;
 pub use stated_statistics::StatedStatistics;
+pub use tip_height::TipHeight;
 pub use tool_state::{LengthFit, ToolState};
 pub use words::{PostWords, WordRules};
 

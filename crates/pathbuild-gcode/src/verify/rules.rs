@@ -10,6 +10,7 @@ use pathbuild_motion::{
 
 use super::frames::Frames;
 use super::material::Stock;
+use super::tip_height::TipHeight;
 use crate::dialect::Dialect;
 use crate::interpret::{Options, code_name, interpret_each};
 use crate::read::{BlockReader, Problems, Value, Word};
@@ -26,10 +27,7 @@ pub struct Rules<'c> {
     at: Position,
     /// The last line with a move.
     line: u32,
-    /// Whether M6 raises the tool above everything.
-    has_changer: bool,
-    /// Whether the height has been known at some point, or has been reported as unknown.
-    is_raised: bool,
+    tip_height: TipHeight,
     spindle: Spindle,
     /// The line of the first cut before any spindle word.
     cut_before_spindle: Option<u32>,
@@ -74,8 +72,7 @@ impl<'c> Rules<'c> {
             problems: Problems::default(),
             at: Position::default(),
             line: 0,
-            has_changer: false,
-            is_raised: false,
+            tip_height: TipHeight::new(Dialect::Rs274),
             spindle: Spindle::UNSTATED,
             cut_before_spindle: None,
             spindle_said: false,
@@ -97,7 +94,7 @@ impl<'c> Rules<'c> {
 
     /// Adapts the rules to the dialect of the program.
     pub fn in_dialect(mut self, dialect: Dialect) -> Self {
-        self.has_changer = dialect.rules().has_changer;
+        self.tip_height = TipHeight::new(dialect);
         self
     }
 
@@ -105,6 +102,9 @@ impl<'c> Rules<'c> {
     pub fn step(&mut self, step: &Step) {
         let line = step.line;
         self.changes_frame |= self.frames.step(step);
+        if let Some((line, message)) = self.tip_height.step(step) {
+            self.problems.add_at_line(message, line, |d| d);
+        }
         match &step.action {
             Action::Move(movement) => self.check_move(line, movement),
             Action::Spindle(spindle) => self.check_spindle_switch(line, *spindle),
@@ -112,10 +112,7 @@ impl<'c> Rules<'c> {
                 self.shifted = are_shifted.then_some((line, *code, self.has_cut));
             }
             Action::End => self.spindle.turning = Turning::Unstated,
-            Action::ChangeTool(_) => {
-                self.is_raised |= self.has_changer;
-                self.check_tool_change(line);
-            }
+            Action::ChangeTool(_) => self.check_tool_change(line),
             Action::SelectTool(_) => {
                 self.by_hand.is_selected = true;
                 self.check_change_by_hand(line);
@@ -144,7 +141,6 @@ impl<'c> Rules<'c> {
         self.line = line;
         self.by_hand = ChangeByHand::default();
         self.report_stop();
-        self.check_first_move(line, movement);
         self.check_diagonal(line, movement);
         self.check_home_move(line, movement);
         self.leave_frame(line, movement);
@@ -204,22 +200,6 @@ impl<'c> Rules<'c> {
     fn surface_above(&self, line: u32, z: f64) -> Option<f64> {
         let surface = self.stock?.at(line)?.surface;
         (z < surface - HEIGHT_TOLERANCE).then_some(surface)
-    }
-
-    /// Checks that the tool is raised before the first move in the plane. A move to a machine position that does not change X or Y, such as
-    /// `G53 Z0` or `G28 Z0`, is assumed to raise it, although the height is unknown.
-    fn check_first_move(&mut self, line: u32, movement: &Move) {
-        if self.is_raised {
-            return;
-        }
-        // A move to a machine position in the plane alone does not determine the height.
-        let homed = movement.named.filter(|_| !movement.homes_z()).map_or(Axes::NONE, NamedPosition::axes);
-        self.is_raised = movement.to.known.has(Axes::Z) || (movement.homes_z() && movement.keeps_xy());
-        let moves_in_plane = !movement.to.known.and(Axes::XY).is_empty() || !homed.and(Axes::XY).is_empty();
-        if moves_in_plane && !self.is_raised {
-            self.is_raised = true;
-            self.problems.add_at_line(&say::START_NOT_RAISED, line, |d| d);
-        }
     }
 
     fn check_diagonal(&mut self, line: u32, movement: &Move) {

@@ -65,14 +65,14 @@ fn each_cut_has_its_own_tool() {
         "the output has not changed to T1, with which the program makes this cut"
     );
     // Without M6, T alone changes the tool.
-    assert_eq!(changed("T{$tool.index} M6", "T{$tool.index}\nM0"), FINE);
+    assert_eq!(changed("T{$tool.index} M6", "T{$tool.index}\nM0\n{$set(z,NaN)}"), FINE);
     let alone = changed("T{$tool.index} M6", "T{$tool.index}");
     assert!(alone[0].starts_with("T alone does not change the tool"), "{alone:?}");
     let turret = RIGHT.replace("linuxcnc", "fanuc").replace("T{$tool.index} M6", "T{$tool.index}");
     assert_eq!(wrong(&turret, &two_tools()), FINE, "a control may change the tool at T");
     // Without any T, the program must stop for the operator.
     let by_hand = |change: &str| changed("T{$tool.index} M6\nG43 H{$tool.index}", change);
-    assert_eq!(by_hand("M0"), FINE);
+    assert_eq!(by_hand("M0\n{$set(z,NaN)}"), FINE);
     assert_eq!(by_hand("")[0], "the output has not changed to T2, with which the program makes this cut");
 }
 
@@ -99,10 +99,10 @@ fn each_cut_has_the_speed_of_its_tool() {
 #[test]
 fn the_spindle_stands_where_the_operator_changes_the_tool() {
     let by_hand = |change: &str| changed("M5\nT{$tool.index} M6\nG43 H{$tool.index}", change);
-    assert_eq!(by_hand("M5\nM0"), FINE);
+    assert_eq!(by_hand("M5\nM0\n{$set(z,NaN)}"), FINE);
     let spinning = "the spindle still turns where the program stops for the tool change";
-    assert_eq!(by_hand("M0"), [spinning]);
-    assert!(by_hand("T{$tool.index}\nM0")[0].contains(spinning));
+    assert_eq!(by_hand("M0\n{$set(z,NaN)}"), [spinning]);
+    assert!(by_hand("T{$tool.index}\nM0\n{$set(z,NaN)}")[0].contains(spinning));
     // A tool changer stops the spindle itself.
     assert_eq!(changed("M5\nT{$tool.index} M6", "T{$tool.index} M6"), FINE);
     assert_eq!(changed("{$blocks}", "M0\n{$blocks}"), FINE, "a pause after the change");
@@ -110,4 +110,16 @@ fn the_spindle_stands_where_the_operator_changes_the_tool() {
     let mut job = two_tools();
     job.operations[1].tool = job.operations[0].tool.clone();
     assert_eq!(wrong(&RIGHT.replace("{$blocks}", "M0\n{$blocks}"), &job), FINE);
+}
+
+#[test]
+fn the_height_is_stated_after_a_tool_change_by_hand() {
+    let by_hand = |change: &str| changed("T{$tool.index} M6\nG43 H{$tool.index}", change);
+    let unstated = "the program moves in the plane after a stop for a tool change or a new zero";
+    // Without any T, only the program knows that the tool changes.
+    for stop in ["M0", "T{$tool.index}\nM0", "M0\nT{$tool.index}"] {
+        assert_eq!(by_hand(&format!("{stop}\n{{$set(z,NaN)}}")), FINE, "{stop}");
+        let found = by_hand(stop);
+        assert!(!found.is_empty() && found.iter().all(|found| found.contains(unstated)), "{stop}: {found:?}");
+    }
 }
