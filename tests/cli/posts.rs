@@ -265,6 +265,19 @@ fn macros_of_the_configuration_win_over_the_posts() {
 }
 
 #[test]
+fn emit_says_what_verify_says_of_the_written_program() {
+    for (z, is_low) in [("-10", false), ("-10.1", true)] {
+        let park = format!("[macros]\npark = \"G53 G0 Z{z}\"\n[tool.2mm]");
+        let place = Place::of(&LIBRARY.replacen("[tool.2mm]", &park, 1));
+        let emitted = place.run("emit 1300.1P 1234.1P --join both --post grbl --format concise");
+        let verified = place.run("verify both_Milling.gcode --dialect grbl --format concise");
+        for run in [emitted, verified] {
+            assert_eq!((run.status, run.stderr.contains("PB729")), (Some(0), is_low), "{z}: {run}");
+        }
+    }
+}
+
+#[test]
 fn no_program_moves_in_the_plane_at_the_height_of_a_tool_change_by_hand() {
     let grbl = library("").run("post show grbl").stdout;
     let height = "\n{$set(x,NaN)}{$set(y,NaN)}{$set(z,NaN)}\n{$clearance}</ToolChange>";

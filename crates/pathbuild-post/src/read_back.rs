@@ -7,6 +7,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options};
 use pathbuild_gcode::verify::{
     BentRapidRules, CornerRules, Cutter, Machine, MachineRules, Rules, Stock, StockSpan, Tolerance,
+    coarse_arc_finding,
 };
 use pathbuild_motion::{
     Action, Axes, Change, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, WorkSystem,
@@ -127,7 +128,8 @@ pub(super) fn check(
         let shortest = tolerance.place.max(DWELL_TOLERANCE);
         problems.extend(dwells::check(&read.steps, *translated, job, shortest).map(as_finding_of_post));
         if target.is_some() {
-            doubts.extend(read.problems.into_iter().filter(is_of_modes));
+            doubts.extend(coarse_arc_finding(text, reader));
+            doubts.extend(read.problems);
         }
     }
     problems.extend(broken);
@@ -178,12 +180,6 @@ fn begins_with_slash(line: &[u8]) -> bool {
 
 /// Permitted deviation of dwells in seconds: half a millisecond and a margin for rounding.
 const DWELL_TOLERANCE: f64 = 0.000_501;
-
-/// Whether a problem is that the text does not state its unit, its distance mode or its plane, so that the control keeps those of the
-/// previous program.
-fn is_of_modes(problem: &Diagnostic) -> bool {
-    [&gcode::UNITS_NOT_STATED, &gcode::MODES_NOT_STATED].contains(&problem.message)
-}
 
 /// Returns errors about the rapid moves of a text that lead through material because the control does not move in a straight line. These moves are
 /// examined only if all cutters and the surface are known.
@@ -281,6 +277,9 @@ fn broken_rules(
 ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let stock = job.lowest_surface().map(|surface| Stock::uniform(surface, 1.0));
     let mut rules = Rules::new(stock.as_ref());
+    if let Some(target) = expected.target {
+        rules = rules.in_dialect(target.reader);
+    }
     let mut limits = expected.machine.map(MachineRules::new);
     let mut corners = CornerRules::new(expected.part_tolerance);
     for step in steps {
@@ -290,9 +289,13 @@ fn broken_rules(
         rules.step(step);
         corners.step(step);
     }
+    // Warnings about the machine's limits are given for the program that the post writes.
     let mut found = limits.map(MachineRules::finish).unwrap_or_default();
+    found.retain(Diagnostic::is_error);
     found.extend(rules.finish());
     found.sort_by_key(|problem| problem.place.line);
+    // A beam has no height. If the dialect is unknown and the user takes responsibility for the moves, words may mean anything.
+    let is_followed = !expected.is_flat && (expected.target.is_some() || expected.tolerance.is_some());
     let (mut broken, mut doubts) = (Vec::new(), Vec::from_iter(corners.finish()));
     for mut problem in found {
         // Programs that were not written by pathbuild only get a warning for these problems; a program that is about to be written must
@@ -306,10 +309,10 @@ fn broken_rules(
         if unwanted.contains(&problem.message) {
             problem.severity = Severity::Error;
         }
-        match problem {
-            problem if problem.is_error() => broken.push(problem),
-            problem if problem.message == &gcode::OFFSET_LEFT_ON => doubts.push(problem),
-            _ => {}
+        if problem.is_error() {
+            broken.push(problem);
+        } else if is_followed || problem.message == &gcode::OFFSET_LEFT_ON {
+            doubts.push(problem);
         }
     }
     (broken, doubts)

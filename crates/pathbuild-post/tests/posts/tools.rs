@@ -113,6 +113,20 @@ fn the_spindle_stands_where_the_operator_changes_the_tool() {
 }
 
 #[test]
+fn what_verify_warns_of_is_a_warning_about_the_output() {
+    let warnings = |head: &str| {
+        let written = read(&definition(&RIGHT.replace("{$mops}", &format!("{head}\n{{$mops}}")))).unwrap();
+        let output = written.write(&two_tools(), &PostOptions::default());
+        let warnings = output.unwrap_or_else(|errors| panic!("{head}: {errors:?}")).warnings;
+        warnings.iter().map(|warning| warning.code().to_string()).collect::<Vec<_>>()
+    };
+    assert_eq!(warnings("M7"), FINE);
+    assert_eq!(warnings("/M7"), ["PB711"], "a warning of the reader");
+    assert_eq!(warnings("G53 G0 Z0\nG53 G0 X-9 Y0"), FINE);
+    assert_eq!(warnings("G53 G0 X-9 Y0"), ["PB742"], "a rule about the effects of words");
+}
+
+#[test]
 fn the_height_is_stated_after_a_tool_change_by_hand() {
     let by_hand = |change: &str| changed("T{$tool.index} M6\nG43 H{$tool.index}", change);
     let unstated = "the program moves in the plane after a stop for a tool change or a new zero";
