@@ -503,6 +503,16 @@ fn what_any_post_wrote_is_what_the_drawing_says() {
 }
 
 #[test]
+fn a_configured_post_of_another_dialect_has_not_written_the_program() {
+    for post in ["grbl", "linuxcnc"] {
+        let place = Place::of(&LIBRARY.replacen("library", &format!("post = \"{post}\"\nlibrary"), 1));
+        assert_eq!(place.run("emit 1234.1P --post grbl --out-dir out").status, Some(0));
+        let verified = place.run("verify out/1234_Milling.gcode --dialect grbl");
+        assert!(verified.stderr.contains("errors: 0, warnings: 0"), "{post}: {verified}");
+    }
+}
+
+#[test]
 fn verify_against_finds_what_moves_the_machine_and_not_the_program() {
     let place = Place::of(LIBRARY);
     assert_eq!(place.run("emit 1234.1P --post grbl --out-dir out").status, Some(0));

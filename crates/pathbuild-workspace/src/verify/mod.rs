@@ -613,7 +613,12 @@ impl PossiblePosts {
         };
         let named = options.post.as_deref().map(|name| post(Some(name))).transpose()?.flatten();
         // Ignore a configured post that is broken: `emit` reports that.
-        let configured = if named.is_some() { None } else { post(None).ok().flatten() };
+        let configured = || {
+            let own = PostProcessor::for_run(workspace, None, PostArguments::default()).ok().flatten()?;
+            // A post that names its dialect has not written programs of another one.
+            if own.reader().is_some() { Some(own) } else { post(None).ok().flatten() }
+        };
+        let configured = if named.is_some() { None } else { configured() };
         Ok(Self { named, configured, dialect })
     }
 
