@@ -275,7 +275,9 @@ impl Library {
                 watch::WatchEnd::Over => Ok(WatchEnd::Stopped),
                 watch::WatchEnd::ConfigurationChanged => Ok(WatchEnd::ConfigurationChanged),
                 watch::WatchEnd::DirectoriesChanged => Ok(WatchEnd::DirectoriesChanged),
-                watch::WatchEnd::BadPost(found) => Err(Error::from_findings(workspace, found)),
+                watch::WatchEnd::BadPost(found) | watch::WatchEnd::BadBaseline(found) => {
+                    Err(Error::from_findings(workspace, found))
+                }
                 watch::WatchEnd::CannotWatch(reason) => Err(Error::Refused(reason)),
                 watch::WatchEnd::NothingNamed | watch::WatchEnd::NoTargets => {
                     let [en, de] = ["there is nothing to watch", "es gibt nichts zu überwachen"];

@@ -11,7 +11,7 @@ use pathbuild_workspace::{SilentReporter, Workspace};
 
 use crate::Finding;
 
-/// The findings after changes of some files; the first report covers the whole library.
+/// The findings after changes of some files; the first report covers the whole library. Findings that the baseline accepts are among them.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct WatchReport {
@@ -31,7 +31,7 @@ pub struct WatchReport {
 pub enum WatchEnd {
     /// The caller stopped watching.
     Stopped,
-    /// The configuration, or a file of the post-processor, has changed, so the library must be opened again.
+    /// The configuration, a file of the post-processor or the baseline has changed, so the library must be opened again.
     ConfigurationChanged,
     /// A watched directory was replaced, or has appeared or disappeared, so [`watch`](crate::Library::watch) must be called again.
     DirectoriesChanged,

@@ -219,7 +219,7 @@ impl Baseline {
 impl Workspace {
     /// Returns the path of the baseline file: `named` if given; otherwise it lies beside the configuration or, without a configuration, in the
     /// working directory.
-    pub(crate) fn baseline_file(&self, named: Option<&Utf8Path>) -> Utf8PathBuf {
+    pub fn baseline_file(&self, named: Option<&Utf8Path>) -> Utf8PathBuf {
         match named {
             Some(file) => self.working_directory.join(file),
             None => self.settings.directory().unwrap_or(&self.working_directory).join(FILE_NAME),
@@ -233,23 +233,43 @@ impl Workspace {
     /// If the baseline cannot be read or has faulty lines.
     pub(crate) fn apply_baseline(
         &self,
-        mut findings: Findings,
+        findings: Findings,
         baseline: Option<&Utf8Path>,
         coverage: impl FnOnce() -> Coverage,
     ) -> Result<Findings, Vec<Diagnostic>> {
-        let file = self.baseline_file(baseline);
-        let has_baseline = baseline.is_some() || self.system.kind(&file) == FileKind::File;
-        if !has_baseline && !self.has_waivers() {
-            return Ok(findings);
+        let baseline = self.read_baseline(baseline)?;
+        Ok(self.without_accepted(findings, baseline.as_ref(), coverage))
+    }
+
+    /// Reads the named baseline, or the default one if it exists.
+    ///
+    /// # Errors
+    /// If the baseline cannot be read or has faulty lines.
+    pub(crate) fn read_baseline(
+        &self,
+        named: Option<&Utf8Path>,
+    ) -> Result<Option<Baseline>, Vec<Diagnostic>> {
+        let file = self.baseline_file(named);
+        if named.is_none() && self.system.kind(&file) != FileKind::File {
+            return Ok(None);
+        }
+        let (baseline, faults) = Baseline::read(&*self.system, &file, self.settings.limits.file_size.value)?;
+        if faults.is_empty() { Ok(Some(baseline)) } else { Err(faults) }
+    }
+
+    /// Moves the findings that a baseline accepts to the waived findings. Adds warnings about waivers that no longer match any finding.
+    pub(crate) fn without_accepted(
+        &self,
+        mut findings: Findings,
+        baseline: Option<&Baseline>,
+        coverage: impl FnOnce() -> Coverage,
+    ) -> Findings {
+        if baseline.is_none() && !self.has_waivers() {
+            return findings;
         }
         let coverage = coverage();
         let mut unused = self.unused_waivers(&findings, &coverage);
-        if has_baseline {
-            let (baseline, faults) =
-                Baseline::read(&*self.system, &file, self.settings.limits.file_size.value)?;
-            if !faults.is_empty() {
-                return Err(faults);
-            }
+        if let Some(baseline) = baseline {
             unused.extend(baseline.unused(&findings.diagnostics, &Run::new(self, &coverage)));
             findings = baseline.apply(findings, self.settings.date, &self.working_directory);
             let has_end = findings.waived.iter().any(|waived| waived.waiver.until.is_some());
@@ -259,7 +279,7 @@ impl Workspace {
             findings.diagnostics.extend(self.findings(unused).diagnostics);
             findings.diagnostics = Findings::new(findings.diagnostics).diagnostics;
         }
-        Ok(findings)
+        findings
     }
 }
 

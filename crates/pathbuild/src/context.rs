@@ -157,6 +157,14 @@ impl Context {
         }
     }
 
+    /// Shows findings that are fixed as lines of JSON, if that is the format.
+    pub(crate) fn show_fixed(&self, fixed: &[Diagnostic]) {
+        if self.format == Format::Json {
+            let lines = lines::fixed(fixed, &self.machine_view());
+            self.printer.diagnostics(self.output.stream, &lines);
+        }
+    }
+
     /// Returns the name of a file in the machine-readable document, relative to the repository's root.
     pub(crate) fn file(&self, file: &Utf8Path) -> String {
         self.machine_view().raw_name(file).into_owned()

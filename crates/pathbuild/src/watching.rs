@@ -69,8 +69,8 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
             }
             Ok(_) => {
                 context.printer.status(context.choose(
-                    "the configuration or its post-processor is missing or invalid: nothing is checked until this is fixed",
-                    "die Konfiguration oder ihr Postprozessor fehlt oder ist fehlerhaft: es wird erst weiter geprüft, wenn das behoben ist",
+                    "the configuration, its post-processor or its baseline is missing or invalid: nothing is checked until this is fixed",
+                    "die Konfiguration, ihr Postprozessor oder ihre Baseline fehlt oder ist fehlerhaft: es wird erst weiter geprüft, wenn das behoben ist",
                 ));
                 while Sources::of(&Context::of(cli).0) == sources {
                     if server.as_ref().is_some_and(Server::is_over) {
@@ -141,7 +141,8 @@ impl Sources {
             let bytes = context.system.read(&file, limit).ok();
             (file, bytes)
         };
-        let files = settings.file.clone().into_iter().chain([post]).chain(user_configuration());
+        let baseline = context.baseline_file(None);
+        let files = settings.file.clone().into_iter().chain([post, baseline]).chain(user_configuration());
         Self(files.map(read).collect())
     }
 }

@@ -8,6 +8,7 @@ mod replaced;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
+use std::io::{BufRead, BufReader};
 #[cfg(target_os = "linux")]
 use std::os::unix::fs::PermissionsExt;
 use std::process::{Child, Command, Stdio};
@@ -15,6 +16,7 @@ use std::time::Duration;
 
 use crate::support::{Place, StderrLines, program};
 use pathbuild_testkit::sheet;
+use serde_json::{Value, json};
 
 const CONFIGURATION: &str = "spindle = \"manual\"\nfeed = 150\nrapid = 1000\nsweep-height = 20\nlibrary = [\"library\"]\nsearch = [\"library/parts\"]\n\n[emit]\ntargets = [\"8*\"]\n";
 
@@ -299,6 +301,76 @@ fn another_configuration_begins_anew() {
     assert!(said.iter().any(|line| line.contains("PB507")), "{said:#?}");
 }
 
+/// Findings that the baseline accepts are counted, as by `check`. A baseline that changes, disappears or is faulty is noticed.
+#[test]
+fn the_baseline_applies_while_watching() {
+    let place = library().file("library/projects/8003.dxf", dxf("8003.1P", 4, &["1001.1P"]));
+    let accepted = place.run("check --baseline pathbuild-baseline.txt --update-baseline");
+    assert_eq!(accepted.status, Some(0), "{accepted}");
+    let baseline = place.read("pathbuild-baseline.txt");
+    let watch = Watch::begin(&place, "watch --format concise");
+    let said = &watch.beginning;
+    assert!(said.last().unwrap().contains(": 0 errors, 0 warnings, 1 known ("), "{said:#?}");
+    assert!(!said.iter().any(|line| line.contains("PB506")), "{said:#?}");
+
+    watch.write("library/projects/8004.dxf", dxf("8004.1P", 4, &["1001.1P"]));
+    let said = watch.until("8004.dxf: changed");
+    assert!(said.last().unwrap().contains(" 1 new finding, 0 fixed"), "{said:#?}");
+    assert!(said.iter().all(|line| !line.contains("PB506") || line.contains("8004.dxf")), "{said:#?}");
+    fs::remove_file(place.path().join("library/projects/8004.dxf")).unwrap();
+    assert!(watch.until("8004.dxf: removed").last().unwrap().contains(" 0 new findings, 1 fixed"));
+
+    watch.write("pathbuild-baseline.txt", "no fingerprint\n");
+    let said = watch.until("until this is fixed");
+    assert!(said.iter().any(|line| line.contains("pathbuild-baseline.txt:1")), "{said:#?}");
+    fs::remove_file(place.path().join("pathbuild-baseline.txt")).unwrap();
+    let said = watch.until("watching ");
+    assert!(said.last().unwrap().contains(": 1 error, 0 warnings ("), "{said:#?}");
+    watch.write("pathbuild-baseline.txt", baseline);
+    let said = watch.until("watching ");
+    assert!(said.last().unwrap().contains(": 0 errors, 0 warnings, 1 known ("), "{said:#?}");
+}
+
+/// Each change ends with a line that counts all findings: a reader that adds new findings and removes fixed ones has the same number.
+#[test]
+fn lines_of_json_tell_the_findings_after_each_change() {
+    let schema: Value = serde_json::from_str(include_str!("../../../docs/schemas/output.json")).unwrap();
+    let schema = jsonschema::validator_for(&schema).unwrap();
+    let place = library();
+    let mut watch = Watch::begin(&place, "watch --format json");
+    let mut lines = BufReader::new(watch.child.stdout.take().unwrap()).lines();
+    let mut findings: Vec<Value> = Vec::new();
+    let mut change = || loop {
+        let mut line: Value = serde_json::from_str(&lines.next().unwrap().unwrap()).unwrap();
+        let faults: Vec<String> = schema.iter_errors(&line).map(|fault| fault.to_string()).collect();
+        assert!(faults.is_empty(), "{line}: {faults:?}");
+        match line["type"].as_str().unwrap() {
+            "finding" => findings.push(line),
+            "fixed" => {
+                line["type"] = "finding".into();
+                let found = findings.iter().position(|finding| *finding == line).unwrap();
+                findings.remove(found);
+            }
+            "watch_change" => {
+                assert_eq!(line["errors"], findings.len());
+                return line;
+            }
+            kind => assert_eq!(kind, "header"),
+        }
+    };
+    let first = change();
+    assert_eq!((&first["number"], &first["paths"], &first["errors"]), (&0.into(), &4.into(), &0.into()));
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    let second = change();
+    assert_eq!((&second["number"], &second["new"], &second["errors"]), (&1.into(), &1.into(), &1.into()));
+    assert_eq!(second["changed"], json!(["library/parts/1001.dxf"]));
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 5, &[]));
+    let third = change();
+    assert_eq!((&third["number"], &third["fixed"], &third["errors"]), (&2.into(), &1.into(), &0.into()));
+    fs::remove_file(place.path().join("library/projects/8002.dxf")).unwrap();
+    assert_eq!(change()["removed"], json!(["library/projects/8002.dxf"]));
+}
+
 #[test]
 fn an_edited_post_begins_anew() {
     let post = |who: &str| format!("<PostProcessor><PostFile>({who})\n{{$mops}}</PostFile></PostProcessor>");
@@ -309,7 +381,7 @@ fn an_edited_post_begins_anew() {
     let program = "library/projects/8001_Milling.nc";
     assert!(place.read(program).starts_with("(bert)"));
     watch.write("posts/my.cbpp", post("anna"));
-    watch.until("its post-processor has changed");
+    watch.until("its post-processor or its baseline has changed");
     watch.until("watching ");
     assert!(place.read(program).starts_with("(anna)"));
 }

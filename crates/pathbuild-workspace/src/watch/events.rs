@@ -11,6 +11,7 @@ use pathbuild_diagnostic::Diagnostic;
 
 use crate::Inputs;
 use crate::emit::ProgramOutcome;
+use crate::findings::Findings;
 use crate::post_processor::PostProcessor;
 use crate::session::Session;
 
@@ -63,6 +64,8 @@ pub struct FirstCheck {
     pub paths: usize,
     /// All diagnostics of the first check.
     pub diagnostics: Vec<Diagnostic>,
+    /// The findings as `check` reports them: with configured severities, without those that waivers and the baseline accept.
+    pub findings: Findings,
     /// The diagnostics that belong to no single drawing; they are part of `diagnostics` as well.
     pub problems: Vec<Diagnostic>,
     /// Duration of the first check.
@@ -90,12 +93,32 @@ pub struct Update {
     pub before: Vec<Diagnostic>,
     /// Current diagnostics of the checked drawings.
     pub now: Vec<Diagnostic>,
-    /// The current diagnostics that no drawing had before.
+    /// The findings that are reported now and were not before, as `check` reports them.
     pub new: Vec<Diagnostic>,
-    /// The previous diagnostics that no drawing has any more, not even an unchanged one.
+    /// The findings that were reported before and are not any more.
     pub fixed: Vec<Diagnostic>,
+    /// The numbers of all findings.
+    pub counts: FindingCounts,
     /// Time that the batch took.
     pub time: Duration,
+}
+
+/// The numbers of all current findings.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FindingCounts {
+    /// Number of reported errors.
+    pub errors: usize,
+    /// Number of reported warnings.
+    pub warnings: usize,
+    /// Number of findings that waivers or the baseline accept.
+    pub known: usize,
+}
+
+impl FindingCounts {
+    /// Counts findings.
+    pub fn of(findings: &Findings) -> Self {
+        Self { errors: findings.errors(), warnings: findings.warnings(), known: findings.waived.len() }
+    }
 }
 
 /// The reason why watching ended.
@@ -103,7 +126,7 @@ pub struct Update {
 pub enum WatchEnd {
     /// The end was requested, or no more changes can arrive.
     Over,
-    /// The configuration, or a file of the configured post-processor, has changed: watching must start again.
+    /// The configuration, a file of the configured post-processor or the baseline has changed: watching must start again.
     ConfigurationChanged,
     /// A watched directory, or a parent of one, appeared, disappeared or was replaced: the system still watches the old one.
     DirectoriesChanged,
@@ -113,6 +136,8 @@ pub enum WatchEnd {
     NoTargets,
     /// The post-processor has these errors.
     BadPost(Vec<Diagnostic>),
+    /// The baseline cannot be read, or has these errors.
+    BadBaseline(Vec<Diagnostic>),
     /// The system cannot report changes, for this reason.
     CannotWatch(String),
 }

@@ -11,12 +11,13 @@ use pathbuild_path::PathName;
 
 use super::events::Changes;
 use crate::Inputs;
-use crate::check::check_drawings;
+use crate::check::{self, CheckedFile, check_drawings};
 use crate::common_findings::{globs_without_file, patterns_without_layer, unused_configurations};
 use crate::emit::Scope;
 use crate::files::FILE_NAME;
 use crate::memo::{Coverage, DrawingResult, is_transient};
 use crate::session::{IGNORE_FILES, Pair, Selection, Session, is_ignore_file, q_project_pairs};
+use crate::waivers;
 
 /// The watched drawings with their results.
 pub(super) struct Library<'a> {
@@ -129,6 +130,13 @@ impl<'a> Library<'a> {
         problems.extend(unused_configurations(&self.session, &selection.below));
         (self.found_drawings, self.directories) = (selection.drawings, selection.below);
         problems
+    }
+
+    /// Returns what the checks cover, which decides whether a waiver without a match is reported.
+    pub(super) fn coverage(&self) -> waivers::Coverage {
+        let request = check::Request { inputs: self.inputs, with_all_values: false, changed: None };
+        let checked = self.drawings.keys().map(|file| CheckedFile { file: file.clone(), paths: Vec::new() });
+        request.coverage(self.session.workspace(), &checked.collect::<Vec<_>>())
     }
 
     /// Returns the drawings and directories that are watched.

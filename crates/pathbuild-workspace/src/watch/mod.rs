@@ -19,13 +19,15 @@ use std::time::Instant;
 use pathbuild_db::SourceFile;
 use pathbuild_diagnostic::Diagnostic;
 
+use crate::baseline::Baseline;
+use crate::findings::Findings;
 use crate::session::Session;
 use crate::workspace::Workspace;
 
 use changes::{Batch, Watcher};
 use events::{Changes, Restart};
-pub use events::{FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
-use finding_tally::FindingTally;
+pub use events::{FindingCounts, FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
+use finding_tally::{FindingTally, without};
 use library::Library;
 use writing::Writer;
 
@@ -43,13 +45,19 @@ impl Request<'_> {
         if self.emits && workspace.settings.emit.targets.value.is_empty() {
             return WatchEnd::NoTargets;
         }
+        let baseline = match workspace.read_baseline(None) {
+            Ok(baseline) => baseline,
+            Err(problems) => return WatchEnd::BadBaseline(problems),
+        };
+        let mut sources = writer.sources();
+        sources.extend(workspace.settings.file.is_some().then(|| workspace.baseline_file(None)));
         // Start watching before anything is read, so that no change is missed.
-        match Watcher::new(&session, self, &writer.sources()) {
+        match Watcher::new(&session, self, &sources) {
             Ok(_) if !listener.is_configuration_current() => WatchEnd::ConfigurationChanged,
             Ok(watcher) => {
                 let library = Library::new(session, self.inputs);
-                let tally = FindingTally::default();
-                WatchLoop { listener, library, writer, watcher, tally, revision: 0 }.run()
+                let (tally, reported) = Default::default();
+                WatchLoop { listener, library, writer, watcher, baseline, tally, reported, revision: 0 }.run()
             }
             Err(reason) => WatchEnd::CannotWatch(reason.to_string()),
         }
@@ -61,7 +69,10 @@ struct WatchLoop<'a> {
     library: Library<'a>,
     writer: Writer<'a>,
     watcher: Watcher,
+    baseline: Option<Baseline>,
     tally: FindingTally,
+    /// The findings that were reported last.
+    reported: Findings,
     revision: u64,
 }
 
@@ -112,8 +123,16 @@ impl WatchLoop<'_> {
         let (drawings, paths) = self.library.counts();
         let diagnostics = self.library.session().with_hints(found.now);
         self.tally.replace(&[], &diagnostics);
-        let problems = self.common_problems();
-        self.listener.first_check_done(&FirstCheck { drawings, paths, diagnostics, problems, time });
+        self.reported = self.findings();
+        let (findings, problems) = (self.reported.clone(), self.common_problems());
+        self.listener.first_check_done(&FirstCheck {
+            drawings,
+            paths,
+            diagnostics,
+            findings,
+            problems,
+            time,
+        });
     }
 
     fn update(&mut self, changes: &Changes) {
@@ -159,7 +178,11 @@ impl WatchLoop<'_> {
         let library::Batch { changed, checked_files, open, removed, tried_again, before, now, .. } = found;
         let session = self.library.session();
         let (before, now) = (session.with_hints(before), session.with_hints(now));
-        let (new, fixed) = self.tally.replace(&before, &now);
+        self.tally.replace(&before, &now);
+        let earlier = std::mem::take(&mut self.reported);
+        self.reported = self.findings();
+        let new = without(&self.reported.diagnostics, &earlier.diagnostics);
+        let fixed = without(&earlier.diagnostics, &self.reported.diagnostics);
         self.listener.batch_done(&Update {
             revision: self.revision,
             changed,
@@ -172,9 +195,17 @@ impl WatchLoop<'_> {
             now,
             new,
             fixed,
+            counts: FindingCounts::of(&self.reported),
             time,
         });
         checked_files
+    }
+
+    /// Returns all findings as `check` reports them.
+    fn findings(&self) -> Findings {
+        let workspace = self.library.session().workspace();
+        let findings = workspace.findings(self.tally.all());
+        workspace.without_accepted(findings, self.baseline.as_ref(), || self.library.coverage())
     }
 
     /// Returns the diagnostics that belong to no single drawing.

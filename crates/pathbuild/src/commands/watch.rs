@@ -1,5 +1,7 @@
 //! `pathbuild watch`: checks drawings, and with `--emit` writes programs, whenever drawings change. (book: reference/commands)
 
+use std::collections::BTreeSet;
+
 use camino::Utf8PathBuf;
 use pathbuild_api::OutputFile;
 use pathbuild_db::SourceFile;
@@ -8,7 +10,11 @@ use pathbuild_workspace::Inputs;
 use pathbuild_workspace::emit::ProgramOutcome;
 use pathbuild_workspace::post_processor::PostProcessor;
 use pathbuild_workspace::session::Session;
-use pathbuild_workspace::watch::{FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
+use pathbuild_workspace::watch::{
+    FindingCounts, FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd,
+};
+
+use serde_json::{Value, json};
 
 use super::emit::show_all;
 use crate::args::WatchArgs;
@@ -42,8 +48,8 @@ pub(crate) fn run(
     Ok(match request.run(context, &WatchPrinter { context, page, is_configuration_current }) {
         WatchEnd::ConfigurationChanged => {
             return Err(context.choose(
-                "the configuration or its post-processor has changed",
-                "die Konfiguration oder ihr Postprozessor wurde geändert",
+                "the configuration, its post-processor or its baseline has changed",
+                "die Konfiguration, ihr Postprozessor oder ihre Baseline wurde geändert",
             ));
         }
         WatchEnd::DirectoriesChanged => {
@@ -66,6 +72,10 @@ pub(crate) fn run(
             halt(&problems, "");
             context.fail(problems)
         }
+        WatchEnd::BadBaseline(problems) => {
+            halt(&problems, "");
+            context.refuse(problems)
+        }
         WatchEnd::CannotWatch(reason) => {
             let advice = context.choose(
                 "--poll checks for changes at intervals instead",
@@ -84,6 +94,20 @@ struct WatchPrinter<'a> {
     context: &'a Context,
     page: Option<Box<dyn Listener + 'a>>,
     is_configuration_current: &'a dyn Fn() -> bool,
+}
+
+impl WatchPrinter<'_> {
+    /// Writes the numbers of the findings after a change, or after the first check, as a line of JSON, and for the summary of the run.
+    fn count(&self, number: u64, mut row: Value, counts: FindingCounts, new: usize) {
+        let FindingCounts { errors, warnings, known } = counts;
+        for (name, count) in [("errors", errors), ("warnings", warnings), ("known", known)] {
+            self.context.output.add_figure(name, count);
+            row[name] = count.into();
+        }
+        row["number"] = number.into();
+        row["new"] = new.into();
+        self.context.json_row(|| ("watch_change", row));
+    }
 }
 
 impl Listener for WatchPrinter<'_> {
@@ -124,18 +148,24 @@ impl Listener for WatchPrinter<'_> {
         if let Some(page) = &self.page {
             page.first_check_done(beginning);
         }
-        let FirstCheck { drawings, paths, diagnostics, time, .. } = beginning;
+        let FirstCheck { drawings, paths, findings, time, .. } = beginning;
         let context = self.context;
-        let findings = context.findings(diagnostics.clone());
-        context.show(&findings);
+        context.show(findings);
         context.name_date();
+        let counts = FindingCounts::of(findings);
+        let checked = json!({ "paths": paths, "drawings": drawings });
+        self.count(0, checked, counts, findings.diagnostics.len());
         let counted = |number, noun| counted(number, noun, context.lang());
         let milliseconds = time.as_secs_f64() * 1000.0;
         let (paths, drawings) = (counted(*paths, PATH), counted(*drawings, DRAWING));
-        let (errors, warnings) = (counted(findings.errors(), ERROR), counted(findings.warnings(), WARNING));
+        let (errors, warnings) = (counted(counts.errors, ERROR), counted(counts.warnings, WARNING));
+        let known = match counts.known {
+            0 => String::new(),
+            known => format!(", {known} {}", context.choose("known", "bekannt")),
+        };
         let begin = context.choose("watching", "beobachtet:");
         context.printer.status(format_args!(
-            "{begin} {paths} in {drawings}: {errors}, {warnings} ({milliseconds:.0} ms)"
+            "{begin} {paths} in {drawings}: {errors}, {warnings}{known} ({milliseconds:.0} ms)"
         ));
     }
 
@@ -144,9 +174,20 @@ impl Listener for WatchPrinter<'_> {
             page.batch_done(update);
         }
         let context = self.context;
-        let judged = |found: &[Diagnostic]| context.findings(found.to_vec()).diagnostics;
-        let (new, gone) = (judged(&update.new), judged(&update.fixed).len());
+        let (new, gone) = (&update.new, update.fixed.len());
         context.show(&Findings { diagnostics: new.clone(), ..Findings::default() });
+        context.show_fixed(&update.fixed);
+        context.name_date();
+        let names =
+            |files: &BTreeSet<Utf8PathBuf>| files.iter().map(|file| context.file(file)).collect::<Vec<_>>();
+        let change = json!({
+            "changed": names(&update.changed),
+            "removed": names(&update.removed),
+            "checked": update.checked,
+            "open": update.open,
+            "fixed": gone,
+        });
+        self.count(update.revision, change, update.counts, new.len());
         let (count, revision) = (update.checked, update.revision);
         let milliseconds = update.time.as_secs_f64() * 1000.0;
         let phrase = |en, de| context.choose(en, de);

@@ -62,6 +62,12 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     reported.chain(waived.map(|waived| line(&waived))).collect()
 }
 
+/// Renders findings that are fixed.
+pub(crate) fn fixed(findings: &[Diagnostic], view: &View) -> RenderedText {
+    let fixed = |diagnostic| line(&Object { r#type: "fixed", ..object(diagnostic, view) });
+    escaped_lines(&findings.iter().map(fixed).collect::<String>())
+}
+
 /// Returns the first line of a document, with the version of the format and the name of the command.
 pub(crate) fn header(command: &str) -> String {
     let header =
