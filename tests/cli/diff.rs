@@ -442,6 +442,56 @@ fn what_lies_above_temporary_files_does_not_hold() {
     }
 }
 
+/// A killed run leaves the drawings of its revision behind; the next one removes them, but neither those of a run that goes on nor other directories.
+#[test]
+fn what_a_killed_run_left_of_a_revision_is_removed() {
+    let place = committed(Place::new().file("1001.1P.dxf", dxf("1001.1P", "1", LINE)));
+    let temporary = Place::new()
+        .file("pathbuild-revision-killed/lock", "")
+        .file("pathbuild-revision-killed/tree/a.dxf", "")
+        .file("pathbuild-revision-running/lock", "")
+        .file("pathbuild-other/lock", "");
+    let lock = fs::File::open(temporary.path().join("pathbuild-revision-running/lock")).unwrap();
+    lock.try_lock().unwrap();
+    run_with_temporary(&place, temporary.path(), &["diff", "HEAD"]);
+    let left = fs::read_dir(temporary.path()).unwrap().map(|entry| entry.unwrap().file_name());
+    let mut left: Vec<String> = left.map(|name| name.into_string().unwrap()).collect();
+    left.sort();
+    assert_eq!(left, ["pathbuild-other", "pathbuild-revision-running"]);
+}
+
+/// The working directory was created after the revision.
+#[test]
+fn all_is_new_in_a_directory_that_the_revision_lacks() {
+    let place = committed(Place::new().file("a.txt", ""));
+    fs::create_dir(place.path().join("new")).unwrap();
+    fs::write(place.path().join("new/1001.1P.dxf"), dxf("1001.1P", "1", LINE)).unwrap();
+    let run = place.run_in("new", &["diff", "HEAD"]);
+    assert_prints(&run, 0, &["1001.1P · 1001.1P.dxf: new", "0 of 1 path changed, 1 new"]);
+}
+
+/// A revision has the commit of a submodule, but not its drawings. A submodule without drawings, or beside the library, does no harm.
+#[test]
+fn drawings_in_a_submodule_are_not_said_to_be_new() {
+    let library = "library = [\"parts\"]\n";
+    for (inside, configuration, status) in
+        [("1001.1P.dxf", "", 2), ("1001.1P.dxf", library, 0), ("a.txt", "", 0)]
+    {
+        let place = Place::new()
+            .file("pathbuild.toml", configuration)
+            .file("parts/1002.1P.dxf", dxf("1002.1P", "1", LINE))
+            .file(&format!("lib/{inside}"), dxf("1001.1P", "1", LINE));
+        let directory = place.path().join("lib").to_str().unwrap().to_owned();
+        for arguments in [&["init", "-q"][..], &["add", "-A"], &["commit", "-q", "-m", "lib"]] {
+            git(&place, &[&["-C", &directory], arguments].concat());
+        }
+        let run = committed(place).run("diff HEAD");
+        assert_eq!(run.status, Some(status), "{run}");
+        assert_eq!(run.stderr.contains("does not have the drawings of the submodule"), status == 2, "{run}");
+        assert!(!run.stdout.contains("new"), "{run}");
+    }
+}
+
 /// A file larger than the limit for drawings is not extracted, but rejected by its size.
 #[cfg(unix)]
 #[test]

@@ -6,6 +6,7 @@ mod revision;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::MissingOption;
 use pathbuild_db::system::{FileKind, is_drawing};
+use pathbuild_diagnostic::messages::outputs;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Options, interpret};
@@ -197,14 +198,49 @@ fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revisio
     let is_library = !is_drawing
         && workspace.has_library()
         && workspace.settings.directory().is_some_and(|directory| absolute(directory) == absolute(&root));
+    if let Some(revision) = &revision {
+        refuse_submodules(context, revision, is_library.then_some(&workspace))?;
+    }
     let inputs = if is_library { Inputs::default() } else { named };
     Ok(Side::Drawings(Box::new(Drawings { workspace, inputs, root, revision })))
 }
 
+/// Refuses to compare with a revision that lacks drawings because they are in a submodule. `library` is the workspace whose library is compared; `None`
+/// for the directory itself.
+fn refuse_submodules(
+    context: &Context,
+    revision: &Revision,
+    library: Option<&Workspace>,
+) -> Result<(), Failure> {
+    let absolute =
+        |place: &Utf8PathBuf| pathbuild_workspace::config::clean(&context.working_directory.join(place));
+    let directories: Vec<Utf8PathBuf> = match library {
+        Some(workspace) => {
+            let general = &workspace.settings.general;
+            general.library.value.iter().chain(&general.search.value).map(absolute).collect()
+        }
+        None => vec![revision.root.clone()],
+    };
+    let session = Session::new(context);
+    let mut lacking = revision.submodules.iter().filter(|[checked_out, now]| {
+        let is_compared = directories
+            .iter()
+            .any(|directory| directory.starts_with(checked_out) || checked_out.starts_with(directory));
+        is_compared && session.drawings_below(now).next().is_some()
+    });
+    let Some([_, submodule]) = lacking.next() else { return Ok(()) };
+    Err(Failure::Usage(context.phrase(
+        "a revision does not have the drawings of the submodule {}: run `diff` in the submodule, or compare two directories",
+        "eine Revision hat die Zeichnungen des Submoduls {} nicht: `diff` im Submodul aufrufen oder zwei Verzeichnisse vergleichen",
+        submodule.as_str(),
+    )))
+}
+
 impl Drawings {
-    /// Renames files of a revision in diagnostics to `REVISION:FILE`, as Git does.
-    pub(super) fn name(&self, context: &Context, problems: &mut [Diagnostic]) {
+    /// Renames files of a revision in diagnostics to `REVISION:FILE`, as Git does. That a revision has no drawings is no error: all are new.
+    pub(super) fn name(&self, context: &Context, problems: &mut Vec<Diagnostic>) {
         let Some(revision) = &self.revision else { return };
+        problems.retain(|problem| *problem.message != outputs::NO_DRAWING);
         for problem in problems {
             let place = problem.file.as_deref().map(|file| context.working_directory.join(file));
             let below = place.as_deref().and_then(|place| place.strip_prefix(&revision.root).ok());

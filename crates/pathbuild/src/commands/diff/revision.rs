@@ -2,8 +2,9 @@
 #![expect(clippy::disallowed_methods, reason = "the files are in our own temporary directory")]
 
 use std::collections::BTreeSet;
-use std::fs::{self, File};
+use std::fs::{self, DirEntry, File, TryLockError};
 use std::io::{self, Read};
+use std::path::Path;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
@@ -19,7 +20,60 @@ pub(super) struct Revision {
     pub(super) name: String,
     /// Directory that corresponds to the working directory in the revision.
     pub(super) root: Utf8PathBuf,
-    _files: TempDir,
+    /// The submodules: their directories in the checkout, which are empty, and in the working tree.
+    pub(super) submodules: Vec<[Utf8PathBuf; 2]>,
+    _files: TemporaryDirectory,
+}
+
+/// A temporary directory with a locked file. A killed run loses its lock, so that the next run recognises and removes the directory.
+struct TemporaryDirectory {
+    directory: TempDir,
+    _lock: File,
+}
+
+/// Beginning of the names of temporary directories.
+const PREFIX: &str = "pathbuild-revision-";
+
+/// Name of the locked file in a temporary directory.
+const LOCK: &str = "lock";
+
+impl TemporaryDirectory {
+    /// Creates a directory, and removes those that killed runs left behind.
+    fn new() -> io::Result<Self> {
+        remove_leftovers(&std::env::temp_dir());
+        loop {
+            let directory = tempfile::Builder::new().prefix(PREFIX).tempdir()?;
+            let lock = File::create_new(directory.path().join(LOCK))?;
+            match lock.try_lock() {
+                // On file systems without locks, no directory is ever taken for a leftover.
+                Ok(()) | Err(TryLockError::Error(_)) if directory.path().join(LOCK).exists() => {
+                    return Ok(Self { directory, _lock: lock });
+                }
+                // Another run mistook the directory for a leftover before it was locked.
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Removes the directories of killed runs. Best effort: another user's directories cannot be removed.
+fn remove_leftovers(temporary: &Path) {
+    let entries = fs::read_dir(temporary).into_iter().flatten().flatten();
+    let is_ours = |entry: &DirEntry| entry.file_name().to_string_lossy().starts_with(PREFIX);
+    for directory in entries.filter(is_ours).map(|entry| entry.path()) {
+        let lock = directory.join(LOCK);
+        // Follow no links, and open no special file, which might block.
+        let is_plain = |path: &Path, is_kind: fn(&fs::Metadata) -> bool| {
+            fs::symlink_metadata(path).is_ok_and(|data| is_kind(&data))
+        };
+        if is_plain(&directory, fs::Metadata::is_dir)
+            && is_plain(&lock, fs::Metadata::is_file)
+            && let Ok(file) = File::open(&lock)
+            && file.try_lock().is_ok()
+        {
+            _ = fs::remove_dir_all(&directory);
+        }
+    }
 }
 
 /// Checks out a revision of the working directory's repository. Touches neither the working tree nor the index.
@@ -38,8 +92,8 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
         repository.shallow_clone_advice(name).unwrap_or_else(|| format!("{neither} ({reason})"))
     })?;
     let entries = repository.entries(&tree)?;
-    let files = tempfile::Builder::new().prefix("pathbuild-").tempdir().map_err(|error| error.to_string())?;
-    let place = temporary_directory_path(context, &files)?;
+    let files = TemporaryDirectory::new().map_err(|error| error.to_string())?;
+    let place = temporary_directory_path(context, &files.directory)?;
     let whole = place.join("tree");
     // Mark the directory as a repository, like the original, so that ignore files apply and no link points out of it.
     fs::create_dir_all(whole.join(".git")).map_err(|error| error.to_string())?;
@@ -51,8 +105,13 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     report_left_out(context, &checkout.left_out);
     let directory = context.system.canonical(&context.working_directory);
     let below = directory.strip_prefix(&repository.root).unwrap_or(Utf8Path::new(""));
+    let submodules = entries.iter().filter(|entry| entry.kind == EntryKind::Submodule && entry.is_plain());
+    let submodules =
+        submodules.map(|entry| [whole.join(&entry.name), repository.root.join(&entry.name)]).collect();
     let root = if below.as_str().is_empty() { whole } else { whole.join(below) };
-    Ok(Revision { name: name.to_owned(), root, _files: files })
+    // The revision may lack the working directory: then it has no drawings.
+    fs::create_dir_all(&root).map_err(|error| error.to_string())?;
+    Ok(Revision { name: name.to_owned(), root, submodules, _files: files })
 }
 
 fn temporary_directory_path(context: &Context, files: &TempDir) -> Result<Utf8PathBuf, String> {
