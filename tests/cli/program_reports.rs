@@ -54,6 +54,16 @@ fn test_cases(place: &Place) -> Vec<(String, String)> {
     cases.map(case).collect()
 }
 
+/// Returns the files of the report r.json with their states.
+fn reported_states(place: &Place) -> Vec<(String, String)> {
+    let text = place.read("r.json");
+    let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!((&lines[0]["type"], &lines[lines.len() - 1]["type"]), (&"header".into(), &"summary".into()));
+    let outputs = lines.iter().filter(|line| line["type"] == "output");
+    let text = |line: &Value, key: &str| line[key].as_str().unwrap().to_owned();
+    outputs.map(|line| (text(line, "file"), text(line, "state"))).collect()
+}
+
 fn cases<const N: usize>(expected: [(&str, &str); N]) -> Vec<(String, String)> {
     expected.iter().map(|(name, code)| ((*name).to_owned(), (*code).to_owned())).collect()
 }
@@ -125,6 +135,10 @@ fn a_compared_program_is_a_test_case() {
     assert_eq!(run.status, Some(0), "{run}");
     assert_eq!(test_cases(&place), cases([(first, ""), (second, "")]));
     assert_reported(&place, &command, &run, &[]);
+    assert_eq!(
+        reported_states(&place),
+        [(first.into(), "current".into()), (second.into(), "current".into())]
+    );
 
     fs::remove_file(place.path().join(first)).unwrap();
     let place = place.file(second, "M30\n");
@@ -133,6 +147,7 @@ fn a_compared_program_is_a_test_case() {
     assert_eq!(run.stdout, format!("{first}: missing\n{second}: not current\n"));
     assert_eq!(test_cases(&place), cases([(first, "PB528"), (second, "PB528")]));
     assert_reported(&place, &command, &run, &[("PB528", first), ("PB528", second)]);
+    assert_eq!(reported_states(&place), [(first.into(), "missing".into()), (second.into(), "stale".into())]);
 
     let run = place.run("emit --report junit=r.xml");
     assert_eq!(run.status, Some(0), "{run}");

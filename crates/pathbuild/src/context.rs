@@ -149,11 +149,14 @@ impl Context {
         self.printer.json(self.output.stream, lines::serialize_with_type(kind, &row));
     }
 
-    /// Like [`row`](Self::row), but only if the format is JSON.
+    /// Like [`row`](Self::row), but only if the format is JSON, and also for JSON reports.
     pub(crate) fn json_row(&self, row: impl FnOnce() -> (&'static str, Value)) {
-        if self.format == Format::Json {
+        if self.output.writes_json() {
             let (kind, row) = row();
-            self.row(kind, row);
+            self.output.keep_row(&lines::serialize_with_type(kind, &row));
+            if self.format == Format::Json {
+                self.row(kind, row);
+            }
         }
     }
 

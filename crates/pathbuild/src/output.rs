@@ -26,6 +26,8 @@ pub(crate) struct Output {
     is_document: bool,
     found: RefCell<Findings>,
     figures: RefCell<Map<String, Value>>,
+    /// Results for JSON reports, one per line.
+    rows: RefCell<String>,
 }
 
 impl Output {
@@ -38,6 +40,7 @@ impl Output {
             is_document: command.has_document(),
             found: RefCell::default(),
             figures: RefCell::default(),
+            rows: RefCell::default(),
         }
     }
 
@@ -121,9 +124,20 @@ impl Output {
         self.figures.borrow_mut().insert(name.to_owned(), value.into());
     }
 
-    /// Whether the run writes a JSON document or report, so that numbers can be added to its last line.
-    pub(crate) fn has_figures(&self) -> bool {
-        self.format == Format::Json || self.reports.iter().any(|report| report.format == Format::Json)
+    /// Whether the run writes a JSON document or report.
+    pub(crate) fn writes_json(&self) -> bool {
+        self.format == Format::Json || self.has_json_report()
+    }
+
+    fn has_json_report(&self) -> bool {
+        self.reports.iter().any(|report| report.format == Format::Json)
+    }
+
+    /// Keeps a line with a result for the JSON reports.
+    pub(crate) fn keep_row(&self, line: &str) {
+        if self.has_json_report() {
+            self.rows.borrow_mut().extend([line, "\n"]);
+        }
     }
 
     /// Returns the rest of the document, which is printed at the end.
@@ -150,8 +164,9 @@ impl Output {
             return rendered;
         }
         lines::escaped_lines(&format!(
-            "{}\n{}{}",
+            "{}\n{}{}{}",
             lines::header(self.command),
+            self.rows.borrow(),
             rendered.as_str(),
             self.summary(status)
         ))

@@ -152,7 +152,7 @@ fn report_checks(context: &Context, programs: &[VerifiedProgram]) {
         };
         context.printer.status(format_args!("{programs}: {summary}"));
     }
-    if context.output.has_figures() {
+    if context.output.writes_json() {
         let record = |program: &VerifiedProgram| {
             let checks: Vec<Value> = program.checks.iter().map(row).collect();
             json!({ "program": program.file, "checks": checks })
