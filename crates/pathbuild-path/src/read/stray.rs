@@ -182,7 +182,8 @@ pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
 const MIN_NAME_CHARACTERS: usize = 4;
 
 /// Returns the names that may have been meant by a layer's name: without a tilde and the text after it, without up to two characters at the end, and
-/// with the ending of a plural or a number. Look-alikes are replaced by plain characters; one of the names has no spaces.
+/// with the ending of a plural or a number. Look-alikes are replaced by plain characters; one of the names has no spaces, and one has a space before
+/// its first digit.
 fn similar_names(layer: &str) -> Vec<String> {
     let plain = look_alikes::with_keyboard_characters(layer);
     let plain = plain.split('~').next().unwrap_or_default().trim_end();
@@ -194,7 +195,13 @@ fn similar_names(layer: &str) -> Vec<String> {
     let shorter = std::iter::once(plain.len()).chain(ends).map(|end| plain[..end].trim_end());
     let shorter = shorter.filter(|name| is_long(name)).map(str::to_owned);
     let longer = PLURALS.iter().chain(&NUMBERS).map(|ending| [plain, ending].concat());
-    shorter.chain(longer).chain([plain.split_whitespace().collect()]).collect()
+    shorter.chain(longer).chain([plain.split_whitespace().collect()]).chain(with_space(plain)).collect()
+}
+
+/// Returns a name with a space before its first digit, which must follow a letter: `Part 1` for `Part1`.
+fn with_space(name: &str) -> Option<String> {
+    let (letters, number) = name.split_at(name.find(|character: char| character.is_ascii_digit())?);
+    letters.ends_with(char::is_alphabetic).then(|| format!("{letters} {number}"))
 }
 
 /// Endings of plurals, in English and German.

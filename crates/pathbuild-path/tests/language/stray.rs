@@ -239,6 +239,9 @@ fn a_layer_that_part_nearly_matches_is_named() {
     };
     assert_eq!(numbered("Part"), ["PB120"]);
     assert_eq!(numbered("Part 1234_1"), [""; 0]);
+    // The space before the number is forgotten.
+    assert_eq!(numbered("Part1234_1"), ["PB120"]);
+    assert_eq!(numbered("Plate1234_1"), [""; 0]);
     assert_eq!(numbered("Plates"), [""; 0]);
 }
 
