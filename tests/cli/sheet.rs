@@ -104,13 +104,58 @@ fn sheet_of_two(components: [&str; 2]) -> String {
 #[test]
 fn shims_are_in_the_checklist() {
     let sheet = sheet_of_two([">1300.1P", ">1300.1P H5"]);
-    let expected = "Shims of 5 mm lie under the material of 1300.1P (No. 3, 4); its upper face is at Z 7";
-    assert!(sheet.contains(expected), "{sheet}");
+    let expected = "Shims of 5 mm lie under the material of 1300.1P (No. 3, 4), whose upper face is at Z 7";
+    assert!(sheet.contains(expected) && !sheet.contains("they are cut"), "{sheet}");
     let sheet = sheet_of_two([">1300.1P H1.5", ">1300.1P H5"]);
     for expected in ["Shims of 1.5 mm lie under the material of 1300.1P (No. 1, 2)", expected] {
         assert!(sheet.contains(expected), "{sheet}");
     }
     assert!(!sheet_of_two([">1300.1P", ">1300.1P"]).contains("Shims"));
+}
+
+/// The lower end of the cut is at B, above the face that raised material lies on.
+#[test]
+fn cuts_into_shims_are_in_the_checklist() {
+    let cut = |bottom: &str| {
+        let component =
+            format!("layer 1300.1P\nstart 0,0 \"T2 O2 I1 B{bottom} MX\"\nmill 0,0 40,0\nend 40,0");
+        let project = "layer 8001.1P\nstart 0,0 \"T2 O2 S30 MX\"\nsubpath 0,0 40,0 \">1300.1P H3\"\nend 40,0";
+        let place = place("").file("8001.1P.dxf", dxf(project)).file("1300.1P.dxf", dxf(&component));
+        let run = place.run("sheet 8001.1P -o sheet.svg");
+        assert_eq!(run.status, Some(0), "{run}");
+        texts(&place.read("sheet.svg")).join(" ")
+    };
+    assert!(cut("-0.2").contains("is at Z 5; they are cut 0.2 mm deep"), "{}", cut("-0.2"));
+    assert!(!cut("0").contains("they are cut"), "{}", cut("0"));
+}
+
+/// Material on shims does not lie on the face where Z is 0.
+#[test]
+fn zero_is_under_the_shims() {
+    for (components, expected) in [
+        ([">1300.1P", ">1300.1P"], "on the face that the material lies on; its upper face is at Z 2"),
+        ([">1300.1P", ">1300.1P H5"], "on the face under the shims; the material's upper face is at Z 2 / 7"),
+        ([">1300.1P H5", ">1300.1P H5"], "on the face under the shims; the material's upper face is at Z 7"),
+    ] {
+        let sheet = sheet_of_two(components).replace("&#39;", "'");
+        assert!(sheet.contains(&format!("Z0 is set {expected} Air run")), "{sheet}");
+    }
+}
+
+/// Only the posts of controls with work offsets write G54.
+#[test]
+fn the_work_offset_is_that_of_the_program() {
+    for (post, has_offset) in
+        [("native", true), ("grbl", true), ("marlin", false), ("estlcam", false), ("din", false)]
+    {
+        let place = place("[tool.two]\ndiameter = 2\nspindle = 9000\n");
+        let run = place.run(&format!("sheet 1234.1P --post {post} -o sheet.svg"));
+        assert_eq!(run.status, Some(0), "{run}");
+        let svg = place.read("sheet.svg");
+        let text = texts(&svg).join(" ");
+        assert_eq!(text.contains("X0 Y0 is set (G54): "), has_offset, "{post}: {text}");
+        assert_eq!(text.contains("X0 Y0 is set: "), !has_offset, "{post}: {text}");
+    }
 }
 
 /// One plate cannot lie at two heights.
@@ -484,6 +529,11 @@ fn joined_paths_have_one_sheet_with_all_cutters() {
         assert!(texts.contains(&text), "{text} in {texts:?}");
     }
     assert!(!svg.contains("started by hand"));
+    // Numbers are unique in the picture of all paths.
+    for row in [["1–4", "1234.1P", "milling", "Z -0.2", "T1"], ["5–8", "1235.1P", "milling", "Z -0.2", "T4"]]
+    {
+        assert!(texts.windows(5).any(|cells| cells == row), "{row:?} in {texts:?}");
+    }
 }
 
 /// Clamps are positioned relative to the machine's zero, which is the path's start.

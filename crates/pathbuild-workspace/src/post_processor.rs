@@ -199,6 +199,12 @@ impl PostProcessor {
         matches!(self.reader(), Some(Dialect::Grbl | Dialect::Marlin | Dialect::Estlcam))
     }
 
+    /// Whether programs of this post-processor select the work offset G54, according to the text of its definition.
+    pub fn selects_g54(&self) -> bool {
+        let has_offsets = !matches!(self.reader(), Some(Dialect::Estlcam | Dialect::Xpertmill));
+        has_offsets && self.definition.windows(3).any(|word| word == b"G54")
+    }
+
     /// Returns the configured feed in mm/min for cuts without a feed of their own.
     pub fn feed(&self) -> Option<f64> {
         self.feed

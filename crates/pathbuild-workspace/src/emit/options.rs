@@ -133,14 +133,16 @@ pub(super) struct SheetSettings {
     pub(super) shapes: Vec<types::Tool>,
     pub(super) starts_spindle: bool,
     pub(super) has_manual_changes: bool,
+    pub(super) selects_g54: bool,
 }
 
 impl SheetSettings {
     pub(super) fn new(settings: &Settings, tools: ToolTable, post_processor: Option<&PostProcessor>) -> Self {
         let starts_spindle = post_processor.is_some_and(PostProcessor::starts_spindle);
         let has_manual_changes = post_processor.is_some_and(PostProcessor::has_manual_changes);
+        let selects_g54 = post_processor.is_none_or(PostProcessor::selects_g54);
         let shapes = settings.tables.tools.value.clone();
-        Self { lang: settings.comment_lang(), tools, shapes, starts_spindle, has_manual_changes }
+        Self { lang: settings.comment_lang(), tools, shapes, starts_spindle, has_manual_changes, selects_g54 }
     }
 }
 

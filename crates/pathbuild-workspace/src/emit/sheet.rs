@@ -9,7 +9,7 @@ use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::statistics::cutting_box;
 use pathbuild_motion::Turning;
 use pathbuild_toolpath::Program;
-use pathbuild_view::{self as view, BilingualText, Scene, Sheet, SheetProbe, SheetTool};
+use pathbuild_view::{self as view, BilingualText, Scene, ScenePath, Sheet, SheetProbe, SheetTool};
 
 use super::options::{OutputSettings, SheetSettings, total};
 use super::outcome::write_error;
@@ -60,7 +60,7 @@ pub(super) fn sheet(
         programs.push(program);
     }
     let provenance = settings.provenances.of(&programs);
-    let (tools, tool_order) = tools(&programs, &settings.sheets);
+    let (tools, path_tools) = tools(&programs, &settings.sheets);
     let total = total(&programs, settings.writing.options.rapid);
     let drawings = job.targets.iter().map(|target| file_name(db, target.file(db)));
     let mut drawings: Vec<String> = drawings.collect();
@@ -77,7 +77,8 @@ pub(super) fn sheet(
         hashes: hashes(&provenance),
         head: [provenance.to_string(), job.title.clone()],
         tools,
-        tool_order,
+        path_tools,
+        selects_g54: settings.sheets.selects_g54,
         has_manual_changes: settings.sheets.has_manual_changes,
         starts_spindle: settings.sheets.starts_spindle,
         cutting_box: programs.iter().map(|program| cutting_box(program)).fold([None; 3], bounding_box),
@@ -111,9 +112,19 @@ fn add(
     let embedded = placed_keep_outs(db, target).into_iter().filter(|clamp| clamp.occurrence > 0);
     scene.keep_outs.extend(embedded.map(|clamp| view::keep_out(&clamp.placed, [0.0, 0.0])));
     path.zero = [0.0, 0.0];
+    continue_numbers(&mut path, scene);
     path.parts = finished_parts(db, target);
     scene.paths.push(path);
     Ok(pathbuild_db::program(db, target).clone())
+}
+
+/// Numbers the elements of a path after those of the paths before it in the program.
+fn continue_numbers(path: &mut ScenePath, scene: &Scene) {
+    let numbers = scene.paths.iter().flat_map(|path| &path.elements).filter_map(|element| element.order);
+    let last = numbers.max().unwrap_or_default();
+    for number in path.elements.iter_mut().filter_map(|element| element.order.as_mut()) {
+        *number += last;
+    }
 }
 
 fn file_name(db: &Database, file: SourceFile) -> String {
@@ -142,9 +153,9 @@ fn bounding_box(a: [Option<(f64, f64)>; 3], b: [Option<(f64, f64)>; 3]) -> [Opti
     [either(a[0], b[0]), either(a[1], b[1]), either(a[2], b[2])]
 }
 
-/// Returns the tools of the programs without duplicates, and their indexes in the order of use.
+/// Returns the tools of the programs without duplicates, and the index of each program's tool.
 fn tools(programs: &[Arc<Program>], settings: &SheetSettings) -> (Vec<SheetTool>, Vec<usize>) {
-    let (mut tools, mut order): (Vec<SheetTool>, Vec<usize>) = (Vec::new(), Vec::new());
+    let (mut tools, mut indexes): (Vec<SheetTool>, Vec<usize>) = (Vec::new(), Vec::new());
     for program in programs {
         let index = settings.tools.position(&program.path, program.tool);
         let entry = index.map(|index| &settings.tools.entries[index]);
@@ -170,10 +181,9 @@ fn tools(programs: &[Arc<Program>], settings: &SheetSettings) -> (Vec<SheetTool>
             tools.len() - 1
         });
         tools[index].paths.push(program.path.to_string());
-        order.push(index);
+        indexes.push(index);
     }
-    order.dedup();
-    (tools, order)
+    (tools, indexes)
 }
 
 fn probes(program: &Program) -> impl Iterator<Item = SheetProbe> {

@@ -104,7 +104,9 @@ fn clamped_text(sheet: &Sheet, words: Words) -> String {
 }
 
 fn cutters(sheet: &Sheet, words: Words) -> Vec<String> {
-    match (sheet.tools.as_slice(), sheet.tool_order.as_slice()) {
+    let mut order = sheet.path_tools.clone();
+    order.dedup();
+    match (sheet.tools.as_slice(), order.as_slice()) {
         ([tool], _) => {
             let tool = tool_text(tool, words).join(", ");
             vec![words.choose(
@@ -151,10 +153,19 @@ fn zero(sheet: &Sheet, words: Words) -> Vec<String> {
     let mut checks = Vec::new();
     if let Some([low, _]) = removed_box(sheet) {
         let (across, up) = (words.distance_of_zero(low[0], true), words.distance_of_zero(low[1], false));
+        let offset = if sheet.selects_g54 { " (G54)" } else { "" };
         checks.push(words.choose(
-            format!("X0 Y0 is set (G54): {across} and {up} of the dashed rectangle"),
-            format!("X0 Y0 ist gesetzt (G54): {across} und {up} des gestrichelten Rechtecks"),
+            format!("X0 Y0 is set{offset}: {across} and {up} of the dashed rectangle"),
+            format!("X0 Y0 ist gesetzt{offset}: {across} und {up} des gestrichelten Rechtecks"),
         ));
+    }
+    if let Some(tops) = shims::upper_faces(sheet) {
+        let tops = format_numbers(&tops).unwrap_or_default();
+        checks.push(words.choose(
+            format!("Z0 is set on the face under the shims; the material's upper face is at Z {tops}"),
+            format!("Z0 ist auf der Fläche unter den Unterlagen gesetzt; die Oberseite des Materials ist bei Z {tops}"),
+        ));
+        return checks;
     }
     let top = thicknesses(sheet).unwrap_or_default();
     checks.push(words.choose(
@@ -230,6 +241,7 @@ impl Facts {
 /// Returns the tables of details, which follow the checklist and the facts.
 pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
     let mut blocks = Vec::new();
+    let has_many_tools = sheet.tools.len() > 1;
     let mut table = |heading: &str, shares: &'static [f64], head: &[&str], rows: Vec<Vec<String>>| {
         if rows.is_empty() {
             return;
@@ -242,13 +254,14 @@ pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
     };
     table(
         words.choose("Operations", "Arbeitsgänge"),
-        &[0.16, 0.26, 0.42, 0.16],
+        if has_many_tools { &[0.14, 0.24, 0.38, 0.14, 0.1] } else { &[0.16, 0.26, 0.42, 0.16] },
         &[
             words.choose("No.", "Nr."),
             words.choose("path", "Pfad"),
             words.choose("what", "was"),
             words.choose("down to", "bis"),
-        ],
+            words.choose("cutter", "Fräser"),
+        ][..if has_many_tools { 5 } else { 4 }],
         operations::rows(sheet, words),
     );
     table(
@@ -270,7 +283,7 @@ pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
         &[words.choose("layer", "Layer"), "X", "Y", words.choose("up to Z", "bis Z")],
         clamps(sheet, words),
     );
-    if sheet.tools.len() > 1 {
+    if has_many_tools {
         table(
             words.choose("Cutters", "Fräser"),
             &[0.06, 0.09, 0.15, 0.28, 0.24, 0.18],

@@ -31,10 +31,12 @@ pub struct Sheet {
     pub scene: Scene,
     /// The cutters in order of first use.
     pub tools: Vec<SheetTool>,
-    /// Indexes into `tools` in the order in which the cutters are used: a change of the cutter lies between each two.
-    pub tool_order: Vec<usize>,
+    /// For each path of the scene, the index of its cutter in `tools`.
+    pub path_tools: Vec<usize>,
     /// Whether the program stops for the operator to change the cutter, whose length the control does not know.
     pub has_manual_changes: bool,
+    /// Whether the program selects the work offset G54.
+    pub selects_g54: bool,
     /// Whether the program starts the spindle.
     pub starts_spindle: bool,
     /// Ranges of X, Y and Z of the tool tip while cutting.

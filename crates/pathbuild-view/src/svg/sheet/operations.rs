@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::{Noun, counted};
 
-use super::data::{Sheet, Words};
+use super::data::{Sheet, SheetTool, Words};
 use crate::scene::{Element, ElementKind, ScenePath, Shape};
 use crate::svg::canvas::mm;
 
@@ -25,24 +25,40 @@ struct ElementOperation {
     depth: String,
 }
 
-/// Returns the rows of the table, with four cells each: numbers, path, operation, depth.
+/// Returns the rows of the table, with five cells each: numbers, path, operation, depth, cutter.
 pub(super) fn rows(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
-    let mut rows: Vec<Vec<String>> =
-        sheet.scene.paths.iter().flat_map(|path| operations(path, words)).map(row).collect();
+    let paths = sheet.scene.paths.iter().zip(&sheet.path_tools);
+    let mut rows: Vec<Vec<String>> = paths
+        .flat_map(|(path, tool)| {
+            let tool = cutter(&sheet.tools[*tool]);
+            operations(path, words).into_iter().map(move |operation| row(operation, tool.clone()))
+        })
+        .collect();
     let more = rows.len().saturating_sub(MAX_ROWS);
     if more > 0 {
         rows.truncate(MAX_ROWS);
-        rows.push(vec!["…".to_owned(), String::new(), counted(more, MORE, words.0), String::new()]);
+        rows.push(vec![
+            "…".to_owned(),
+            String::new(),
+            counted(more, MORE, words.0),
+            String::new(),
+            String::new(),
+        ]);
     }
     rows
 }
 
 const MORE: Noun = [["more operation", "more operations"], ["weiterer Arbeitsgang", "weitere Arbeitsgänge"]];
 
-fn row(operation: Operation) -> Vec<String> {
+/// Names a cutter by its number in the machine, or else by its diameter.
+fn cutter(tool: &SheetTool) -> String {
+    tool.number.map_or_else(|| format!("Ø {}", mm(tool.diameter)), |number| format!("T{number}"))
+}
+
+fn row(operation: Operation, cutter: String) -> Vec<String> {
     let Operation { numbers: [first, last], work } = operation;
     let numbers = if first == last { first.to_string() } else { format!("{first}–{last}") };
-    vec![numbers, work.path, work.what, work.depth]
+    vec![numbers, work.path, work.what, work.depth, cutter]
 }
 
 fn operations(path: &ScenePath, words: Words) -> Vec<Operation> {
@@ -63,7 +79,7 @@ fn operations(path: &ScenePath, words: Words) -> Vec<Operation> {
 }
 
 /// Returns the lowest Z of the cuts of each element.
-fn depths(path: &ScenePath) -> Vec<Option<f64>> {
+pub(super) fn depths(path: &ScenePath) -> Vec<Option<f64>> {
     let mut depths: Vec<Option<f64>> = vec![None; path.elements.len()];
     for movement in path.moves.iter().filter(|movement| movement.kind.cuts()) {
         let Some(depth) = movement.element.and_then(|element| depths.get_mut(element as usize)) else {

@@ -1,12 +1,16 @@
 //! The shims under raised material (H), and the pieces of material that lie at different heights. (book: program/sheet)
 
 use super::data::{Sheet, Words, distinct};
+use super::operations;
 use crate::scene::{EmbeddedPath, ScenePath};
 use crate::svg::canvas::mm;
 use crate::svg::legend::ranges;
 
 /// Maximum number of runs of numbers in one step of the checklist, which must fit on a page.
 const MAX_RUNS: usize = 40;
+
+/// Depth in mm above which a cut into shims is not only rounding.
+const MIN_CUT: f64 = 0.0005;
 
 /// Consecutive numbers of elements of one piece of material: an embedded path, with the paths in it that lie at the same height.
 #[derive(Debug)]
@@ -16,21 +20,19 @@ struct Run<'s> {
     /// Name of the piece's path.
     name: &'s str,
     numbers: Vec<u32>,
+    /// Lowest Z of the cuts in mm.
+    lowest: f64,
 }
 
 /// Describes the shims, with the numbers of the elements whose material lies on them: one sentence for each height and upper face.
 pub(super) fn checks(sheet: &Sheet, words: Words) -> Vec<String> {
-    let paths = &sheet.scene.paths;
-    let of_path = |path| {
-        let raised: Vec<Run<'_>> = runs(path).into_iter().filter(|run| run.heights[0] > 0.0).collect();
-        let within = (paths.len() > 1).then_some(path.name.as_str());
-        let sentences = |heights| {
-            let runs: Vec<&Run<'_>> = raised.iter().filter(|run| run.heights == heights).collect();
-            runs.chunks(MAX_RUNS).map(|runs| sentence(runs, heights, within, words)).collect::<Vec<_>>()
-        };
-        distinct(raised.iter().map(|run| run.heights)).into_iter().flat_map(sentences).collect::<Vec<_>>()
+    let mut raised: Vec<Run<'_>> = sheet.scene.paths.iter().flat_map(runs).collect();
+    raised.retain(|run| run.heights[0] > 0.0);
+    let sentences = |heights| {
+        let runs: Vec<&Run<'_>> = raised.iter().filter(|run| run.heights == heights).collect();
+        runs.chunks(MAX_RUNS).map(|runs| sentence(runs, heights, words)).collect::<Vec<_>>()
     };
-    paths.iter().flat_map(of_path).collect()
+    distinct(raised.iter().map(|run| run.heights)).into_iter().flat_map(sentences).collect()
 }
 
 /// Returns the number of different heights at which milled material lies.
@@ -38,7 +40,15 @@ pub(super) fn height_count(sheet: &Sheet) -> usize {
     distinct(sheet.scene.paths.iter().flat_map(runs).map(|run| run.heights[0])).len()
 }
 
-fn sentence(runs: &[&Run<'_>], [height, top]: [f64; 2], within: Option<&str>, words: Words) -> String {
+/// Returns each Z of upper faces of milled material in ascending order; `None` if no material lies on shims.
+pub(super) fn upper_faces(sheet: &Sheet) -> Option<Vec<f64>> {
+    let runs: Vec<Run<'_>> = sheet.scene.paths.iter().flat_map(runs).collect();
+    let mut tops = distinct(runs.iter().map(|run| run.heights[1]));
+    tops.sort_by(f64::total_cmp);
+    runs.iter().any(|run| run.heights[0] > 0.0).then_some(tops)
+}
+
+fn sentence(runs: &[&Run<'_>], [height, top]: [f64; 2], words: Words) -> String {
     let piece = |name: &str| {
         let numbers = runs.iter().filter(|run| run.name == name).flat_map(|run| &run.numbers);
         let numbers = ranges(&numbers.copied().collect::<Vec<_>>());
@@ -46,28 +56,36 @@ fn sentence(runs: &[&Run<'_>], [height, top]: [f64; 2], within: Option<&str>, wo
     };
     let pieces =
         distinct(runs.iter().map(|run| run.name)).into_iter().map(piece).collect::<Vec<_>>().join(", ");
-    let within = within.map(|name| format!(" in {name}")).unwrap_or_default();
-    let (height, top) = (words.mm(height), mm(top));
+    let depth = height - runs.iter().map(|run| run.lowest).fold(f64::INFINITY, f64::min);
+    let cut = (depth > MIN_CUT).then(|| words.mm(depth)).map(|depth| {
+        words.choose(
+            format!("; they are cut {depth} mm deep"),
+            format!("; sie werden {depth} mm tief angefräst"),
+        )
+    });
+    let (height, top, cut) = (words.mm(height), mm(top), cut.unwrap_or_default());
     words.choose(
-        format!("Shims of {height} mm lie under the material of {pieces}{within}; its upper face is at Z {top}"),
-        format!("{height} mm hohe Unterlagen liegen unter dem Material von {pieces}{within}; dessen Oberseite ist bei Z {top}"),
+        format!("Shims of {height} mm lie under the material of {pieces}, whose upper face is at Z {top}{cut}"),
+        format!("{height} mm hohe Unterlagen liegen unter dem Material von {pieces}, dessen Oberseite bei Z {top} ist{cut}"),
     )
 }
 
 /// Returns the numbers of a path's elements by pieces of material, in ascending order.
 fn runs(path: &ScenePath) -> Vec<Run<'_>> {
-    let mut numbered: Vec<(u32, &EmbeddedPath)> = path
-        .elements
-        .iter()
-        .filter_map(|element| Some((element.order?, piece(path, element.path as usize)?)))
+    let elements = path.elements.iter().zip(operations::depths(path));
+    let mut numbered: Vec<(u32, &EmbeddedPath, f64)> = elements
+        .filter_map(|(element, lowest)| Some((element.order?, piece(path, element.path as usize)?, lowest?)))
         .collect();
-    numbered.sort_by_key(|(number, _)| *number);
+    numbered.sort_by_key(|(number, ..)| *number);
     let mut runs: Vec<Run<'_>> = Vec::new();
-    for (number, piece) in numbered {
+    for (number, piece, lowest) in numbered {
         let heights = [piece.raised, piece.thickness].map(|height| (height * 1000.0).round() / 1000.0);
         match runs.last_mut() {
-            Some(last) if (last.name, last.heights) == (&piece.name, heights) => last.numbers.push(number),
-            _ => runs.push(Run { heights, name: &piece.name, numbers: vec![number] }),
+            Some(last) if (last.name, last.heights) == (&piece.name, heights) => {
+                last.numbers.push(number);
+                last.lowest = last.lowest.min(lowest);
+            }
+            _ => runs.push(Run { heights, name: &piece.name, numbers: vec![number], lowest }),
         }
     }
     runs
