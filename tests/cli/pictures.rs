@@ -206,6 +206,27 @@ fn regions_of_findings_about_a_part_are_filled() {
     assert_eq!(seen.keys().filter(|name| name.contains("-PB21")).count(), 2, "{:?}", seen.keys());
 }
 
+/// The message of a cut into the part of another path has the program's coordinates: the picture is the same wherever the project is drawn.
+#[test]
+fn places_in_the_program_are_marked_in_the_drawing() {
+    let component = "layer 1111.1P\nstart 0,0 \"T2 O2 I1 B0 F100 M20x2\"\nmill 0,0 20,0\nend 20,0\n";
+    let picture = |[x, y]: [i32; 2]| {
+        let at = |right: i32, up: i32| format!("{},{}", x + right, y + up);
+        let (start, from, to, end) = (at(0, 0), at(10, 10), at(30, 10), at(50, 10));
+        let [a, b, c, d] = [at(5, 10), at(35, 10), at(35, 30), at(5, 30)];
+        let project = format!(
+            "layer 8111.1P\nstart {start} \"T2 O2 F100 M20x2\"\nsweep {start} {from}\nsubpath {from} {to} \">1111.1P\"\nsweep {to} {end}\nend {end}\nlayer Part\npolyline {a} {b} {c} {d} closed\n"
+        );
+        let options = "part = 'Part'\nrapid = 900\nsweep-height = 9\n";
+        let place = Place::new().file("pathbuild.toml", options);
+        let place = place.file("1111.1P.dxf", dxf(component)).file("8111.1P.dxf", dxf(&project));
+        let run = place.run("check 8111.1P.dxf --pictures seen --no-cache");
+        let mut seen = pictures(&place, "seen").into_iter().filter(|(name, _)| name.contains("PB214"));
+        seen.next().unwrap_or_else(|| panic!("{run}")).1
+    };
+    assert_eq!(picture([0, 0]), picture([30, -20]));
+}
+
 /// The regions are corners that the cutter does not reach, an outline without a path, and a support bar that another path of a project cuts away.
 #[test]
 fn regions_that_no_cut_or_another_path_makes_are_filled() {

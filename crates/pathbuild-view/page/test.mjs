@@ -290,7 +290,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   const { page, faults } = await open(file, {}, directory);
   assert.match(await text(page, "#findings"), /line 10 · PB781/);
   assert.match(await text(page, "#checks"), /rapid moves: the height of the material is not known/);
-  assert.match(await text(page, "#details"), /X -10 … 10, Y 0 … 30, Z -6 … 5[^]*cutter O\s+6[^]*2.0 s dwelling, 1 tool changes/);
+  assert.match(await text(page, "#details"), /X -10 … 10, Y 0 … 30, Z -6 … 5[^]*cutter O\s+6[^]*2.0 s dwelling, 1 tool change/);
   await page.locator("#work summary").click();
   assert.match(await text(page, "#operations"), /-6/);
   assert.match(await text(page, "#legend"), /Z-6/);

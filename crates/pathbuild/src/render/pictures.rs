@@ -28,7 +28,7 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
     let places: Vec<Option<Places<'_>>> = places.collect();
     let drawn = |diagnostic: &Diagnostic| -> Option<String> {
         let file = files.binary_search(&drawing(diagnostic)?).ok()?;
-        let spot = spot(diagnostic, places[file].as_ref())?;
+        let spot = spot(diagnostic, places[file].as_ref(), [0.0; 2])?;
         Some(cutout_svg(scenes[file].as_ref()?, &spot, workspace.lang()))
     };
     let session = Session::new(workspace);
@@ -41,7 +41,10 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
         }
         let scene = known.as_ref()?.1.as_ref()?;
         let has_corners = diagnostic.code() == Code::UnreachableCorner;
-        Some(stock_cutout_svg(scene, &spot(diagnostic, None)?, has_corners, index))
+        // The message of PB214 has the program's coordinates.
+        let is_in_program = diagnostic.code() == Code::GougedNeighbour;
+        let zero = scene.paths.first().filter(|_| is_in_program).map_or([0.0; 2], |path| path.zero);
+        Some(stock_cutout_svg(scene, &spot(diagnostic, None, zero)?, has_corners, index))
     };
     let mut bytes = 0;
     let picture = |(index, diagnostic): (usize, &'d Diagnostic)| {
@@ -78,18 +81,23 @@ fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
     is_drawing(file).then_some(file)
 }
 
-/// Returns the place of a finding, with further places mentioned in its message and notes.
-fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<FindingPlace> {
+/// Distance in mm from the place of a finding up to which another place is the same.
+const SAME_PLACE: f64 = 1e-6;
+
+/// Returns the place of a finding, with further places mentioned in its message and notes. `zero` is the origin of the message's coordinates in the
+/// drawing.
+fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>, zero: [f64; 2]) -> Option<FindingPlace> {
     let pair = |point: pathbuild_diagnostic::Point| [point.x.0, point.y.0];
     let at = places.and_then(|places| places.of(diagnostic)).or(diagnostic.place.point.map(pair))?;
     let notes = diagnostic.notes.iter().flat_map(|note| &note.arguments);
     let is_centre = |name: &str| name == "centre";
     let own = diagnostic.arguments.iter().filter(|(name, _)| !is_centre(name));
     let points = own.chain(notes).filter_map(|(_, value)| match value {
-        Value::Point(point) => Some(pair(*point)),
+        Value::Point(point) => Some([0, 1].map(|axis| pair(*point)[axis] + zero[axis])),
         _ => None,
     });
-    let mut related: Vec<[f64; 2]> = points.filter(|point| *point != at).collect();
+    let is_elsewhere = |point: &[f64; 2]| (0..2).any(|axis| (point[axis] - at[axis]).abs() > SAME_PLACE);
+    let mut related: Vec<[f64; 2]> = points.filter(is_elsewhere).collect();
     related.dedup();
     let circle = match (diagnostic.argument("centre"), diagnostic.argument("diameter")) {
         (Some(Value::Point(centre)), Some(Value::Number(diameter))) => {
