@@ -716,6 +716,25 @@ fn cuts_go_through_material_that_lies_on_zero() {
     }
 }
 
+/// Cuts into a part are red in the picture of the stock: a slot in the middle of a part, which begins with a plunge, and the cut of a component
+/// into a part that is drawn in its project.
+#[test]
+fn cuts_into_parts_are_red() {
+    let slot = "layer 1234.1P\nstart 0,10 \"T2 O2 I1 B0 F100\"\nsweep 0,10 10,10\nmill 10,10 30,10\nsweep 30,10 50,10\nend 50,10\nlayer Part\npolyline 0,0 40,0 40,20 0,20 closed";
+    let component = "layer 1111.1P\nstart 0,0 \"T2 O2 I1 B0 F100 M20x2\"\nmill 0,0 20,0\nend 20,0";
+    let project = "layer 8111.1P\nstart 0,0 \"T2 O2 F100 M20x2\"\nsweep 0,0 10,10\nsubpath 10,10 30,10 \">1111.1P\"\nsweep 30,10 50,10\nend 50,10\nlayer Part\npolyline 5,10.5 35,10.5 35,30 5,30 closed";
+    let mut place = Place::new().file("pathbuild.toml", "part = 'Part'\n");
+    for (name, drawn) in [("1234.1P", slot), ("1111.1P", component), ("8111.1P", project)] {
+        place = place.file(&format!("{name}.dxf"), sheet(drawn).unwrap().to_dxf());
+    }
+    for name in ["1234.1P", "8111.1P"] {
+        let run = place.run(&format!("view {name} --stock --sweep-height 9 -o {name}.svg"));
+        let picture = place.read(&format!("{name}.svg"));
+        assert!(picture.contains("cut into the part") && picture.contains("outline of the part"), "{run}");
+        assert!(!picture.contains("NaN"), "{name}: {run}");
+    }
+}
+
 /// A drawing states its cutter and material itself.
 #[test]
 fn options_for_programs_are_refused_for_drawings() {

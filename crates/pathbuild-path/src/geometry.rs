@@ -104,11 +104,11 @@ impl Curve {
         }
     }
 
-    /// Returns the section between two distances from the start, in mm along the curve.
+    /// Returns the section between two distances from the start, in mm along the curve. A line without length has only one.
     pub fn section(&self, from: f64, to: f64) -> Self {
         match self {
             Self::Line(line) => {
-                let direction = (line.end - line.start) / self.length();
+                let direction = (line.end - line.start).try_normalize(0.0).unwrap_or_default();
                 Self::Line(Line { start: line.start + direction * from, end: line.start + direction * to })
             }
             Self::Arc(arc) => Self::Arc(arc.section(from, to)),

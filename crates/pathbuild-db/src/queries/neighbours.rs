@@ -176,9 +176,18 @@ impl<'db> PlacedProgram<'db> {
         gouges.chain(bars).collect()
     }
 
-    /// Returns PB214 for cuts of components into parts that are drawn in the project's own drawing, except for parts that only show a component's
-    /// part once more, or the sheet around it.
+    /// Returns PB214 for cuts of components into parts that are drawn in the project's own drawing.
     fn cuts_into_own_parts(&self) -> Vec<Diagnostic> {
+        let parts = self.own_parts();
+        let Some(project) = self.paths.first().filter(|_| !parts.is_empty()) else { return Vec::new() };
+        let without_bars = PathCuts { bars: Vec::new(), ..project.cuts.cuts.clone() };
+        let own = PlacedCuts::new(&without_bars, parts, project.cuts.placement, 0.0);
+        self.cuts_into(0, &own, 1..self.paths.len())
+    }
+
+    /// Returns the parts that are drawn in the project's own drawing, except for parts that only show a component's part once more, or the sheet
+    /// around it.
+    fn own_parts(&self) -> Vec<&'db Part> {
         let Some((project, components)) = self.paths.split_first().filter(|_| !self.is_joined) else {
             return Vec::new();
         };
@@ -190,17 +199,10 @@ impl<'db> PlacedProgram<'db> {
         } else {
             file_parts(self.db, file).map(|found| found.parts.iter().collect()).unwrap_or_default()
         };
-        let placed = |parts| PlacedCuts::new(project.cuts.cuts, parts, project.cuts.placement, 0.0);
-        let all = placed(parts);
+        let all = PlacedCuts::new(project.cuts.cuts, parts, project.cuts.placement, 0.0);
         let is_own =
             |part: &usize| !components.iter().any(|component| all.shows_part_of(*part, &component.cuts));
-        let own = placed((0..all.parts.len()).filter(is_own).map(|part| all.parts[part]).collect());
-        if own.parts.is_empty() {
-            return Vec::new();
-        }
-        let without_bars = PathCuts { bars: Vec::new(), ..own.cuts.clone() };
-        let own = PlacedCuts::new(&without_bars, own.parts, own.placement, 0.0);
-        self.cuts_into(0, &own, 1..self.paths.len())
+        (0..all.parts.len()).filter(is_own).map(|part| all.parts[part]).collect()
     }
 
     /// Returns the parts of a path that cuts of other paths leave loose.
@@ -331,37 +333,50 @@ pub struct PlacedPart<'db> {
 pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     let Some(settings) = &Settings::get(db).language(db).part else { return Vec::new() };
     let Some(traced) = traced_program(db, target).as_deref() else { return Vec::new() };
-    let mut all = Vec::new();
     let program = has_neighbours(db, target).then(|| placed_program(db, &[target])).flatten();
-    let mut foreign = program.as_ref().map(PlacedProgram::lost_bars).unwrap_or_default();
     let severed = program.as_ref().map(PlacedProgram::severed_parts).unwrap_or_default();
-    let radius = traced.program.tool / 2.0;
+    let (radius, tolerance) = (traced.program.tool / 2.0, settings.tolerance);
     let ways = milled_moves(traced);
+    let placed = |drawn, placement, raised, thickness| PlacedPart {
+        drawn,
+        left: &[],
+        lost_bars: &[],
+        bars_lost_to_neighbours: Vec::new(),
+        gouges: gouging_moves(drawn, &placement, raised, &ways, [radius, tolerance]),
+        is_loose: severed.iter().any(|(part, at)| std::ptr::eq(*part, drawn) && is_same(at, &placement)),
+        radius,
+        placement,
+        top: raised + thickness,
+        tolerance,
+    };
+    let mut all = Vec::new();
     for occurrence in &traced.trace.occurrences {
         let cutting = &traced.parts[occurrence.id];
         let found = file_parts(db, cutting.file);
         let findings = instance_of(db, target, cutting).and_then(|instance| part_findings(db, instance));
         let (Some(found), Some((findings, place))) = (found, findings) else { continue };
-        // The material left and the bars are known by path, not by part: list them with the first part only.
-        let (mut left, mut lost_bars) = (&*findings.left[place], &*findings.lost_bars[place]);
-        for part in &findings.parts[place] {
+        for (index, part) in findings.parts[place].iter().enumerate() {
             let drawn = &found.parts[*part];
-            let is_drawn = |(other, placement): &(&Part, Placement)| {
-                std::ptr::eq(*other, drawn) && is_same(placement, &occurrence.placement)
-            };
-            let [tolerance, raised] = [settings.tolerance, occurrence.raised];
-            all.push(PlacedPart {
-                drawn,
-                left: std::mem::take(&mut left),
-                lost_bars: std::mem::take(&mut lost_bars),
-                bars_lost_to_neighbours: std::mem::take(&mut foreign),
-                gouges: gouging_moves(drawn, &occurrence.placement, raised, &ways, [radius, tolerance]),
-                is_loose: findings.loose.contains(part) || severed.iter().any(is_drawn),
-                radius,
-                placement: occurrence.placement,
-                top: raised + cutting.path.thickness,
-                tolerance,
-            });
+            let mut part_of_path =
+                placed(drawn, occurrence.placement, occurrence.raised, cutting.path.thickness);
+            part_of_path.is_loose |= findings.loose.contains(part);
+            // The material left and the bars are known by path, not by part: list them with the first part only.
+            if index == 0 {
+                (part_of_path.left, part_of_path.lost_bars) =
+                    (&findings.left[place], &findings.lost_bars[place]);
+            }
+            all.push(part_of_path);
+        }
+    }
+    if let Some(program) = &program
+        && let (Some(project), Some(root)) = (program.paths.first(), traced.trace.occurrences.first())
+    {
+        let is_new = |part: &&Part| !all.iter().any(|known| std::ptr::eq(known.drawn, *part));
+        let own: Vec<&Part> = program.own_parts().into_iter().filter(is_new).collect();
+        let thickness = traced.parts[root.id].path.thickness;
+        all.extend(own.into_iter().map(|part| placed(part, project.cuts.placement, 0.0, thickness)));
+        if let Some(first) = all.first_mut() {
+            first.bars_lost_to_neighbours = program.lost_bars();
         }
     }
     all
