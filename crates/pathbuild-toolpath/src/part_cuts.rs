@@ -42,6 +42,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
     PathCuts {
         name: path.name.clone(),
         radius: path.tool / 2.0,
+        thickness: path.thickness,
         is_slot,
         elements: found.elements,
         cuts: found.cuts,

@@ -287,6 +287,7 @@ mod tests {
         PathCuts {
             name: PathName::new("1.1P").into(),
             radius: 1.0,
+            thickness: 2.0,
             is_slot: false,
             elements: (0..4).map(element).collect(),
             cuts: (0..).zip(ways).map(cut).collect(),

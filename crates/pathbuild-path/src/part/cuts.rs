@@ -17,6 +17,8 @@ pub struct PathCuts {
     pub name: CaseSensitiveName,
     /// Half of O in mm.
     pub radius: f64,
+    /// T in mm: the height of the material's upper face.
+    pub thickness: f64,
     /// Whether the path is milled with a slot cutter.
     pub is_slot: bool,
     /// The elements of the path that cut.

@@ -63,6 +63,9 @@ pub struct SeveredPart {
     pub element: u32,
 }
 
+/// Depth in mm below a plate's upper face from which a cut counts as a cut into the plate.
+const MIN_CUT_DEPTH: f64 = 0.01;
+
 /// Distance in mm up to which two outlines count as the same.
 const SAME_PART_DISTANCE: f64 = 0.01;
 
@@ -84,7 +87,7 @@ impl<'c> PlacedCuts<'c> {
         if !is_near {
             return NeighbourCuts::default();
         }
-        let (own, cutting) = (self.placed(self.raised), other.placed(self.raised));
+        let (own, cutting) = (self.placed(self.raised), other.placed(self.level_for_cuts_of(other)));
         let paths = [&own, &cutting];
         let cuts = CutIndex::new(&paths);
         let mut gouged = Vec::new();
@@ -97,9 +100,19 @@ impl<'c> PlacedCuts<'c> {
                 NeighbourGouge { part: number, element, at: gouge.at, depth: gouge.depth }
             }));
         }
+        let cutting = other.placed(self.raised);
+        let paths = [&own, &cutting];
         let is_taken = |lost: &LostBar| (lost.of, lost.by) == (0, 1);
-        let bars = lost_bars(&cuts, tolerance).into_iter().filter(is_taken).collect();
+        let bars = lost_bars(&CutIndex::new(&paths), tolerance).into_iter().filter(is_taken).collect();
         NeighbourCuts { gouges: gouged, bars }
+    }
+
+    /// Returns the level, in the program, from which the cuts of another path are measured to tell whether they spoil a part of this one. A cut that
+    /// goes through the other path's own plate spoils this part wherever it ends below this plate's upper face: it is no groove that this drawing
+    /// wants. So the level of a path on higher shims is its own one, but below the upper face of this plate.
+    fn level_for_cuts_of(&self, other: &Self) -> f64 {
+        let highest = (self.cuts.thickness - MIN_CUT_DEPTH).max(0.0);
+        self.raised + (other.raised - self.raised).clamp(0.0, highest)
     }
 
     /// Returns the parts that come loose because of cuts of other paths beside them: the cuts of `own` alone would leave material that holds them.
