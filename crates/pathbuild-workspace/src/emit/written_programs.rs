@@ -131,9 +131,10 @@ impl WrittenPrograms {
             jobs.flat_map(names).collect()
         };
         let now = claims(&programs);
-        let before = match programs.is_empty() {
-            true => self.by_drawing.remove(drawing),
-            false => self.by_drawing.insert(drawing.clone(), programs),
+        let before = if programs.is_empty() {
+            self.by_drawing.remove(drawing)
+        } else {
+            self.by_drawing.insert(drawing.clone(), programs)
         };
         let before = claims(&before.unwrap_or_default());
         for (name, target) in now.difference(&before) {
