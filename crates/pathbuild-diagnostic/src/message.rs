@@ -95,6 +95,17 @@ pub enum Value {
 }
 
 impl Value {
+    /// Returns the points in this value, including those within a sentence.
+    pub fn points(&self) -> Vec<Point> {
+        match self {
+            Self::Point(point) => vec![*point],
+            Self::Sentence(sentence) => {
+                sentence.arguments.iter().flat_map(|(_, value)| value.points()).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// Creates a value from a name or a piece of source text.
     pub fn quoted(text: impl AsRef<str>) -> Self {
         Self::Quoted(text.as_ref().into())

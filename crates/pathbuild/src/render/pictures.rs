@@ -92,10 +92,8 @@ fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>, zero: [f64; 2]) ->
     let notes = diagnostic.notes.iter().flat_map(|note| &note.arguments);
     let is_centre = |name: &str| name == "centre";
     let own = diagnostic.arguments.iter().filter(|(name, _)| !is_centre(name));
-    let points = own.chain(notes).filter_map(|(_, value)| match value {
-        Value::Point(point) => Some([0, 1].map(|axis| pair(*point)[axis] + zero[axis])),
-        _ => None,
-    });
+    let points = own.chain(notes).flat_map(|(_, value)| value.points());
+    let points = points.map(|point| [0, 1].map(|axis| pair(point)[axis] + zero[axis]));
     let is_elsewhere = |point: &[f64; 2]| (0..2).any(|axis| (point[axis] - at[axis]).abs() > SAME_PLACE);
     let mut related: Vec<[f64; 2]> = points.filter(is_elsewhere).collect();
     related.dedup();
