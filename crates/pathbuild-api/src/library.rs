@@ -224,7 +224,7 @@ impl Library {
         let places: Vec<Utf8PathBuf> = programs.iter().map(Utf8PathBuf::from).collect();
         let mut options = options.clone();
         let baseline = std::mem::take(&mut options.baseline).resolve(&self.workspace)?;
-        let (name, text) = options.take_text().unzip();
+        let (name, text) = options.text.take().unzip();
         let options = options.resolve(&self.workspace)?;
         self.ask(move |session| {
             let request = verify::Request { places: &places, text: name.as_deref().zip(text), options };

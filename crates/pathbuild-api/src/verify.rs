@@ -3,7 +3,7 @@
 use camino::Utf8PathBuf;
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::config::types::Requirement;
-use pathbuild_workspace::program::{ReadingOptions, UnitCodes};
+use pathbuild_workspace::program::UnitCodes;
 use pathbuild_workspace::settle;
 use pathbuild_workspace::verify::{self, CheckRecord, MoveComparison, Outcome, Verification};
 use pathbuild_workspace::waivers::Coverage;
@@ -14,16 +14,12 @@ use crate::{BaselineOptions, Error, Finding, Lang, WrittenBaseline};
 /// Options for verifying programs.
 #[derive(Clone, Debug, Default)]
 pub struct VerifyOptions {
-    against: Option<String>,
-    cutter: Option<f64>,
-    surface: Option<f64>,
+    /// The options, without those that are given as names.
+    options: verify::VerifyOptions,
     dialect: Option<String>,
-    post: Option<String>,
     required: Vec<String>,
-    text: Option<(String, Vec<u8>)>,
-    has_table_unit_codes: bool,
-    has_absolute_arc_centres: bool,
-    is_feed_ignored: bool,
+    /// A program that is not in a file, with its name.
+    pub(crate) text: Option<(Utf8PathBuf, Vec<u8>)>,
     pub(crate) baseline: BaselineOptions,
 }
 
@@ -35,19 +31,19 @@ impl VerifyOptions {
 
     /// Compares the programs with the drawing of this path, which also gives the cutter and the material.
     pub fn against(mut self, path: impl Into<String>) -> Self {
-        self.against = Some(path.into());
+        self.options.against = Some(path.into());
         self
     }
 
     /// Sets the diameter of the cutter in mm. Without it, the diameter is taken from the drawing, from `[tool]`, or from comments.
     pub fn cutter(mut self, diameter: f64) -> Self {
-        self.cutter = Some(diameter);
+        self.options.cutter = Some(diameter);
         self
     }
 
     /// Sets the height of the material's upper face in mm.
     pub fn surface(mut self, height: f64) -> Self {
-        self.surface = Some(height);
+        self.options.surface = Some(height);
         self
     }
 
@@ -59,7 +55,7 @@ impl VerifyOptions {
 
     /// Sets the post-processor that wrote the programs: the name of a built-in one, or a definition's file.
     pub fn post(mut self, post: impl Into<String>) -> Self {
-        self.post = Some(post.into());
+        self.options.post = Some(post.into());
         self
     }
 
@@ -72,25 +68,25 @@ impl VerifyOptions {
 
     /// Also verifies this program, which is not in a file. Findings name it by `name`.
     pub fn text(mut self, name: impl Into<String>, text: Vec<u8>) -> Self {
-        self.text = Some((name.into(), text));
+        self.text = Some((name.into().into(), text));
         self
     }
 
     /// In programs for `XpertMILL`, reads G70 as millimetres and G71 as inches, the other way round than DIN 66025.
     pub fn table_unit_codes(mut self) -> Self {
-        self.has_table_unit_codes = true;
+        self.options.reading.unit_codes = UnitCodes::Table;
         self
     }
 
     /// In programs for `XpertMILL`, reads I and J as the centre of an arc itself, not as its distance from the start of the arc.
     pub fn absolute_arc_centres(mut self) -> Self {
-        self.has_absolute_arc_centres = true;
+        self.options.reading.absolute_arc_centres = true;
         self
     }
 
     /// In programs for `XpertMILL`, ignores F and uses the feeds of the layers.
     pub fn ignore_feed(mut self) -> Self {
-        self.is_feed_ignored = true;
+        self.options.reading.ignore_feed = true;
         self
     }
 
@@ -100,39 +96,23 @@ impl VerifyOptions {
         self
     }
 
-    /// Takes the program that is not in a file.
-    pub(crate) fn take_text(&mut self) -> Option<(Utf8PathBuf, Vec<u8>)> {
-        self.text.take().map(|(name, text)| (name.into(), text))
-    }
-
     pub(crate) fn resolve(self, workspace: &Workspace) -> Result<verify::VerifyOptions, Error> {
-        let in_dialect = |name: &String| {
-            ReadingOptions::in_dialect(name).ok_or_else(|| {
+        let mut options = self.options;
+        let dialect = |name: &String| {
+            name.parse().map_err(|()| {
                 let [en, de] = ["there is no dialect `{}`", "es gibt keinen Dialekt `{}`"];
                 Error::Refused(workspace.phrase(en, de, name))
             })
         };
-        let reading = self.dialect.as_ref().map(in_dialect).transpose()?.unwrap_or_default();
-        let reading = ReadingOptions {
-            unit_codes: if self.has_table_unit_codes { UnitCodes::Table } else { UnitCodes::Din },
-            absolute_arc_centres: self.has_absolute_arc_centres,
-            ignore_feed: self.is_feed_ignored,
-            ..reading
-        };
+        options.reading.dialect = self.dialect.as_ref().map(dialect).transpose()?;
         let requirement = |name: &String| {
             Requirement::named(name).ok_or_else(|| {
                 Error::Refused(workspace.phrase("there is no check `{}`", "es gibt keine Prüfung `{}`", name))
             })
         };
-        let options = verify::VerifyOptions {
-            reading,
-            against: self.against,
-            required: self.required.iter().map(requirement).collect::<Result<_, _>>()?,
-            post: self.post,
-            ..verify::VerifyOptions::default()
-        };
+        options.required = self.required.iter().map(requirement).collect::<Result<_, _>>()?;
         let [cutter, surface] =
-            [self.cutter, self.surface].map(|number| number.map(|number| number.to_string()));
+            [options.cutter, options.surface].map(|number| number.map(|number| number.to_string()));
         let options = options.with_stock(cutter.as_deref(), surface.as_deref());
         options.map_err(|fault| Error::from_findings(workspace, vec![*fault]))
     }

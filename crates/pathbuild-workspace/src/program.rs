@@ -26,7 +26,7 @@ use crate::workspace::Workspace;
 pub use pathbuild_gcode::interpret::UnitCodes;
 
 /// Options for reading programs.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct ReadingOptions {
     /// The dialect; `None` means to guess it.
     pub dialect: Option<Dialect>,
@@ -38,18 +38,7 @@ pub struct ReadingOptions {
     pub ignore_feed: bool,
 }
 
-impl Default for ReadingOptions {
-    fn default() -> Self {
-        Self { dialect: None, unit_codes: UnitCodes::Din, absolute_arc_centres: false, ignore_feed: false }
-    }
-}
-
 impl ReadingOptions {
-    /// Returns options for the dialect with this name; `None` if there is no such dialect.
-    pub fn in_dialect(name: &str) -> Option<Self> {
-        Some(Self { dialect: Some(name.parse().ok()?), ..Self::default() })
-    }
-
     fn with_settings(self, settings: &Settings) -> Options {
         Options {
             unit_codes: self.unit_codes,
