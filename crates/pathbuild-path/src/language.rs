@@ -44,6 +44,8 @@ pub struct PathTool {
     pub is_named: bool,
     /// The chip load that the user allows.
     pub chip_load: Option<ChipLoad>,
+    /// Whether the tool is a slot cutter, which cuts slots that the outlines of parts do not show.
+    pub is_slot_cutter: bool,
 }
 
 /// Function that finds the tool of a path by the path's name and its O in mm.

@@ -495,8 +495,8 @@ impl FileParts {
 pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<PathCuts> {
     let settings = Settings::get(db);
     let is_compatible = settings.reading(db).compatible;
-    let part = settings.language(db).part.as_ref();
-    let is_slot = part.is_some_and(|part| part.slots.contains(path.name.as_str(), path.tool));
+    let tool = settings.language(db).tools.of(path.name.as_str(), path.tool);
+    let is_slot = tool.is_some_and(|tool| tool.is_slot_cutter);
     catch_bugs(|| part_cuts(path, walked, is_slot, is_compatible)).ok()
 }
 

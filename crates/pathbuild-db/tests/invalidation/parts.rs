@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pathbuild_db::{Role, Settings};
-use pathbuild_path::{Language, LayerPattern, PartSettings, SlotPaths};
+use pathbuild_path::{Language, LayerPattern, PartSettings};
 use salsa::Setter;
 
 use crate::world::World;
@@ -34,12 +34,7 @@ fn project() -> String {
 fn name_parts(world: &mut World) {
     let settings = Settings::get(&world.db);
     let pattern = LayerPattern::new("Part").unwrap();
-    let part = Some(PartSettings {
-        pattern,
-        tolerance: 0.02,
-        is_held_otherwise: false,
-        slots: SlotPaths::default(),
-    });
+    let part = Some(PartSettings { pattern, tolerance: 0.02, is_held_otherwise: false });
     let language = Language { part, ..Language::clone(settings.language(&world.db)) };
     settings.set_language(&mut world.db).to(Arc::new(language));
 }

@@ -18,7 +18,7 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_dxf::Units;
 use pathbuild_path::{
     DoubtThresholds, FilePattern, Language, LayerPattern, LineTypeAliases, PartSettings, PathOptions,
-    PathPattern, SlotPaths,
+    PathPattern, PathTool, PathTools,
 };
 use pathbuild_testkit::sheet;
 
@@ -66,6 +66,10 @@ impl PartTest<'_> {
     }
 
     fn database(&self, files: &[(&str, &str)]) -> Database {
+        let tool = |path: &str, diameter: f64| {
+            let is_slot_cutter = path.ends_with('S') && (diameter - 2.0).abs() < 1e-9;
+            Some(PathTool { name: "mill".into(), is_named: false, chip_load: None, is_slot_cutter })
+        };
         let system = Arc::new(MemorySystem::default());
         for (name, text) in files {
             let sheet = sheet(text).unwrap_or_else(|faults| panic!("{faults:?} in\n{text}"));
@@ -76,7 +80,6 @@ impl PartTest<'_> {
             pattern: LayerPattern::new(pattern).unwrap(),
             tolerance: self.tolerance,
             is_held_otherwise: self.is_held_otherwise,
-            slots: SlotPaths::new(|path, diameter| path.ends_with('S') && (diameter - 2.0).abs() < 1e-9),
         });
         let language = Language {
             path_pattern: PathPattern::default(),
@@ -85,7 +88,7 @@ impl PartTest<'_> {
             line_types: LineTypeAliases::default(),
             text_limit: 65_536,
             doubts: DoubtThresholds::default(),
-            tools: pathbuild_path::PathTools::default(),
+            tools: PathTools::new(tool),
             join_tolerance: 0.0,
         };
         let reading = Reading {

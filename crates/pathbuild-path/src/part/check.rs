@@ -255,7 +255,7 @@ mod tests {
     use crate::geometry::{Line, Xy};
     use crate::keep_out::TipMove;
     use crate::names::{LayerPattern, PathName};
-    use crate::part::{CutElement, PartCut, PartRing, SlotPaths};
+    use crate::part::{CutElement, PartCut, PartRing};
 
     fn rectangle([left, low]: [f64; 2], [right, high]: [f64; 2], pieces: u32) -> Vec<Line> {
         let corners = [[left, low], [right, low], [right, high], [left, high]].map(Xy::from);
@@ -303,8 +303,7 @@ mod tests {
         let rings = vec![PartRing { curves: plate, nest: 0 }];
         let parts = [Part { layer: "Part".into(), paths: None, rings }];
         let pattern = LayerPattern::new("Part").expect("a valid pattern");
-        let settings =
-            PartSettings { pattern, tolerance: 0.02, is_held_otherwise: false, slots: SlotPaths::default() };
+        let settings = PartSettings { pattern, tolerance: 0.02, is_held_otherwise: false };
         let check = |cuts: &PathCuts| {
             let found = check_parts(&parts, &[cuts], true, &settings);
             let mut texts: Vec<String> = found.of_paths[0].iter().map(|found| found.text(Lang::En)).collect();

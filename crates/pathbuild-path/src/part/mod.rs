@@ -12,9 +12,6 @@ mod loose;
 mod neighbours;
 mod prepared;
 
-use std::fmt;
-use std::sync::Arc;
-
 use pathbuild_diagnostic::{Diagnostic, Place};
 use smol_str::SmolStr;
 
@@ -40,39 +37,6 @@ pub struct PartSettings {
     pub tolerance: f64,
     /// Whether something other than support bars holds the parts.
     pub is_held_otherwise: bool,
-    /// The paths that are milled with a slot cutter.
-    pub slots: SlotPaths,
-}
-
-/// Predicate on the name of a path and its O in mm: whether a slot cutter mills the path. Slot cutters cut slots that the outlines of parts do not
-/// show.
-#[derive(Clone)]
-pub struct SlotPaths(Arc<IsSlot>);
-
-type IsSlot = dyn Fn(&str, f64) -> bool + Send + Sync;
-
-impl SlotPaths {
-    /// Wraps a predicate on the name and O in mm of a path.
-    pub fn new(is_slot: impl Fn(&str, f64) -> bool + Send + Sync + 'static) -> Self {
-        Self(Arc::new(is_slot))
-    }
-
-    /// Whether a slot cutter mills this path.
-    pub fn contains(&self, path: &str, diameter: f64) -> bool {
-        (self.0)(path, diameter)
-    }
-}
-
-impl Default for SlotPaths {
-    fn default() -> Self {
-        Self::new(|_, _| false)
-    }
-}
-
-impl fmt::Debug for SlotPaths {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("SlotPaths")
-    }
 }
 
 /// A finished part: its outermost ring and the openings inside it.

@@ -1,7 +1,7 @@
 //! Tests elements that are drawn for a path but do not belong to it: PB119 and PB120.
 
 use pathbuild_dxf::{Drawing, Options, Units};
-use pathbuild_path::{Language, LayerPattern, PartSettings, SlotPaths, may_be_stray_text, stray_findings};
+use pathbuild_path::{Language, LayerPattern, PartSettings, may_be_stray_text, stray_findings};
 use pathbuild_testkit::sheet;
 
 use crate::support::{codes, language};
@@ -178,7 +178,6 @@ fn strays_beside(keep_out: &str, part: Option<&str>, others: &str) -> Vec<String
         pattern: LayerPattern::new(pattern).expect("a pattern"),
         tolerance: 0.01,
         is_held_otherwise: false,
-        slots: SlotPaths::default(),
     });
     let language = Language { keep_out: LayerPattern::new(keep_out).ok(), part, ..language() };
     codes(&stray_findings(&drawn(&drawing), &language))

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pathbuild_db::{Database, Limits, Reading, Settings};
 use pathbuild_path::{
     DoubtThresholds, FilePattern, Language, LayerPattern, LineTypeAliases, PartSettings, PathOptions,
-    PathPattern, PathTool, PathTools, Restriction, SlotPaths,
+    PathPattern, PathTool, PathTools, Restriction,
 };
 
 use super::normal;
@@ -48,6 +48,7 @@ fn path_tools(context: &Workspace) -> PathTools {
         name: (&*tool.name).into(),
         is_named: tool.paths.is_some(),
         chip_load: tool.chip_load(),
+        is_slot_cutter: tool.shape == types::CutterShape::Slot,
     };
     let tools: Vec<PathTool> = context.settings.tables.tools.value.iter().map(tool).collect();
     if tools.is_empty() {
@@ -59,15 +60,10 @@ fn path_tools(context: &Workspace) -> PathTools {
 
 fn part(context: &Workspace) -> Option<PartSettings> {
     let general = &context.settings.general;
-    let table = tool_table(&context.settings);
-    let tools = &context.settings.tables.tools.value;
-    let is_slot: Vec<bool> = tools.iter().map(|tool| tool.shape == types::CutterShape::Slot).collect();
-    let slots = move |path: &str, diameter| table.position(path, diameter).is_some_and(|tool| is_slot[tool]);
     Some(PartSettings {
         pattern: LayerPattern::new(general.part.value.as_deref()?).ok()?,
         tolerance: general.part_tolerance.value,
         is_held_otherwise: general.part_held.value == types::PartHolding::Otherwise,
-        slots: SlotPaths::new(slots),
     })
 }
 
