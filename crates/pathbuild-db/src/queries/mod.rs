@@ -40,7 +40,7 @@ pub use lookup::{
     ResolvedPath, candidate_files, defining_files, drawing_names, embeds_others, likely_file, listing_error,
     name_table, prefetch, resolve_path, search_path, unlistable_error,
 };
-pub use neighbours::{PlacedPart, placed_parts};
+pub use neighbours::placed_parts;
 pub use part::uncut_rings;
 pub use programs::{
     DrawnPath, Part, TracedProgram, drawn_path, effective_parameters, remaining_layers, traced_program,

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{
-    Curve, LeftMaterial, NeighbourGouge, Origin, Part, PartSettings, PathCuts, PlacedCuts, Placement,
+    Curve, NeighbourGouge, Origin, Part, PartSettings, PathCuts, PlacedCuts, PlacedPart, Placement,
     SeveredPart, TipMove, Xy, gouging_moves,
 };
 use pathbuild_toolpath::tip_move;
@@ -301,32 +301,6 @@ impl<'db> PlacedProgram<'db> {
         let (file, name) = place(path);
         Diagnostic { trace, ..origin.at(problem.in_file(file).in_path(name)) }
     }
-}
-
-/// A finished part as placed in a program.
-#[derive(Clone, Debug)]
-pub struct PlacedPart<'db> {
-    /// The part as drawn.
-    pub drawn: &'db Part,
-    /// The material that is left at the part's outline, as drawn.
-    pub left: &'db [LeftMaterial],
-    /// The middle lines of the support bars that the cuts of the part's own path remove, as drawn.
-    pub lost_bars: &'db [Curve],
-    /// The middle lines of the support bars that the paths of a project cut away from each other, in the program's coordinates. The program's
-    /// first part lists all of them.
-    pub bars_lost_to_neighbours: Vec<Curve>,
-    /// The stretches on which cuts enter the part, in the program's coordinates.
-    pub gouges: Vec<Curve>,
-    /// Whether nothing holds the part once it is cut.
-    pub is_loose: bool,
-    /// Half the diameter of the cutter in mm.
-    pub radius: f64,
-    /// The part's placement in the program.
-    pub placement: Placement,
-    /// Z of the part's upper face in mm.
-    pub top: f64,
-    /// Distance in mm by which a cut may miss the part's outline.
-    pub tolerance: f64,
 }
 
 /// Returns the finished parts that the program of a target cuts. Empty without a program.

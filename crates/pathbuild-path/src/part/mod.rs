@@ -88,3 +88,29 @@ impl Part {
         path.strip_prefix(name.as_str()).is_some_and(|rest| rest.chars().all(char::is_alphabetic))
     }
 }
+
+/// A finished part as placed in a program.
+#[derive(Clone, Debug)]
+pub struct PlacedPart<'d> {
+    /// The part as drawn.
+    pub drawn: &'d Part,
+    /// The material that is left at the part's outline, as drawn.
+    pub left: &'d [LeftMaterial],
+    /// The middle lines of the support bars that the cuts of the part's own path remove, as drawn.
+    pub lost_bars: &'d [Curve],
+    /// The middle lines of the support bars that the paths of a project cut away from each other, in the program's coordinates. The program's
+    /// first part lists all of them.
+    pub bars_lost_to_neighbours: Vec<Curve>,
+    /// The stretches on which cuts enter the part, in the program's coordinates.
+    pub gouges: Vec<Curve>,
+    /// Whether nothing holds the part once it is cut.
+    pub is_loose: bool,
+    /// Half the diameter of the cutter in mm.
+    pub radius: f64,
+    /// The part's placement in the program.
+    pub placement: Placement,
+    /// Z of the part's upper face in mm.
+    pub top: f64,
+    /// Distance in mm by which a cut may miss the part's outline.
+    pub tolerance: f64,
+}

@@ -6,8 +6,8 @@ use std::{ptr, sync};
 use pathbuild_diagnostic::{ElementId, EntityKind};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 use pathbuild_path::{
-    Arc, AssignedText, Curve, ElementParameters, Marker, Parameter as InForceParameter, Placement, Position,
-    RawPath, Role, Shape as DrawnShape, SourceMap, TextCircle, Xy,
+    Arc, AssignedText, Curve, ElementParameters, Marker, Parameter as InForceParameter, PlacedPart,
+    Placement, Position, RawPath, Role, Shape as DrawnShape, SourceMap, TextCircle, Xy,
 };
 
 use crate::scene::{
@@ -198,49 +198,24 @@ pub fn keep_out(clamp: &pathbuild_path::KeepOut, [x, y]: Point) -> KeepOut {
     }
 }
 
-/// A finished part, with what the check of the path found about it.
-#[derive(Clone, Copy, Debug)]
-pub struct PartSource<'a> {
-    /// The part, in the coordinates of the drawing.
-    pub part: &'a pathbuild_path::Part,
-    /// Material that is left at the part's outline, in the coordinates of the drawing.
-    pub left: &'a [pathbuild_path::LeftMaterial],
-    /// Centre lines of support bars that are cut away, in the coordinates of the drawing.
-    pub lost_bars: &'a [Curve],
-    /// Centre lines of support bars that other paths of a project cut away, in the coordinates of the program.
-    pub bars_lost_to_neighbours: &'a [Curve],
-    /// Pieces of cuts that go into the part, in the coordinates of the program.
-    pub gouges: &'a [Curve],
-    /// Placement of the part in the program.
-    pub placement: &'a Placement,
-    /// Whether nothing holds the part once it is cut.
-    pub is_loose: bool,
-    /// Half the diameter of the cutter in mm.
-    pub radius: f64,
-    /// Z in mm of the upper face of the part.
-    pub top: f64,
-    /// Distance in mm by which a cut may miss the outline.
-    pub tolerance: f64,
-}
-
 /// Converts a finished part to the coordinates of the program.
-pub fn finished_part(source: &PartSource<'_>) -> FinishedPart {
-    let PartSource { part, left, gouges, placement, is_loose, radius, top, tolerance, .. } = *source;
+pub fn finished_part(part: &PlacedPart<'_>) -> FinishedPart {
+    let PlacedPart { drawn, left, is_loose, radius, top, tolerance, .. } = *part;
     let shapes = |curves: &[Curve]| -> Vec<Shape> {
-        curves.iter().map(|curve| curve_shape(&placement.place_curve(curve))).collect()
+        curves.iter().map(|curve| curve_shape(&part.placement.place_curve(curve))).collect()
     };
-    let mut lost_bars = shapes(source.lost_bars);
-    lost_bars.extend(outline(source.bars_lost_to_neighbours));
+    let mut lost_bars = shapes(part.lost_bars);
+    lost_bars.extend(outline(&part.bars_lost_to_neighbours));
     FinishedPart {
-        rings: part.rings.iter().map(|ring| shapes(&ring.curves)).collect(),
+        rings: drawn.rings.iter().map(|ring| shapes(&ring.curves)).collect(),
         top,
         tolerance,
         left: left
             .iter()
             .map(|left| LeftMaterial { outline: shapes(&left.outline), reach: left.reach })
             .collect(),
-        nests: part.rings.iter().map(|ring| ring.nest).collect(),
-        gouges: outline(gouges),
+        nests: drawn.rings.iter().map(|ring| ring.nest).collect(),
+        gouges: outline(&part.gouges),
         lost_bars,
         radius,
         is_loose,

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Lang, shown};
 
 use crate::scene::{BilingualText, Finding, Label, Point, Scene, ScenePath, Shape};
 
-pub use drawn::{DrawnSource, PartSource, drawn_path, finished_part, keep_out, other_layers, outline};
+pub use drawn::{DrawnSource, drawn_path, finished_part, keep_out, other_layers, outline};
 pub use program::{EmittedText, GcodeSource, ProgramSource, gcode_path, program_path};
 
 impl Scene {

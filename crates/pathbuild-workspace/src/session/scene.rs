@@ -2,9 +2,8 @@
 
 use camino::Utf8Path;
 use pathbuild_db::{
-    Database, Db, DrawnPath, PlacedPart, Settings, SourceFile, Target, TracedProgram, assigned_texts,
-    drawn_path, effective_parameters, keep_outs, path_names, placed_parts, program, remaining_layers,
-    uncut_rings,
+    Database, Db, DrawnPath, Settings, SourceFile, Target, TracedProgram, assigned_texts, drawn_path,
+    effective_parameters, keep_outs, path_names, placed_parts, program, remaining_layers, uncut_rings,
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Number};
 use pathbuild_gcode::native::{WriteOptions, write_program};
@@ -12,8 +11,7 @@ use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::{ElementParameters, PathName, PathRole};
 use pathbuild_toolpath::{Correction, PlannedMove, ProgramStep};
 use pathbuild_view::{
-    self as view, DrawnSource, EmittedText, Example, FinishedPart, PartSource, ProgramSource, Scene,
-    ScenePath,
+    self as view, DrawnSource, EmittedText, Example, FinishedPart, ProgramSource, Scene, ScenePath,
 };
 
 use super::work::with_file_and_path;
@@ -168,19 +166,5 @@ pub(crate) fn drawn_source<'db>(
 }
 
 pub(crate) fn finished_parts(db: &Database, target: Target) -> Vec<FinishedPart> {
-    let part = |part: PlacedPart<'_>| {
-        view::finished_part(&PartSource {
-            part: part.drawn,
-            left: part.left,
-            lost_bars: part.lost_bars,
-            bars_lost_to_neighbours: &part.bars_lost_to_neighbours,
-            gouges: &part.gouges,
-            placement: &part.placement,
-            is_loose: part.is_loose,
-            radius: part.radius,
-            top: part.top,
-            tolerance: part.tolerance,
-        })
-    };
-    placed_parts(db, target).into_iter().map(part).collect()
+    placed_parts(db, target).iter().map(view::finished_part).collect()
 }
