@@ -88,6 +88,9 @@ fn the_configured_definition_reads_programs_without_a_header() {
     let run = verify(&place, "--against 1234.1P");
     assert_clean(&run);
     assert!(run.stderr.contains("read as own.toml"), "{run}");
+    let run = place.run(&format!("view {PROGRAM} -o shown.json"));
+    assert_eq!(run.status, Some(0), "{run}");
+    assert!(place.read("shown.json").contains("\"en\":\"own.toml\""), "{run}");
 }
 
 #[test]
