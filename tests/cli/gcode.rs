@@ -503,6 +503,27 @@ fn what_any_post_wrote_is_what_the_drawing_says() {
 }
 
 #[test]
+fn material_of_several_heights_is_known_in_native_programs_alone() {
+    for (height, is_level) in [("", true), (" H3", false)] {
+        let project = format!(
+            "== parts/1900.dxf ==\nlayer 1900.1P\nstart 0,0 \"T5 O2 MPlate\"\nsubpath 0,0 40,0 \">1234.1P\"\nsubpath 40,0 80,0 \">1234.1P{height}\"\nend 80,0\n"
+        );
+        let place = Place::of(&format!("{LIBRARY}{project}"));
+        for (post, file, is_known) in
+            [("native", "1900_Milling.gcode", true), ("linuxcnc", "1900_Milling.ngc", is_level)]
+        {
+            let emitted = place.run(&format!("emit 1900.1P --post {post} --out-dir out"));
+            assert_eq!(emitted.status, Some(0), "{emitted}");
+            let run = place.run(&format!("verify out/{file} --against 1900.1P"));
+            assert_eq!(run.status, Some(0), "{run}");
+            assert_eq!(run.stderr.contains("material up to Z"), is_known, "{height} {post}: {run}");
+            let reason = "rapid moves (the material of the drawing has several heights (H)";
+            assert_eq!(run.stderr.contains(reason), !is_known, "{height} {post}: {run}");
+        }
+    }
+}
+
+#[test]
 fn a_configured_post_of_another_dialect_has_not_written_the_program() {
     for post in ["grbl", "linuxcnc"] {
         let place = Place::of(&LIBRARY.replacen("library", &format!("post = \"{post}\"\nlibrary"), 1));

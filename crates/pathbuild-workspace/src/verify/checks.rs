@@ -83,6 +83,8 @@ pub enum Reason {
     NoCutter,
     /// The height of the material is unknown.
     NoSurface,
+    /// The material of the drawing has several heights, and only a native program shows where each of them counts.
+    SeveralSurfaces,
     /// The program cuts, but never starts the spindle with a speed.
     NoSpeed,
     /// The program cuts without limiting the rounding of corners.
@@ -216,6 +218,7 @@ impl CheckRecord {
             (Reason::NoKeepOut, _) => &KEEP_OUT_OPTION,
             (Reason::NoCutter, _) => &CUTTER_OPTIONS,
             (Reason::NoSurface | Reason::NoCutBelow, _) => &SURFACE_OPTIONS,
+            (Reason::SeveralSurfaces, _) => &NATIVE_PROGRAM,
             (Reason::NotFollowed, _) => &KNOWN_WORDS,
             (Reason::SeveralZeros, _) => &STATED_ZEROS,
             (Reason::TooLarge, _) => &LIMITS,
@@ -285,6 +288,7 @@ impl Reason {
             Self::NoKeepOut => &NO_KEEP_OUT,
             Self::NoCutter => &NO_CUTTER,
             Self::NoSurface => &NO_SURFACE,
+            Self::SeveralSurfaces => &SEVERAL_SURFACES,
             Self::TooLarge => &TOO_LARGE,
             Self::NoSpeed => &NO_SPEED,
             Self::NoCornerLimit => &NO_CORNER_LIMIT,
@@ -355,6 +359,14 @@ static NO_CUTTER: Text = Text { en: "the cutter is not known", de: "der Fräser 
 static NO_SURFACE: Text = Text {
     en: "the height of the material is not known, so only rapid moves at cutting depth were examined",
     de: "die Höhe des Materials ist nicht bekannt, daher wurden nur Eilgänge in Frästiefe untersucht",
+};
+static SEVERAL_SURFACES: Text = Text {
+    en: "the material of the drawing has several heights (H), so rapid moves were only compared with those of the drawing",
+    de: "das Material der Zeichnung ist verschieden hoch (H), daher wurden Eilgänge nur mit denen der Zeichnung verglichen",
+};
+static NATIVE_PROGRAM: Text = Text {
+    en: "the native program, which shows where each of them counts",
+    de: "das native Programm, das zeigt, wo welche Höhe gilt",
 };
 static TOO_LARGE: Text = Text { en: "the program is too large", de: "das Programm ist zu groß" };
 static NO_SPEED: Text = Text {

@@ -165,7 +165,8 @@ impl<'s> Sources<'s> {
             return Outcome::NotMade(Reason::NoCutter);
         };
         let Some((surface_origin, surface)) = self.surface() else {
-            return Outcome::NotMade(Reason::NoSurface);
+            let is_drawn = self.verifier.against.is_some();
+            return Outcome::NotMade(if is_drawn { Reason::SeveralSurfaces } else { Reason::NoSurface });
         };
         if !self.are_moves_known() {
             return Outcome::NotMade(Reason::NotFollowed);
