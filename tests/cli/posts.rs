@@ -283,7 +283,7 @@ fn no_program_moves_in_the_plane_at_the_height_of_a_tool_change_by_hand() {
     let height = "\n{$set(x,NaN)}{$set(y,NaN)}{$set(z,NaN)}\n{$clearance}</ToolChange>";
     assert!(grbl.contains(height), "{grbl}");
     for (end, is_raised) in [(height, true), ("</ToolChange>", false)] {
-        let place = library("").file("my.cbpp", &grbl.replace(height, end));
+        let place = library("").file("my.cbpp", grbl.replace(height, end));
         let emitted = place.run("emit 1300.1P 1234.1P --join both --post my.cbpp --format concise");
         assert_eq!(emitted.status, Some(i32::from(!is_raised)), "{emitted}");
         assert_eq!(emitted.stderr.contains("PB742"), !is_raised, "{emitted}");

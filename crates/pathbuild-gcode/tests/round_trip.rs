@@ -110,7 +110,8 @@ fn options() -> WriteOptions {
 }
 
 fn text_of(program: &Program) -> String {
-    native::write_program(program, "pathbuild 0.1.0", &options(), usize::MAX).unwrap()
+    native::write_program(program, "pathbuild 0.1.0", &options(), usize::MAX)
+        .expect("a program within the limit")
 }
 
 proptest! {

@@ -72,10 +72,10 @@ impl TipHeight {
                 }
             }
             Action::ChangeTool(number) => self.insert(*number),
-            Action::Change(Change::Offsets { code: 100 | 920, is_followed: false, .. }) => {
-                if self.height == (Height::Stopped { moved: None }) {
-                    self.height = Height::Changed;
-                }
+            Action::Change(Change::Offsets { code: 100 | 920, is_followed: false, .. })
+                if self.height == (Height::Stopped { moved: None }) =>
+            {
+                self.height = Height::Changed;
             }
             Action::Change(Change::ToolLength(length)) => {
                 self.is_beside_change = false;
@@ -171,16 +171,12 @@ impl TipHeight {
         if movement.keeps_xy() && stated.and(Axes::XY).is_empty() && !homes_in_plane(movement) {
             return None;
         }
-        match &mut self.height {
-            Height::Stopped { moved } => {
-                moved.get_or_insert(step.line);
-                None
-            }
-            _ => {
-                self.height = Height::Known;
-                Some(&say::CHANGE_NOT_RAISED)
-            }
+        if let Height::Stopped { moved } = &mut self.height {
+            moved.get_or_insert(step.line);
+            return None;
         }
+        self.height = Height::Known;
+        Some(&say::CHANGE_NOT_RAISED)
     }
 }
 

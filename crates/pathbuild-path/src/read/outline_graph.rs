@@ -104,7 +104,7 @@ impl Graph {
     /// Returns the outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same area on both sides are
     /// dropped: dangling chains, and lines from one ring to another. A ring that crosses itself may run either way round.
     pub(super) fn rings(&self) -> Vec<NumberedCurves> {
-        let outer = self.faces(self.dividing.iter().copied()).into_iter().filter(|face| {
+        let outer = self.faces(&self.dividing.iter().copied()).into_iter().filter(|face| {
             let area = self.area(face);
             area < -JOIN_DISTANCE * JOIN_DISTANCE
                 || area <= JOIN_DISTANCE * JOIN_DISTANCE && self.is_figure_of_eight(face)
@@ -125,7 +125,7 @@ impl Graph {
 
     /// Returns the numbers of the curves that have different faces on their two sides.
     fn dividing_curves(&self) -> BTreeSet<usize> {
-        let faces = self.faces(self.numbers.iter().copied());
+        let faces = self.faces(&self.numbers.iter().copied());
         let mut face_of = vec![0; 2 * self.curves.len()];
         for (number, face) in faces.iter().enumerate() {
             for half_edge in face {
@@ -173,7 +173,7 @@ impl Graph {
     }
 
     /// Returns the faces of the kept curves, each on the left of its half-edges.
-    fn faces(&self, curves: impl Iterator<Item = usize> + Clone) -> Vec<Vec<usize>> {
+    fn faces(&self, curves: &(impl Iterator<Item = usize> + Clone)) -> Vec<Vec<usize>> {
         let half_edges = || curves.clone().flat_map(|curve| [2 * curve, 2 * curve + 1]);
         let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for half_edge in half_edges() {

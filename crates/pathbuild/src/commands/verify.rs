@@ -57,12 +57,11 @@ fn show(context: &Context, args: &VerifyArgs, verified: VerifyReport) -> ExitSta
             report_comparison(context, &program.file, comparison);
         }
     }
-    let status = match baseline {
-        Some(written) => waivers::report_written(context, &args.waivers, &written),
-        None => {
-            let files = programs.iter().map(|program| Utf8PathBuf::from(&*program.file)).collect();
-            conclude(context, &Findings { programs: files, ..for_rendering(findings, accepted) })
-        }
+    let status = if let Some(written) = baseline {
+        waivers::report_written(context, &args.waivers, &written)
+    } else {
+        let files = programs.iter().map(|program| Utf8PathBuf::from(&*program.file)).collect();
+        conclude(context, &Findings { programs: files, ..for_rendering(findings, accepted) })
     };
     report_checks(context, &programs);
     status

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::time::Duration;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::{Diagnostic, shown};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
@@ -41,7 +41,7 @@ fn suites(findings: &Findings) -> SuitesByFile<'_> {
         let suite = suites.entry(Some(&file.file)).or_default();
         suite.extend(file.paths.iter().map(|path| (Some(path.as_str()), TestOutcome::default())));
     }
-    let programs: BTreeSet<&Utf8Path> = findings.programs.iter().map(|program| program.as_path()).collect();
+    let programs: BTreeSet<&Utf8Path> = findings.programs.iter().map(Utf8PathBuf::as_path).collect();
     for program in &programs {
         suites.entry(Some(program)).or_default().insert(None, TestOutcome::default());
     }
