@@ -477,12 +477,19 @@ impl Builder {
             return Err(self.errors);
         }
         if !self.is_settled() && self.job.operations.len() > 1 {
-            // The last operation cuts nothing, so it only moves the tool away, which the post does by itself.
-            self.job.operations.pop();
+            self.drop_idle_end();
         }
         self.job.set_surface(0.0);
         self.job.has_no_surface = true;
         Ok(self.job)
+    }
+
+    /// Removes the last operation, which cuts nothing. Its rapid moves, such as the last retract, take the tool of the last cut away.
+    fn drop_idle_end(&mut self) {
+        let Some(idle) = self.job.operations.pop() else { return };
+        if self.job.operations.last().is_some_and(|last| last.tool.index == idle.tool.index) {
+            self.job.departure = idle.steps.into_iter().filter(|step| !is_not_rapid(step)).collect();
+        }
     }
 }
 

@@ -516,6 +516,31 @@ fn posted(text: &str, dialect: Dialect, post: &str) -> Result<Vec<String>, Vec<S
     Ok(String::from_utf8(output.text).unwrap().lines().map(str::to_owned).collect())
 }
 
+/// In a native program, the last retract follows the end of the last path.
+#[test]
+fn the_last_retract_of_a_native_program_is_written() {
+    let last_height = |post: &str, tail: &str| {
+        let text = format!(
+            "G17 G21 G90\nT1\nM3 S9000\nG00 Z30\nG00 X0 Y0\n(START Subpath 1.1P)\nG00 Z4\nG01 F150 Z-1\nG01 F150 X9\nG00 Z4\nG00 X20 Y0\n(END Subpath 1.1P)\n{tail}M5\nM30\n"
+        );
+        let steps = interpret(text.as_bytes(), Dialect::Native, &Options::default()).steps;
+        let mut job = Job::from_steps("1001", &steps, Dialect::Native, &native_remark).expect("a job");
+        job.set_surface(0.0);
+        let output = load(post).unwrap().write(&job, &PostOptions::default());
+        let text = String::from_utf8(output.unwrap_or_else(|errors| panic!("{:?}", texts(&errors))).text);
+        let text = text.unwrap();
+        let (_, height) = text.rsplit_once('Z').expect("a height");
+        height.split_whitespace().next().unwrap_or_default().parse::<f64>().expect("a number")
+    };
+    for post in ["din", "xpertmill", "grbl"] {
+        assert_eq!(last_height(post, "G00 Z30\n"), 30.0, "{post}");
+        assert_eq!(last_height(post, "G00 X30 Y0\nG00 Z30\n"), 30.0, "{post}");
+    }
+    for post in ["din", "xpertmill"] {
+        assert_eq!(last_height(post, ""), 4.0, "{post} writes only what the program says");
+    }
+}
+
 /// Returns the lines after the second tool change.
 fn after_change(lines: &[String]) -> &[String] {
     let change = lines.iter().rposition(|line| line.starts_with("M3 ")).expect("the spindle starts again");
