@@ -49,11 +49,16 @@ def how_asked():
     return {path: from_here(file) if paths[file] == 1 else path for path, file in drawings.items()}
 
 
+# Programs that are missing, out of date, or of no use any more: the build writes them, or leaves them alone.
+NOT_CURRENT = {"PB520", "PB522", "PB528"}
+
+
 def told(*command):
     """What a command says in JSON."""
     run = subprocess.run(["pathbuild", *command, "--quiet", "--no-cache", "--format", "json"], stdout=subprocess.PIPE)
     rows = [json.loads(line) for line in run.stdout.splitlines()]
-    if not rows or rows[-1].get("errors") != 0:
+    errors = [row for row in rows if row["type"] == "finding" and row["severity"] == "error"]
+    if not rows or any(row["code"] not in NOT_CURRENT for row in errors):
         sys.exit("configure.py: fix the errors first, `pathbuild check` shows them")
     return rows
 

@@ -222,7 +222,7 @@ fn arcs_that_are_followed_are_limited() {
     };
     let asked = verify(1);
     assert_exceeds(&asked, "verify-pieces");
-    let (_, rest) = asked.stderr.split_once("cut into ").unwrap();
+    let (_, rest) = asked.stderr.split_once("divided into ").unwrap();
     let count: u64 = rest.split(' ').next().unwrap().parse().unwrap();
     assert!(!verify(count).stderr.contains("PB005"), "{}", verify(count));
     assert_exceeds(&verify(count - 1), "verify-pieces");

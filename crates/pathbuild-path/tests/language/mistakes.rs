@@ -119,7 +119,7 @@ fn a_line_drawn_twice_is_not_an_end_marker_out_of_place() {
     let found = |drawn: &str| messages_with_help(&compile(&path(P, drawn)).found);
     assert_one(&found("mill 0,0 20,0\nmill 0,0 20,0\nend 20,0"), "PB403 ", "delete one of the two");
     assert_one(&found("mill 0,0 20,0\nmill 20,0 0,0\nend 20,0"), "PB403 ", "delete one of the two");
-    assert_one(&found("mill 0,0 20,0\nmill 20,0 0,5\nend 20,0"), "PB403 ", "draw what is missing between");
+    assert_one(&found("mill 0,0 20,0\nmill 20,0 0,5\nend 20,0"), "PB403 ", "draw the missing segments between the two points");
 }
 
 #[test]
@@ -245,7 +245,7 @@ fn the_halves_of_a_ring_are_not_one_arc() {
     let ring =
         "mill 0,0 20,0\nmill arc 40,0 to 40,20 centre 40,10\nmill arc 40,20 to 40,0 centre 40,10\nend 20,0";
     let found = messages_with_help(&compile(&path(P, ring)).found);
-    assert_one(&found, "PB402 the path ends here, but not all", "move them to another layer");
+    assert_one(&found, "PB402 the path ends here; segments not", "move them to another layer");
     let twice = ring.replace("40,20 to 40,0 centre 40,10", "40,20 to 40,0 centre 40,10 cw");
     assert_one(
         &messages_with_help(&compile(&path(P, &twice)).found),

@@ -128,13 +128,26 @@ impl ExpandedPath<'_> {
             let [around, holder] = [number, holder].map(|number: usize| &self.occurrences[number]);
             let clamp = &self.model.drawings[around.instance.0].clamps[clamp];
             let lowest = lowest - holder.place.raised;
+            let at = holder.place.back(around.place.of(pair(clamp.at)));
+            let [x, y] = at.map(|coordinate| (coordinate * 1000.0).round() / 1000.0 + 0.0);
+            let is_own = around.instance.0 == holder.instance.0
+                && minus(at, pair(clamp.at)).iter().all(|gap| gap.abs() < LENGTH_TOLERANCE);
+            let from = if is_own {
+                format!("at ({}, {}),", clamp.at.x, clamp.at.y)
+            } else {
+                let drawing = &self.model.drawings[around.instance.0].path;
+                format!(
+                    "from {} at ({x}, {y}) of this drawing,",
+                    drawing.rsplit('/').next().unwrap_or_default()
+                )
+            };
             Finding {
                 code: "PB407".to_owned(),
                 file: self.model.drawings[holder.instance.0].path.clone(),
                 path: Some(holder.path.name.to_string()),
                 handle: element,
                 words: vec![
-                    format!("the clamp of layer {} at ({}, {}),", clamp.layer, clamp.at.x, clamp.at.y),
+                    format!("the clamp of layer {} {from}", clamp.layer),
                     format!(": {what}, lowest Z {lowest}, moves: {moves}"),
                 ],
             }
