@@ -119,7 +119,11 @@ fn a_line_drawn_twice_is_not_an_end_marker_out_of_place() {
     let found = |drawn: &str| messages_with_help(&compile(&path(P, drawn)).found);
     assert_one(&found("mill 0,0 20,0\nmill 0,0 20,0\nend 20,0"), "PB403 ", "delete one of the two");
     assert_one(&found("mill 0,0 20,0\nmill 20,0 0,0\nend 20,0"), "PB403 ", "delete one of the two");
-    assert_one(&found("mill 0,0 20,0\nmill 20,0 0,5\nend 20,0"), "PB403 ", "draw the missing segments between the two points");
+    assert_one(
+        &found("mill 0,0 20,0\nmill 20,0 0,5\nend 20,0"),
+        "PB403 ",
+        "draw the missing segments between the two points",
+    );
 }
 
 #[test]
