@@ -69,7 +69,7 @@ fn rapids_are_above_or_beside() {
 
 #[test]
 fn arcs_are_arcs() {
-    // A half circle bulges to the right; its chord is far from the clamp.
+    // The half circle bulges up towards the clamp, which begins at Y10; its chord at Y0 is far from it.
     let arc = |radius: f64| {
         let (left, right) = (25.0 - radius, 25.0 + radius);
         path(

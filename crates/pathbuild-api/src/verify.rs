@@ -231,7 +231,7 @@ impl ProgramCheck {
             Outcome::Assumed(..) => (CheckState::Assumed, made(), None, None),
             Outcome::Incomplete(_, blind) => {
                 let (reason, count) = (verify::blind_text(*blind, lang), blind.count);
-                (CheckState::NotMade, reason, Some(&verify::ABOVE_FIRST), Some(count))
+                (CheckState::NotMade, reason, Some(&verify::APPROACH_ABOVE_MATERIAL), Some(count))
             }
             Outcome::NotMade(reason) => {
                 let (text, option) = (reason.text().in_lang(lang).to_owned(), record.option(*reason));

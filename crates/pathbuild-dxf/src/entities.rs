@@ -464,7 +464,7 @@ impl RecordKind {
     }
 }
 
-/// An entity on a layer that may be wanted.
+/// An entity whose layer is one of those to read, or may turn out to be one when its block is inserted.
 #[derive(Clone, Debug)]
 pub(crate) struct Item<'a> {
     pub(crate) traits: CommonProperties,

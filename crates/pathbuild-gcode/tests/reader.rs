@@ -65,7 +65,7 @@ fn a_fault_has_its_line_column_and_text() {
     let problems = reader.into_problems().into_diagnostics();
     assert_eq!(
         spelled_out(&problems),
-        "PB703 (Some(2), Some(8)) `Y` has no number; the line is left out Some(\"Y\")\n"
+        "PB703 (Some(2), Some(8)) `Y` has no number; the line is ignored Some(\"Y\")\n"
     );
 }
 

@@ -745,7 +745,7 @@ fn a_report_says_where_and_how_high() {
     assert!(
         problem
             .text(Lang::En)
-            .starts_with("a rapid move at Z 1 goes through material that still stands up to Z 5, near (")
+            .starts_with("a rapid move at Z 1 goes through material that still reaches up to Z 5, near (")
     );
     assert_eq!(problem.text.as_ref().map(|fault| &*fault.text), Some("G0 X10 Y1"));
     assert!(problem.is_error());

@@ -164,7 +164,7 @@ pub struct Height {
 pub struct Count {
     /// The label under which the move is counted.
     pub class: MoveClass,
-    /// Length in mm as counted by the original tool: in the plane, but for sweeps including the difference in height.
+    /// Length in mm as PathDxf2GCode counts it: in the plane, except for sweeps, which include the difference in height.
     pub length: f64,
     /// Feed in mm/min used to calculate the time; `None` is the rapid feed.
     pub feed: Option<f64>,

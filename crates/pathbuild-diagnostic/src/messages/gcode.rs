@@ -29,7 +29,7 @@ messages! {
     }
     /// A carriage return within a line that ends with a line feed.
     RETURN_IN_LINE: UnknownCharacter {
-        en: "the line contains a carriage return (CR) and is left out",
+        en: "the line contains a carriage return (CR) and is ignored",
         de: "die Zeile enthält einen Wagenrücklauf (CR) und bleibt unbeachtet",
         help_en: "end every line with LF or CR LF: some controls end the line at a CR and obey what follows, even in a comment",
         help_de: "alle Zeilen mit LF oder CR LF beenden: manche Steuerungen beenden die Zeile bei CR und führen aus, was folgt, auch in einem Kommentar",
@@ -120,7 +120,7 @@ messages! {
     }
     /// A character that cannot begin a word.
     UNKNOWN_CHARACTER: UnknownCharacter {
-        en: "no word begins with `{found}`; the line is left out",
+        en: "no word begins with `{found}`; the line is ignored",
         de: "mit `{found}` beginnt kein Wort; die Zeile bleibt unbeachtet",
         help_en: "remove it, or put the remark into a comment",
         help_de: "das Zeichen entfernen oder die Bemerkung in einen Kommentar setzen",
@@ -134,21 +134,21 @@ messages! {
     }
     /// A word that lacks its number.
     WORD_WITHOUT_NUMBER: InvalidWord {
-        en: "`{letter}` has no number; the line is left out",
+        en: "`{letter}` has no number; the line is ignored",
         de: "`{letter}` hat keine Zahl; die Zeile bleibt unbeachtet",
         help_en: "write the number directly after the letter",
         help_de: "die Zahl direkt hinter den Buchstaben schreiben",
     }
     /// A malformed number such as `X1.2.3`.
     NO_NUMBER: InvalidWord {
-        en: "`{found}` is not a number; the line is left out",
+        en: "`{found}` is not a number; the line is ignored",
         de: "`{found}` ist keine Zahl; die Zeile bleibt unbeachtet",
         help_en: "write digits with at most one point, and a sign if needed",
         help_de: "Ziffern mit höchstens einem Punkt schreiben, wenn nötig mit Vorzeichen",
     }
     /// A number that no letter precedes.
     NUMBER_WITHOUT_LETTER: InvalidWord {
-        en: "the number `{found}` has no letter; the line is left out",
+        en: "the number `{found}` has no letter; the line is ignored",
         de: "die Zahl `{found}` hat keinen Buchstaben; die Zeile bleibt unbeachtet",
         help_en: "write the letter of the word before the number; a comment begins with {comment}",
         help_de: "den Buchstaben des Worts davorsetzen; ein Kommentar beginnt mit {comment}",
@@ -169,49 +169,49 @@ messages! {
     }
     /// A comment that is still open at the end of its line.
     UNCLOSED_COMMENT: InvalidComment {
-        en: "the comment is not closed; the line is left out",
+        en: "the comment is not closed; the line is ignored",
         de: "der Kommentar ist nicht geschlossen; die Zeile bleibt unbeachtet",
         help_en: "put `)` at its end; a comment cannot continue on the next line",
         help_de: "`)` ans Ende setzen; ein Kommentar geht nicht über die Zeile hinaus",
     }
     /// A comment that begins within another comment.
     NESTED_COMMENT: InvalidComment {
-        en: "this is a comment within a comment; the line is left out",
+        en: "this is a comment within a comment; the line is ignored",
         de: "das ist ein Kommentar in einem Kommentar; die Zeile bleibt unbeachtet",
         help_en: "use `[` and `]` inside comments: {dialect} stops at this line",
         help_de: "in Kommentaren `[` und `]` schreiben: {dialect} bleibt bei dieser Zeile stehen",
     }
     /// An expression that lacks a value.
     VALUE_EXPECTED: InvalidExpression {
-        en: "a value is missing here; the line is left out",
+        en: "a value is missing here; the line is ignored",
         de: "hier fehlt ein Wert; die Zeile bleibt unbeachtet",
         help_en: "write a number, #n, a function or an expression in [ ]",
         help_de: "eine Zahl, #n, eine Funktion oder einen Ausdruck in [ ] schreiben",
     }
     /// An expression that lacks an operator or a closing bracket.
     OPERATOR_EXPECTED: InvalidExpression {
-        en: "an operator or `{bracket}` is missing here; the line is left out",
+        en: "an operator or `{bracket}` is missing here; the line is ignored",
         de: "hier fehlt ein Rechenzeichen oder `{bracket}`; die Zeile bleibt unbeachtet",
         help_en: "write the bracket, or one of the operators {operators}",
         help_de: "die Klammer oder eines der Rechenzeichen {operators} schreiben",
     }
     /// An expression that lacks a bracket.
     BRACKET_EXPECTED: InvalidExpression {
-        en: "`{bracket}` is missing here; the line is left out",
+        en: "`{bracket}` is missing here; the line is ignored",
         de: "hier fehlt `{bracket}`; die Zeile bleibt unbeachtet",
         help_en: "put expressions in [ ]; write ATAN as ATAN[y]/[x]",
         help_de: "Ausdrücke in [ ] setzen; ATAN als ATAN[y]/[x] schreiben",
     }
     /// A parameter such as `#1` without `=`.
     ASSIGNMENT_EXPECTED: InvalidExpression {
-        en: "`=` is missing after the parameter; the line is left out",
+        en: "`=` is missing after the parameter; the line is ignored",
         de: "hinter dem Parameter fehlt `=`; die Zeile bleibt unbeachtet",
         help_en: "write the value after `=`, for example #1=2.5",
         help_de: "den Wert hinter `=` schreiben, zum Beispiel #1=2.5",
     }
     /// Brackets nested more deeply than the limit.
     NESTED_TOO_DEEPLY: InvalidExpression {
-        en: "brackets are nested more than {most} levels deep; the line is left out",
+        en: "brackets are nested more than {most} levels deep; the line is ignored",
         de: "Klammern sind über mehr als {most} Ebenen verschachtelt; die Zeile bleibt unbeachtet",
         help_en: "split the expression: assign part of it to a parameter first",
         help_de: "den Ausdruck teilen: einen Teil davon zuerst einem Parameter zuweisen",
@@ -337,14 +337,14 @@ messages! {
     }
     /// `#` or `[ ]` in a dialect that has neither parameters nor expressions.
     UNKNOWN_EXPRESSION: UnknownWord {
-        en: "{dialect} has neither parameters nor expressions; the line is left out",
+        en: "{dialect} has neither parameters nor expressions; the line is ignored",
         de: "{dialect} kennt weder Parameter noch Ausdrücke; die Zeile bleibt unbeachtet",
         help_en: "write numbers, or read the file as another dialect with --dialect",
         help_de: "Zahlen schreiben oder die Datei mit --dialect als anderen Dialekt lesen",
     }
     /// A macro statement of a control whose macros are not interpreted.
     MACRO_NOT_FOLLOWED: WordNotFollowed {
-        en: "pathbuild does not interpret macros of {dialect}; the line is left out",
+        en: "pathbuild does not interpret macros of {dialect}; the line is ignored",
         de: "Makros von {dialect} werden nicht verfolgt; die Zeile bleibt unbeachtet",
         help_en: "check the program at the control, or write the moves out",
         help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
@@ -566,7 +566,7 @@ messages! {
     }
     /// An expression without a value, for example because of a division by zero.
     NO_VALUE: CannotEvaluate {
-        en: "the expression has no value: {reason}; the line is left out",
+        en: "the expression has no value: {reason}; the line is ignored",
         de: "der Ausdruck hat keinen Wert: {reason}; die Zeile bleibt unbeachtet",
     }
     /// A parameter with a value that only the machine knows.

@@ -156,7 +156,7 @@ messages! {
     MISSING_OUTPUT: NotCurrent {
         en: "{name} is missing",
         de: "{name} fehlt",
-        help_en: "write it with emit",
+        help_en: "write it with `pathbuild emit`",
         help_de: "mit emit schreiben",
     }
     /// A file on disk that differs from what `emit` would write.

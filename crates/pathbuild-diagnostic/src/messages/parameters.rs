@@ -509,7 +509,7 @@ messages! {
     VALUE_WITHOUT_DEFINITION: UnknownVariable {
         en: "path {name} has no variable \"{variable}\"",
         de: "Pfad {name} hat keine Variable \"{variable}\"",
-        help_en: "variables of the path: {known}",
+        help_en: "use one of the variables of the path: {known}",
         help_de: "Variablen des Pfads: {known}",
     }
     /// A reference to an unknown variable.

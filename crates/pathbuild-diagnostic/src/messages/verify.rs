@@ -381,7 +381,7 @@ messages! {
     }
     /// A rapid move in the plane through material.
     RAPID_IN_MATERIAL: RapidInMaterial {
-        en: "a rapid move at Z {z} goes through material that still stands up to Z {height}, near {point}",
+        en: "a rapid move at Z {z} goes through material that still reaches up to Z {height}, near {point}",
         de: "ein Eilgang auf Z {z} führt durch Material, das noch bis Z {height} steht, bei {point}",
         help_en: "raise the cutter first, or mill there beforehand (stock known to within {resolution} mm)",
         help_de: "den Fräser vorher anheben oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
@@ -416,7 +416,7 @@ messages! {
     }
     /// A rapid move down into material.
     RAPID_PLUNGE: RapidPlunge {
-        en: "a rapid move goes down to Z {z} into material that stands up to Z {height}, at {point}",
+        en: "a rapid move goes down to Z {z} into material that reaches up to Z {height}, at {point}",
         de: "ein Eilgang fährt auf Z {z} hinunter in Material, das bis Z {height} steht, bei {point}",
         help_en: "go down with G1 and a feed (stock known to within {resolution} mm)",
         help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",

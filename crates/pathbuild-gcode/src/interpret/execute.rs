@@ -123,7 +123,7 @@ impl<'i> Interpreter<'i> {
         };
         if matches!(movement.pace, Pace::Feed(_)) {
             self.state.has_cut = true;
-            self.state.offsets.fix_length();
+            self.state.offsets.set_reference_length();
             if let Some((line, code)) = self.state.referenced.take() {
                 self.report_reference(line, code, Severity::Error);
             }

@@ -259,12 +259,12 @@ impl Offsets {
     }
 
     /// Makes the current tool length the reference for all positions of this tool, unless a reference has been fixed before.
-    pub(super) fn fix_length(&mut self) {
+    pub(super) fn set_reference_length(&mut self) {
         self.length.at_cut.get_or_insert(self.length.current);
     }
 
     /// Discards the reference length, because another tool with a length of its own may be in the spindle.
-    pub(super) fn release_length(&mut self) {
+    pub(super) fn clear_reference_length(&mut self) {
         self.length.at_cut = None;
     }
 

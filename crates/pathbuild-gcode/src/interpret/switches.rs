@@ -49,7 +49,7 @@ impl Interpreter<'_> {
         } else {
             self.state.stated_axes = Axes::NONE;
             self.state.stated_since_stop = Axes::NONE;
-            self.state.offsets.release_length();
+            self.state.offsets.clear_reference_length();
         }
         let is_turning = self.state.spindle.turning.is_on();
         if is_turning && !self.rules.layers {
@@ -317,7 +317,7 @@ impl Interpreter<'_> {
                     self.switch_off(block);
                 }
                 self.state.stated_since_stop = Axes::NONE;
-                self.state.offsets.release_length();
+                self.state.offsets.clear_reference_length();
                 self.step(block, Action::Stop { optional: code == 10 });
             }
             None => {}

@@ -644,10 +644,12 @@ impl Binder<'_> {
         }
     }
 
-    /// Reports PB212 if there are no bars and the cuts through the material form a ring, so that the part would come loose.
+    /// Reports PB212 if there are no bars and the cuts through the material form a ring, so that the part would come loose. Parts that are held
+    /// otherwise need no bars.
     fn check_bars(&mut self, tool: Option<f64>) {
         let elements = &self.raw.drawn.elements;
-        if elements.iter().any(|element| element.role == Role::Cut(Cut::Support)) {
+        let is_held_otherwise = self.language.part.as_ref().is_some_and(|part| part.is_held_otherwise);
+        if is_held_otherwise || elements.iter().any(|element| element.role == Role::Cut(Cut::Support)) {
             return;
         }
         let outline = self.segments.iter().filter_map(|segment| {

@@ -34,7 +34,7 @@ pub(super) struct Gouge {
 }
 
 /// Determines the side of the part on which each cut lies, and where the cut goes into the part. `numbers` are the numbers of the cuts to examine. A
-/// cut that ends above the plate counts only if it may shape the outline: if it is at the lowest depth of its element.
+/// cut that ends above the plate counts only at the lowest depth of its element, where it may shape the outline.
 pub(super) fn classify_cuts<'c>(
     part: &PreparedPart<'_>,
     index: &CutIndex<'c>,

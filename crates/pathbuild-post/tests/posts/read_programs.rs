@@ -626,7 +626,8 @@ fn xpertmill_s_first_layer_is_1_and_its_speeds_make_the_spindle_turn() {
     assert!(lines.contains(&"M06 01".to_owned()) && lines.contains(&"M06 05".to_owned()), "{lines:?}");
 }
 
-/// The job is that of a control whose rapid moves are straight; the tool returns along a slanting slot.
+/// The job was written for a control whose rapid moves are straight: the tool returns rapidly along the slot that it has just cut, which is parallel
+/// to no axis.
 #[test]
 fn a_rapid_move_that_the_target_bends_into_material_is_not_written() {
     let written = |post: &str, end: &str, diameter: f64| {

@@ -85,7 +85,7 @@ fn assemble<'a>(sheet: &'a Sheet, mut written: CrateOutput<'a>) -> Vec<Pair<'a>>
 
 /// The entities of a sheet, to which handles and owners are assigned.
 struct Entities<'a, 'o> {
-    /// The entities in the order of their tags.
+    /// The entities of the drawing, then those of its blocks. The tag that is written in place of a handle is `TAG_BASE` plus the index here.
     tagged: Vec<&'a Entity>,
     version: Version,
     has_handles: bool,
@@ -316,7 +316,8 @@ fn set<'a>(record: &mut Record<'a>, pair: Pair<'a>) {
 }
 
 impl Template {
-    /// Creates a template from a sheet without parameter texts. Its first `early` entities precede those of the surrounded drawing.
+    /// Creates a template from a sheet, which must have no parameter texts. In a drawing that uses it, its first `early` entities come before the
+    /// drawing's own entities, and its other entities after them.
     pub fn new(sheet: &Sheet, early: usize) -> Self {
         with_written(sheet, |written| {
             let is_block = |record: &&Record<'_>| kind(record) == "BLOCK_RECORD" && !is_space(record);

@@ -165,7 +165,11 @@ pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
             Outcome::Made(_) | Outcome::Assumed(..) => checked.push(record.text(lang)),
             Outcome::Incomplete(values, blind) => {
                 checked.push(format!("{name} {}", with_cutter(values, lang)));
-                unchecked.push(format!("{} ({})", blind_text(*blind, lang), ABOVE_FIRST.in_lang(lang)));
+                unchecked.push(format!(
+                    "{} ({})",
+                    blind_text(*blind, lang),
+                    APPROACH_ABOVE_MATERIAL.in_lang(lang)
+                ));
             }
             Outcome::NotMade(reason) => {
                 let option = record.option(*reason).in_lang(lang);
@@ -326,7 +330,7 @@ pub fn blind_text(blind: BlindRapids, lang: Lang) -> String {
 }
 
 /// Advice for a rapid move that starts at an unknown position.
-pub static ABOVE_FIRST: Text = Text {
+pub static APPROACH_ABOVE_MATERIAL: Text = Text {
     en: "go to X and Y above the material first, then down",
     de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
 };

@@ -35,7 +35,8 @@ use crate::workspace::Failure;
 use crate::workspace::Workspace;
 
 pub use checks::{
-    ABOVE_FIRST, Assumption, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text, summary,
+    APPROACH_ABOVE_MATERIAL, Assumption, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text,
+    summary,
 };
 pub use run::{Request, Verification};
 use stock::Sources;

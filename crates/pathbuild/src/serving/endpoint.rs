@@ -233,7 +233,7 @@ pub(super) async fn answer(listener: tokio::net::TcpListener, router: Router) ->
     loop {
         // The semaphore is never closed, so waiting for a permit cannot fail.
         let permit = Arc::clone(&free).acquire_owned().await.ok();
-        let stream = next(&listener).await;
+        let stream = accept_connection(&listener).await;
         let router = router.clone();
         tokio::spawn(async move {
             let _permit = permit;
@@ -246,7 +246,7 @@ pub(super) async fn answer(listener: tokio::net::TcpListener, router: Router) ->
 }
 
 /// Returns the next connection. Errors do not end the server: it tries again, after a pause if the connection is not the cause.
-async fn next(listener: &tokio::net::TcpListener) -> TcpStream {
+async fn accept_connection(listener: &tokio::net::TcpListener) -> TcpStream {
     loop {
         match listener.accept().await {
             Ok((stream, _)) => return stream,
