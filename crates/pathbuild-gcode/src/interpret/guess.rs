@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use memchr::memmem;
-use pathbuild_diagnostic::{Code, Text};
+use pathbuild_diagnostic::{Code, Diagnostic, Text};
 use pathbuild_motion::Group;
 
 use super::codes::{Command, name};
@@ -154,15 +154,21 @@ fn states_modes(head: &[u8]) -> bool {
 /// Guesses the dialect with the fewest unknown words; among equals, the first. If that dialect does not accept every line of the program, guesses the
 /// first one that does.
 fn guess_by_words(head: &[u8]) -> Guess {
-    let candidates = [Dialect::Rs274, Dialect::LinuxCnc, Dialect::Grbl];
-    let strangers = candidates.map(|dialect| unknown_words(head, dialect));
-    let mut fewest = strangers.iter().min().copied().unwrap_or(0);
-    let mut dialect =
-        candidates.into_iter().zip(strangers).find(|(_, count)| *count == fewest).map(|(dialect, _)| dialect);
-    if !dialect.is_some_and(|dialect| takes_every_line(head, dialect)) {
+    let (mut dialect, mut fewest, mut is_complete) = (Dialect::Rs274, usize::MAX, false);
+    for candidate in [Dialect::Rs274, Dialect::LinuxCnc, Dialect::Grbl] {
+        let problems = problems(head, candidate);
+        let count = problems.iter().filter(|problem| is_unknown(problem.code())).count();
+        if count < fewest {
+            (dialect, fewest, is_complete) = (candidate, count, are_in_accepted_lines(&problems));
+        }
+        if fewest == 0 {
+            break;
+        }
+    }
+    if !is_complete {
         let others = [Dialect::LinuxCnc, Dialect::Grbl, Dialect::Mach3, Dialect::Fanuc, Dialect::Haas];
         if let Some(complete) = others.into_iter().find(|dialect| takes_every_line(head, *dialect)) {
-            (dialect, fewest) = (Some(complete), 0);
+            (dialect, fewest) = (complete, 0);
         }
     }
     let reason = if fewest == 0 {
@@ -176,15 +182,11 @@ fn guess_by_words(head: &[u8]) -> Guess {
             de: "dieser Dialekt kennt die meisten Wörter des Programms",
         }
     };
-    Guess {
-        dialect: dialect.unwrap_or(Dialect::Rs274),
-        evidence: Evidence { reason, line: None, kind: EvidenceKind::Words },
-    }
+    Guess { dialect, evidence: Evidence { reason, line: None, kind: EvidenceKind::Words } }
 }
 
-fn unknown_words(head: &[u8], dialect: Dialect) -> usize {
-    let problems = interpret_each(head, dialect, &Options::default(), &mut |_| {});
-    problems.iter().filter(|problem| is_unknown(problem.code())).count()
+fn problems(head: &[u8], dialect: Dialect) -> Vec<Diagnostic> {
+    interpret_each(head, dialect, &Options::default(), &mut |_| {})
 }
 
 fn is_unknown(code: Code) -> bool {
@@ -193,7 +195,11 @@ fn is_unknown(code: Code) -> bool {
 
 /// Whether a control of the dialect knows and uses all words of the program, and refuses no line for containing two words that exclude each other.
 fn takes_every_line(head: &[u8], dialect: Dialect) -> bool {
-    let problems = interpret_each(head, dialect, &Options::default(), &mut |_| {});
+    are_in_accepted_lines(&problems(head, dialect))
+}
+
+/// Whether none of these problems makes a control refuse a line or ignore a word.
+fn are_in_accepted_lines(problems: &[Diagnostic]) -> bool {
     let is_taken = |code| !is_unknown(code) && !matches!(code, Code::UnusedWord | Code::ConflictingWords);
     problems.iter().all(|problem| is_taken(problem.code()))
 }
