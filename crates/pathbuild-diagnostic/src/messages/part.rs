@@ -103,7 +103,7 @@ messages! {
     OUTLINE_NOT_CUT: OutlineNotCut {
         en: "no path of this drawing cuts along this outline",
         de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang",
-        help_en: "draw the missing path, or draw the path that is O or more away nearer: half of O beside the outline; if this is not an outline of the part, move it to another layer",
-        help_de: "den fehlenden Pfad zeichnen, oder den Pfad, der um O oder mehr entfernt ist, näher: um die Hälfte von O neben dem Umriss; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
+        help_en: "draw the missing path; move a path that runs O or more away to half of O beside the outline; if this is not an outline of the part, move it to another layer",
+        help_de: "den fehlenden Pfad zeichnen; einen Pfad, der um O oder mehr entfernt verläuft, auf die Hälfte von O neben den Umriss verschieben; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
     }
 }

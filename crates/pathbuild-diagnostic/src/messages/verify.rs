@@ -430,8 +430,8 @@ messages! {
     }
     /// A program that moves in the plane after a tool change by hand before it raises the cutter.
     CHANGE_NOT_RAISED: StartNotRaised {
-        en: "the program moves in the plane after a stop for a tool change or a new zero before it states a height: only the controller knows how high the cutter is",
-        de: "das Programm fährt nach einem Halt für Werkzeugwechsel oder Nullpunkt in der Ebene, bevor es eine Höhe nennt: nur die Steuerung weiß, wie hoch der Fräser steht",
+        en: "after a stop for a tool change or a new zero, the program moves in X or Y before it states Z: only the controller knows how high the cutter is",
+        de: "nach einem Halt für Werkzeugwechsel oder Nullpunkt fährt das Programm in X oder Y, bevor es Z nennt: nur die Steuerung weiß, wie hoch der Fräser steht",
         help_en: "raise the cutter with G0 Z before X and Y; the definition of a post-processor does so at the end of its ToolChange",
         help_de: "den Fräser mit G0 Z anheben, bevor X und Y kommen; die Definition eines Postprozessors tut das am Ende ihres ToolChange",
     }
