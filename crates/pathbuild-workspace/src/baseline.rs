@@ -298,7 +298,7 @@ impl<'a> Run<'a> {
         Self { system, working_directory, checked, has_directories: coverage.has_directories }
     }
 
-    /// Whether a run covered the file of an entry, so that the entry would have matched if its finding still occurred.
+    /// Whether a run covered the file of an entry. If so, an entry without a match is no longer needed.
     fn covers(&self, baseline: &Baseline, entry: &Entry) -> bool {
         let bases = [self.working_directory, baseline.file.parent().unwrap_or(self.working_directory)];
         let Some(files) = entry.possible_files(bases) else { return false };
@@ -325,8 +325,8 @@ impl Entry {
         }
     }
 
-    /// Returns the files that the description may name after the code. File names may contain spaces, so there are several; `None` if the
-    /// description does not begin with a code.
+    /// Returns the files that the description may name after the code, several because file names may contain spaces; `None` if the description
+    /// does not begin with a code.
     fn possible_files(&self, bases: [&Utf8Path; 2]) -> Option<Vec<Utf8PathBuf>> {
         let (code, rest) = self.description.split_once(' ')?;
         code.parse::<Code>().ok()?;
@@ -363,7 +363,7 @@ fn depth(diagnostic: &Diagnostic) -> Option<f64> {
     Some((depth * 100.0 - ROUNDING_SHARE).ceil() / 100.0)
 }
 
-/// Share of 0.01 mm that counts as a rounding error and is not rounded up.
+/// Fraction of 0.01 mm that is ignored as a rounding error instead of being rounded up.
 const ROUNDING_SHARE: f64 = 1e-6;
 
 fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, base: &Utf8Path) -> String {

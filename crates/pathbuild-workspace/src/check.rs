@@ -73,8 +73,8 @@ impl CheckTarget {
 }
 
 impl Request<'_> {
-    /// Runs the check. Results are taken from the cache if they still hold, and new ones are stored. The session must trace inputs if results are to be
-    /// cached, or if they are limited to changed drawings.
+    /// Runs the check. Results are taken from the cache if they still hold, and new ones are stored. The session must trace inputs if results are to
+    /// be cached, or if they are limited to changed drawings.
     ///
     /// # Errors
     /// If the request is limited to changed drawings and the inputs are not all directories.
@@ -308,7 +308,7 @@ pub fn check_drawings(
     check_paths(session, &targets, with_all_values)
 }
 
-/// A drawing and those of its paths that are checked; `None` means all.
+/// A drawing with the paths in it to check; `None` means all.
 type NamedDrawing<'a> = (SourceFile, Option<&'a [PathName]>);
 
 /// Like [`check_drawings`], for drawings that may be requested with only some of their paths.

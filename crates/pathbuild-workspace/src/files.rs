@@ -130,7 +130,7 @@ pub(crate) fn name_of_source_or_program(context: &Workspace, file: &Utf8Path) ->
 /// File name of a configuration.
 pub const FILE_NAME: &str = "pathbuild.toml";
 
-/// The file extensions of G-code programs; the first is that of native ones. A post definition may choose another extension.
+/// The file extensions of G-code programs; the first is for native programs. A post definition may choose another extension.
 pub(crate) const PROGRAM_EXTENSIONS: [&str; 6] = ["gcode", "nc", "ngc", "tap", "cnc", "din"];
 
 pub(crate) fn is_program(path: &Utf8Path) -> bool {

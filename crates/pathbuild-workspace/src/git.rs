@@ -65,7 +65,7 @@ static LONG_NAME: Text = Text {
 /// Maximum length in bytes of a symbolic link's target.
 const MAX_LINK_BYTES: u64 = 4096;
 
-/// Environment variables that are removed because they could redirect Git to another repository, for example to that of a hook.
+/// Environment variables that are removed because they could redirect Git to another repository, for example if a Git hook runs pathbuild.
 const REMOVED_VARIABLES: [&str; 5] =
     ["GIT_DIR", "GIT_WORK_TREE", "GIT_COMMON_DIR", "GIT_INDEX_FILE", "GIT_PREFIX"];
 

@@ -58,7 +58,7 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// Whether the input is a file other than a drawing. Such a program may lie outside the tree of the configuration that applies to it.
+    /// Whether the input is a program, that is, a file other than a drawing. It may lie outside the tree of the configuration that applies to it.
     pub(crate) fn is_program(self, is_directory: impl Fn(&Utf8Path) -> bool) -> bool {
         matches!(self, Self::Place(place) if !is_drawing(place) && !is_directory(place))
     }

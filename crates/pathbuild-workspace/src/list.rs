@@ -210,8 +210,8 @@ impl ListArguments {
         Ok(Self { places, patterns })
     }
 
-    /// Returns the drawings in the given directories; without any, those of the library, or those below the working directory if there is no
-    /// library.
+    /// Returns the given drawings and those in the given directories; without any, those of the library, or those below the working directory if
+    /// there is no library.
     fn files(&self, session: &Session<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SourceFile> {
         if self.places.inputs.is_empty() {
             let (files, found) = session.all_drawings();

@@ -193,8 +193,8 @@ impl PostProcessor {
         !self.options.manual_spindle
     }
 
-    /// Whether programs of this post-processor are for controls without tool changer and tool lengths: the operator changes the tool and sets Z
-    /// again.
+    /// Whether programs of this post-processor are for controls without a tool changer and tool lengths, on which the operator changes the tool and
+    /// sets Z again.
     pub fn has_manual_changes(&self) -> bool {
         matches!(self.reader(), Some(Dialect::Grbl | Dialect::Marlin | Dialect::Estlcam))
     }
@@ -242,7 +242,7 @@ impl PostProcessor {
             .of_definition(&self.name(), left_out)
     }
 
-    /// Translates a program of this post into the words of RS274 by means of the post's definition; `None` if a dialect covers the program's words.
+    /// Translates a program of this post into the words of RS274 by means of the post's definition; `None` if such programs are read in a dialect.
     pub fn translate(&self, text: &[u8]) -> Option<TranslatedText> {
         self.is_read_by_definition().then(|| self.post.translate(text))
     }
@@ -264,7 +264,7 @@ impl PostProcessor {
     }
 
     /// Compares a program with another one of this post. Returns the number of the first line that differs, from 1, and the other program's line.
-    /// Lines that contain only a comment in both count as equal.
+    /// Lines that contain only a comment in both programs are treated as equal.
     pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
         self.post.first_other_line(found, expected)
     }
@@ -439,8 +439,8 @@ fn entry(tool: &types::Tool) -> ToolEntry {
     }
 }
 
-/// Adds the table's data about tools to the operations of a job, where the program from which the job was read gives none. Warns about unknown tool
-/// numbers. The spindle stands still while probing, and in a program that cuts nothing.
+/// Adds the table's data about tools to the operations of a job. The job's own spindle, speed and coolant take precedence; without them, the spindle
+/// stands still while probing and in a program that cuts nothing. Warns about unknown tool numbers.
 pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
     let (mut unknown, mut reported) = (Vec::new(), FxHashSet::default());
     let mut entries: FxHashMap<u32, &ToolEntry> = FxHashMap::default();

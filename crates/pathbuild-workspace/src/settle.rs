@@ -1,4 +1,4 @@
-//! The end of a run that finds something: the baseline accepts findings, or is written. (book: howto/ci)
+//! The last step of a run with findings: applies the baseline to them, or writes it. (book: howto/ci)
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::FileKind;

@@ -38,7 +38,7 @@ impl Workspace {
         }
     }
 
-    /// Whether any of these diagnostics counts as an error under the configuration. A program with errors is not written.
+    /// Whether any of these diagnostics is an error under the configuration. A program with errors is not written.
     pub fn has_error<'d>(&self, diagnostics: impl IntoIterator<Item = &'d Diagnostic>) -> bool {
         self.severities().has_error(diagnostics)
     }

@@ -19,8 +19,8 @@ pub struct Workspace {
     pub settings: Settings,
     /// The file system that all commands use.
     pub system: Arc<dyn System>,
-    /// Language of messages that the user has chosen: with `--lang`, with `PATHBUILD_LANG`, or in the configuration of the user. The configuration of a
-    /// library does not change it.
+    /// Language of messages that the user has chosen: with `--lang`, with `PATHBUILD_LANG`, or in the configuration of the user. The configuration of
+    /// a library does not change it.
     pub own_lang: Option<Lang>,
     /// Language of the system's locale, used for messages if neither the user nor the configuration chooses one.
     pub system_lang: Option<Lang>,
@@ -32,7 +32,7 @@ pub struct Workspace {
     pub cache: Option<CacheLocation>,
     /// Receives messages about the progress of the run.
     pub reporter: Arc<dyn Reporter>,
-    /// Whether a waiver that ends has accepted a finding because of the date of the run.
+    /// Whether a waiver with an end date has accepted a finding, so that the result depends on the date of the run.
     pub is_date_decisive: Arc<AtomicBool>,
 }
 

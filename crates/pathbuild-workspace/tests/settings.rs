@@ -21,7 +21,7 @@ const BOTH: [bool; 2] = [true, true];
 const PROGRAMS: [bool; 2] = [false, true];
 const NONE: [bool; 2] = [false, false];
 
-/// For each key, a configuration that sets it to another value than its default, and the results that depend on it.
+/// For each key, a configuration that sets it to a value other than its default, and the results that depend on it.
 const CHANGES: &[(&str, &str, [bool; 2])] = &[
     ("feed", "feed = 1", BOTH),
     ("rapid", "rapid = 1", PROGRAMS),

@@ -136,7 +136,7 @@ impl<'a> OptionReader<'a> {
         Self { given, working_directory, diagnostics: Vec::new() }
     }
 
-    /// Replaces a configured value by that of an option, if it is given and valid.
+    /// Replaces a configured value with an option's value, if the option is given and valid.
     pub(super) fn replace_value<T>(
         &mut self,
         setting: &mut Option<SourcedValue<T>>,
@@ -148,7 +148,7 @@ impl<'a> OptionReader<'a> {
         }
     }
 
-    /// Adds the values of an option, if it is given and valid, after the configured ones.
+    /// Appends the values of an option to the configured ones, if the option is given and valid.
     pub(super) fn append_values<T>(
         &mut self,
         setting: &mut Option<SourcedValue<Vec<T>>>,

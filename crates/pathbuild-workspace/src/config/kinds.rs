@@ -25,7 +25,7 @@ pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
     schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
 };
 
-/// A length in mm or a speed in mm/min, as programs state it with three decimals.
+/// A length in mm or a speed in mm/min that programs state with three decimals.
 pub(in crate::config) const MEASURE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| {
         let measure = number(value).filter(|number| MEASURE_BOUNDS.contains(number));
@@ -320,8 +320,8 @@ pub(in crate::config) fn is_literal(text: &str) -> bool {
     !text.contains('\'') && !text.contains("##") && !text.contains(shown::is_active)
 }
 
-/// Formats a string as TOML, in single quotes if that avoids escapes. Otherwise uses JSON escapes, which are valid in TOML, except those of
-/// characters beyond U+FFFF.
+/// Formats a string as TOML, in single quotes if that avoids escapes. Otherwise uses JSON escapes, which TOML accepts too, and TOML's own escapes
+/// for characters beyond U+FFFF.
 pub(in crate::config) fn quoted(text: &str) -> String {
     if text.contains(['\\', '"']) && is_literal(text) {
         return format!("'{text}'");

@@ -178,7 +178,7 @@ impl Discovery<'_> {
     /// Finds the configuration that applies in a directory: its own, or else that of the nearest directory above.
     pub(super) fn find_above(&self, directory: &Utf8Path) -> Option<Utf8PathBuf> {
         let mut files = directory.ancestors().map(|directory| join(directory, files::FILE_NAME));
-        // A directory named like a configuration, or a dangling link, counts as a configuration that cannot be read.
+        // A directory named like a configuration, or a dangling link, is treated as a configuration that cannot be read.
         let is_one = |file: &Utf8PathBuf| match self.system.kind(file) {
             FileKind::File | FileKind::Directory => true,
             FileKind::Missing => files::is_named(file),
@@ -186,7 +186,7 @@ impl Discovery<'_> {
         files.find(is_one)
     }
 
-    /// Returns a diagnostic for each argument to which another configuration than that of the run would apply.
+    /// Returns a diagnostic for each argument whose nearest configuration is not that of the run.
     pub(super) fn misplaced_inputs(&self, used: Option<&Utf8Path>) -> Vec<Diagnostic> {
         let place = |input: Input<'_>| match input {
             Input::Place(place) => Some(place.to_owned()),

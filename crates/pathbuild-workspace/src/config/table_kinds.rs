@@ -220,7 +220,7 @@ fn alias((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Li
     Some(LineTypeAlias { name: (**name.get_ref()).into(), line_type })
 }
 
-/// Whether a line type stands for that of the layer or of the block, so that it has no meaning of its own.
+/// Whether the name is `BYLAYER` or `BYBLOCK`: such a line type is inherited and has no meaning of its own.
 fn is_inherited(name: &str) -> bool {
     ["BYLAYER", "BYBLOCK"].iter().any(|inherited| name.trim().eq_ignore_ascii_case(inherited))
 }

@@ -76,7 +76,7 @@ choice! {
     CutterShape {
         /// A cylinder: it cuts the area that its diameter sweeps.
         EndMill = "end-mill",
-        /// A T-slot or side milling cutter: it cuts a slot beside or below that area.
+        /// A T-slot or side milling cutter: it cuts a slot beside or below the area that its diameter sweeps.
         Slot = "slot",
         /// A V-bit, drill or engraver: the width of the cut depends on the depth.
         Other = "other",
@@ -137,7 +137,7 @@ choice! {
 }
 
 choice! {
-    /// The level at which a diagnostic is reported. (`Ignore` suppresses it.)
+    /// The level at which a diagnostic is reported, or `Ignore` to suppress it.
     Level {
         /// The diagnostic is reported as an error.
         Error = "error",

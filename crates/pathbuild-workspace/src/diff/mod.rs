@@ -83,7 +83,7 @@ pub enum Outcome {
     StillBroken,
     /// The path has the same moves, but is defined in another drawing.
     OtherDrawing,
-    /// The path has other moves.
+    /// The path has different moves on the two sides.
     Changed(Box<ProgramDiff>),
 }
 

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::Text;
 use pathbuild_gcode::interpret::code_name;
 use pathbuild_motion::{Action, Change, Coolant, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem};
 
-/// A kind of change that a program makes to the machine's state, or of event, in addition to its moves.
+/// A kind of state change or event in a program, besides moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum StateKind {
@@ -74,7 +74,7 @@ impl StateKind {
         }
     }
 
-    /// Whether words of this kind act once, where they stand. Words of other kinds apply to all cuts that follow.
+    /// Whether words of this kind act once, at their position in the program. Words of other kinds apply to all cuts that follow.
     fn is_event(self) -> bool {
         matches!(self, Self::Zero | Self::Probe | Self::Stop | Self::Dwell)
     }
@@ -139,8 +139,8 @@ impl MachineStates {
         self.stated[kind as usize].push(StatedWords { cut: self.cuts, words, line });
     }
 
-    /// Returns the first difference of each kind. If the programs have different numbers of cuts, their words are compared in order, whatever the
-    /// cuts at which they stand.
+    /// Returns the first difference of each kind. If the programs have different numbers of cuts, their words are compared in order, regardless of
+    /// the cuts to which they apply.
     pub fn changes(&self, new: &Self) -> Vec<StateChange> {
         StateKind::ALL.into_iter().filter_map(|kind| self.first_change(new, kind)).collect()
     }
@@ -159,7 +159,7 @@ impl MachineStates {
         let words = [0, 1].map(|side| match found[side] {
             Some(stated) => stated.words.clone(),
             None if kind.is_event() => String::new(),
-            // The words stated before still apply.
+            // The previous words of this side still apply.
             None => at.checked_sub(1).map_or_else(String::new, |before| sides[side][before].words.clone()),
         });
         Some(StateChange { kind, words, line: found[1].map(|stated| stated.line) })

@@ -136,7 +136,7 @@ fn move_problems(
     problems.into_iter().partition(Diagnostic::is_error)
 }
 
-/// Returns the errors and warnings about programs that are correct on their own and are joined.
+/// Returns the errors and warnings that arise only from joining programs.
 fn problems_of_joining(
     db: &Database,
     job: &Job,
@@ -159,7 +159,7 @@ fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Op
     }
     let comments = program.steps.iter().filter(|step| matches!(step, ProgramStep::Comment(_))).count() as u64;
     let moves = steps - comments;
-    // The limit is defined for moves that each have a comment; these steps have none.
+    // `memory` adds a comment to each move, but `steps` already includes the comments.
     let size = memory(steps) / 2;
     if moves > writing.most_moves {
         Some(exceeded(moves_after_splitting(moves), writing.most_moves, "embedding-moves"))
@@ -201,7 +201,7 @@ fn write_native(
     }
     match correction.farthest_unprobed_point(program) {
         Some(outside) => delivered.problems.push(at(unprobed_point_warning(&outside))),
-        // This warning would say nothing new about probes outside the program, so it is given only if there are none.
+        // Unused probes are reported only if no move lies outside the probes: otherwise, the warning above suffices.
         None => delivered.problems.extend(unused_probes(program, correction).map(&at)),
     }
     let fault = |problem: Box<Diagnostic>| vec![at(*problem)];

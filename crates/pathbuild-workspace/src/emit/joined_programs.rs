@@ -18,7 +18,7 @@ pub(super) fn joining_doubts(db: &Database, job: &Job, programs: &[Arc<Program>]
     thickness.into_iter().chain(differing_material(db, job)).chain(repeated_path(db, job)).collect()
 }
 
-/// Returns PB211 for the first path with another material name than the first path of the program.
+/// Returns PB211 for the first path whose material name differs from that of the program's first path.
 fn differing_material(db: &Database, job: &Job) -> Option<Diagnostic> {
     let material =
         |target: &Target| summary(db, closure(db, *target).root?).signature.as_ref()?.material.clone();
@@ -39,7 +39,7 @@ fn repeated_path(db: &Database, job: &Job) -> Option<Diagnostic> {
     Some(problem.quoting("path", &**target.name(db)).in_file(target.file(db).path(db)))
 }
 
-/// Returns PB211 for the first path with another material thickness than the first path of the program.
+/// Returns PB211 for the first path whose material thickness differs from that of the program's first path.
 fn differing_thickness(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Diagnostic> {
     let first = programs.first()?;
     let mut targets = programs.iter().zip(&job.targets);

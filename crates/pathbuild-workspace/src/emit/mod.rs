@@ -68,7 +68,7 @@ pub struct Emission {
     pub delivered: Vec<ProgramOutcome>,
     /// Stale programs that were removed.
     pub removed: Vec<Utf8PathBuf>,
-    /// Stale programs that are reported as errors (PB520), as a comparison does.
+    /// Stale programs that are reported as errors (PB520), as they are in a comparison.
     pub outdated: Vec<Utf8PathBuf>,
     /// All diagnostics, unsorted, with duplicates.
     pub diagnostics: Vec<Diagnostic>,
@@ -83,8 +83,8 @@ impl Request {
         !is_always_made
     }
 
-    /// Emits the programs of these drawings, paths and directories, or without inputs those of the paths matched by `[emit] targets`. The session must
-    /// trace inputs if results are to be cached.
+    /// Emits the programs of these drawings, paths and directories, or without inputs those of the paths matched by `[emit] targets`. The session
+    /// must trace inputs if results are to be cached.
     ///
     /// # Errors
     /// If the request or the post-processor is invalid, with the reason.

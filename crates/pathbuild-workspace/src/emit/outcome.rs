@@ -48,7 +48,7 @@ pub struct ProgramOutcome {
     pub minutes: f64,
     /// Errors of the program, and differences between its moves and those of the file on disk.
     pub problems: Vec<Diagnostic>,
-    /// Whether the program itself has errors, so that nothing is written.
+    /// Whether the program itself has errors, which prevent writing it.
     #[serde(skip)]
     pub(super) is_refused: bool,
     /// Identifies the inputs of the program; `None` if there is no program.
@@ -133,7 +133,7 @@ impl Task {
         matches!(self, Self::Compare { .. })
     }
 
-    /// Makes a warning about a program on disk an error if this task is to find such programs.
+    /// Turns a warning about a program on disk into an error if this task is a comparison.
     pub(super) fn error_if_compared(self, finding: Diagnostic) -> Diagnostic {
         if self.is_comparison() { Diagnostic { severity: Severity::Error, ..finding } } else { finding }
     }

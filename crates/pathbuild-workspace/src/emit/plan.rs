@@ -47,8 +47,8 @@ pub(super) struct Job {
     /// Title of the program, which the header of the file states after the provenance.
     #[serde(skip)]
     pub(super) title: String,
-    /// Whether the job is left out although the paths have no errors: another job writes one of the same files, or the configuration counts a warning
-    /// as an error.
+    /// Whether the job is left out although the paths have no errors: another job writes one of the same files, or the configuration turns a warning
+    /// into an error.
     #[serde(skip)]
     pub(super) is_left_out: bool,
     /// The outcome of the job; `None` until its files are generated.
@@ -72,7 +72,7 @@ impl Plan {
         problems.cloned().chain(self.lowered_error(workspace)).collect()
     }
 
-    /// Leaves out the job if the configuration counts a warning as an error.
+    /// Leaves out the job if the configuration turns a warning into an error.
     pub(super) fn leave_out_if_raised(&mut self, workspace: &Workspace) {
         let is_wrong = workspace.has_error(self.problems());
         if let Some(job) = self.job.as_mut().filter(|_| is_wrong) {
@@ -181,8 +181,8 @@ fn inputs(checked: &[CheckedTarget]) -> Inputs {
     Inputs { traces, is_transient, ..Inputs::default() }
 }
 
-/// Returns the plan of an earlier run if it suffices for the task. For a task that writes files, it does not suffice if one of them has changed on
-/// disk since.
+/// Returns the plan of an earlier run if it suffices for the task. It does not suffice if files have changed on disk since, unless the task
+/// compares them byte for byte.
 fn cached_plan_if_sufficient(
     session: &Session<'_>,
     memo: &Memo,
@@ -349,7 +349,7 @@ pub(super) fn program_name(stem: &str, post_processor: &PostProcessor) -> String
     format!("{stem}_Milling.{}", post_processor.extension())
 }
 
-/// Returns the directory of the files of a drawing's paths: the configured one, or else that of the drawing.
+/// Returns the directory for the output files of a drawing's paths: the configured one, or else the drawing's own.
 pub(super) fn output_directory(out_dir: Option<&Utf8Path>, drawing: &Utf8Path) -> Utf8PathBuf {
     out_dir.or(drawing.parent()).unwrap_or(Utf8Path::new("")).to_owned()
 }

@@ -128,7 +128,7 @@ impl Session<'_> {
         Some(self.scene(file, slice::from_ref(name), ShownText::Native).scene)
     }
 
-    /// Adds the line in pathbuild.toml to each parameter that has a default of the configuration as its value.
+    /// Adds the line in pathbuild.toml to each parameter whose value is a default from the configuration.
     fn add_origins(&self, scene: &mut Scene) {
         let with_origin = |parameter: &Parameter| {
             let option = parameter.which.as_deref().filter(|_| parameter.from == "option");

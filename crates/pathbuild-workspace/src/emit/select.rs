@@ -17,11 +17,11 @@ use crate::session::{Argument, ArgumentMatches, Selection, Session, several_path
 pub(super) struct TargetSelection {
     /// The paths to emit, each once. If paths are joined, a path occurs as often as the arguments name it.
     pub(super) targets: Vec<Target>,
-    /// Drawings of which all paths were considered.
+    /// Drawings whose paths were all considered.
     pub(super) covered: Vec<Answer<DrawingResult>>,
     /// Drawings that were named, or that may define a named path.
     pub(super) named: Vec<Answer<DrawingResult>>,
-    /// Directories that were searched for drawings, and in which stale programs are therefore searched for as well.
+    /// Directories that were searched for drawings, and that are therefore searched for stale programs as well.
     pub(super) directories: Vec<Utf8PathBuf>,
 }
 
@@ -181,7 +181,7 @@ impl<'a> TargetPatterns<'a> {
         is_target
     }
 
-    /// Warns about patterns that have matched nothing: they are mistakes in the configuration.
+    /// Returns a warning for each pattern that has matched nothing, which is a mistake in the configuration.
     pub fn unmatched(&self) -> impl Iterator<Item = Diagnostic> {
         let targets = &self.settings.emit.targets;
         let unmatched = targets.value.iter().zip(&self.is_met).filter(|(_, is_met)| !**is_met);

@@ -101,7 +101,7 @@ fn settle(
 ) -> ProgramOutcome {
     let mut delivered = ProgramOutcome::default();
     let (post_processor, limit) = (settings.post_processor, settings.writing.most_bytes as u64);
-    // Hash what this version writes, and not the file of another version that is kept, or that file would become the expected content.
+    // Hash this version's text even if another version's file is kept: otherwise, that file would become the expected content.
     let hashes: Vec<[u8; 32]> =
         outputs.iter().map(|output| hash_output(&output.path, &output.text)).collect();
     if task != Task::Print {
@@ -169,7 +169,7 @@ fn write<'a>(
     Ok(())
 }
 
-/// Whether the file on disk contains measured values for other probes than the generated one.
+/// Whether the file on disk contains measured values for probes other than those in the generated file.
 fn would_overwrite_values(system: &dyn System, output: &Output) -> bool {
     let Some(present) = text_on_disk(system, &output.path) else { return false };
     let has_values = without_values(present.as_bytes()) != present.trim_end();

@@ -91,7 +91,7 @@ pub(super) fn sheet(
     }))
 }
 
-/// Describes, in both languages, the entities on the layers of a program's paths that are not part of the program.
+/// Describes, in both languages, the entities that lie on the layers of a program's paths but are not part of the program.
 fn left_out(program: &Program) -> impl Iterator<Item = BilingualText> + use<> {
     let [en, de] = [Lang::En, Lang::De].map(|lang| native::left_out_lines(program, lang));
     en.into_iter().zip(de).map(|(en, de)| BilingualText { en, de })

@@ -94,7 +94,7 @@ pub(super) struct EarlierPrograms<'a> {
     pub(super) out_dir: Option<Utf8PathBuf>,
     /// All paths of the run.
     pub(super) targets: &'a [Target],
-    /// Returns the drawings of which all paths were considered.
+    /// Returns the drawings whose paths were all considered.
     pub(super) covered: &'a dyn Fn() -> &'a [Answer<DrawingResult>],
     /// Directories that were searched for drawings.
     pub(super) directories: &'a [Utf8PathBuf],
@@ -146,7 +146,7 @@ impl<'a> EarlierPrograms<'a> {
         dealt
     }
 
-    /// Returns the finding about a stale program. In a comparison it is an error, unless the program may be that of another library.
+    /// Returns the finding about a stale program. In a comparison it is an error, unless the program may belong to another library.
     fn judge(&self, stale: &StaleProgram) -> Diagnostic {
         let finding = stale.diagnostic();
         if matches!(stale.reason, Reason::OfOthers) { finding } else { self.task.error_if_compared(finding) }
@@ -203,8 +203,8 @@ impl<'a> EarlierPrograms<'a> {
         older
     }
 
-    /// Returns the programs on disk that belong to a target. Their names begin with that of the drawing or of the path; the head of each program
-    /// names its path.
+    /// Returns the programs on disk that belong to a target. Their names begin with the name of the drawing or of the path, and the head of each
+    /// program names its path.
     fn of_target(&self, target: Target, listings: &mut Listings) -> Vec<Utf8PathBuf> {
         let db = self.session.db();
         let (drawing, path) = (target.file(db).path(db), &**target.name(db));
@@ -366,7 +366,7 @@ impl<'a> StaleSearch<'a> {
 }
 
 impl FormerFile<'_> {
-    /// Returns the former file as stale, unless it was adjusted from the current program.
+    /// Returns the former file as stale, unless it is the result of adjusting the current program with the current values.
     fn stale_program(
         &self,
         session: &Session<'_>,
@@ -389,8 +389,8 @@ impl FormerFile<'_> {
         self.job.files.iter().find(|(present, _)| *present == kind).map(|(_, path)| path.as_path())
     }
 
-    /// Returns the reason if a program with the current provenance is not the result of adjusting the current program; `None` also for unreadable
-    /// files.
+    /// Returns the reason why an adjusted program with the current provenance is stale: it was edited, or the measured values have changed. `None`
+    /// also for unreadable files.
     fn edit_reason(&self, session: &Session<'_>, path: &Utf8Path, clean: &Utf8Path) -> Option<Reason> {
         let limit = session.workspace().settings.limits.file_size.value;
         let read = |file: &Utf8Path| session.db().system().read(file, limit).ok();
@@ -417,7 +417,7 @@ const SHEET_SUFFIX: &str = "_Sheet";
 
 const PROGRAM_SUFFIXES: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
-/// Whether a program has the name that `emit` gives to a program with this title: that of the drawing or of the path, without any R.
+/// Whether a program is named after the drawing or path in this title, as `emit` names the programs of paths without R.
 fn has_name_of_title(program: &Utf8Path, title: &str) -> bool {
     let title = plain_title(title);
     let Some(drawing) = native::drawing_of_title(&title) else { return false };
@@ -428,7 +428,7 @@ fn has_name_of_title(program: &Utf8Path, title: &str) -> bool {
     stem.is_some() && [Utf8Path::new(drawing).file_stem(), path].contains(&stem)
 }
 
-/// Whether a name is that of a program. The extension that a post definition chooses is recognised only while that definition is in use.
+/// Whether this is the file name of a program. The extension that a post definition chooses is recognised only while that definition is in use.
 fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bool {
     let name = Utf8Path::new(name);
     let is_own = |post: &PostProcessor| {
@@ -446,7 +446,7 @@ struct KnownTitles {
     /// Titles of paths in covered drawings for which the run generates nothing, because they have errors or are not selected. Existing files may
     /// still belong to them.
     idle: BTreeSet<Title>,
-    /// Drawings of which the run knows all paths.
+    /// Drawings whose paths are all known to the run.
     covered: BTreeSet<Title>,
     /// Existing drawings whose paths the run does not know.
     others: BTreeSet<Title>,

@@ -1,7 +1,7 @@
 //! The programs of a long-lived session, which are written a few drawings at a time. (book: reference/commands, `watch`)
 //!
-//! The plans and outcomes of all programs are kept, so that everything that `emit` says of all programs together can be said after each change: clashes
-//! of file names, stale programs, and targets that match no path.
+//! The plans and outcomes of all programs are kept, so the findings that `emit` derives from all programs together can be updated after each change:
+//! clashes of file names, stale programs, and targets that match no path.
 
 use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
@@ -33,15 +33,15 @@ pub struct WrittenPrograms {
 pub struct Scope<'a> {
     /// Whether these are the drawings of the library, among which each configured target must match a path.
     pub is_library: bool,
-    /// Drawings that were found in directories, and of which all paths were therefore considered.
+    /// Drawings that were found in directories, and whose paths were therefore all considered.
     pub drawings: &'a [Utf8PathBuf],
     /// Directories that were searched for drawings.
     pub directories: &'a [Utf8PathBuf],
 }
 
 impl WrittenPrograms {
-    /// Writes the programs of these targets, which are all targets of these drawings. Returns the outcomes, and the other drawings whose programs may be
-    /// written now because these drawings no longer claim their names.
+    /// Writes the programs of these targets, which are all targets of these drawings. Returns the outcomes, and the other drawings whose programs may
+    /// be written now because these drawings no longer claim their names.
     ///
     /// # Errors
     /// If options are missing, with a message that names them.
@@ -178,8 +178,8 @@ impl WrittenPrograms {
         plans.flat_map(|(_, plan)| plan.program_problems(session.workspace())).collect()
     }
 
-    /// Returns what `emit` says of all programs together: file names that several targets claim, programs on disk that are stale, and configured targets
-    /// that match no path.
+    /// Returns the findings that `emit` derives from all programs together: file names that several targets claim, stale programs on disk, and
+    /// configured targets that match no path.
     pub fn common_problems(
         &mut self,
         session: &Session<'_>,

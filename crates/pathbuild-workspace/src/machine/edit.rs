@@ -126,7 +126,7 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &[String]) -> Option<&'d m
     Some(table)
 }
 
-/// Gives a new value the whitespace and comments, around and within it, of the value that it replaces.
+/// Copies to a new value the whitespace and comments around and within the value that it replaces.
 fn with_decor_of(mut new: Value, old: &Value) -> Value {
     match (&new, old) {
         (Value::Array(numbers), Value::Array(old)) if numbers.len() == old.len() => {

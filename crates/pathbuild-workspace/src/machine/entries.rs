@@ -60,7 +60,7 @@ impl Entries {
         self.list.iter()
     }
 
-    /// Returns the entry in force for a name, and marks all entries of this name as used. Reports the entries of this name with another value.
+    /// Returns the entry in force for a name, and marks all entries of this name as used. Reports other entries of this name with different values.
     pub(super) fn take(&mut self, name: &str) -> Option<&Entry> {
         let index = *self.by_name.get(name)?;
         let taken = &self.list[index];
@@ -102,7 +102,7 @@ impl Entries {
         None
     }
 
-    /// Reports an entry with a value of another kind than the key needs.
+    /// Reports an entry whose value is not of the kind that the key needs.
     pub(super) fn report_invalid_value(&mut self, entry: &Entry, expected: &'static Text) {
         let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", entry.name.as_str());
         let problem = problem.quoting("value", entry.value.as_str()).with("expected", Shown::Prose(expected));

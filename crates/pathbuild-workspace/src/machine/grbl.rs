@@ -37,7 +37,7 @@ pub(super) fn read(text: &str) -> Description {
     entries.finish("GRBL")
 }
 
-/// Splits `$110=500.000 (x max rate, mm/min)`.
+/// Splits a setting such as `$110=500.000 (x max rate, mm/min)` into name and value.
 fn setting(line: &str) -> Option<(&str, &str)> {
     let (name, value) = line.trim().split_once('=')?;
     let name = name.trim_end();

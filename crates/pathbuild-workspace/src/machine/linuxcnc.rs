@@ -41,7 +41,7 @@ pub(super) fn read(text: &str) -> Result<Description, Box<Diagnostic>> {
     Ok(entries.finish(FORMAT))
 }
 
-/// Travel in mm above which an axis counts as unlimited: LinuxCNC's default limits are farther apart than this.
+/// Travel in mm above which an axis is considered unlimited: LinuxCNC's default limits are farther apart than this.
 const MIN_UNLIMITED_TRAVEL: f64 = 1e9;
 
 const FORMAT: &str = "LinuxCNC";

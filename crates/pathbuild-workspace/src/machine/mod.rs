@@ -118,7 +118,7 @@ fn machine_unit(text: &str) -> Option<LengthUnit> {
 /// Returns the unit of the tool tables among the texts: `named` if given, otherwise the unit of an ini file among the texts.
 ///
 /// # Errors
-/// If an ini file has another unit than `named`, or than another ini file.
+/// If the unit of an ini file differs from `named`, or from the unit of another ini file.
 pub fn table_unit(
     named: Option<LengthUnit>,
     texts: &[(&Utf8Path, String)],

@@ -298,7 +298,7 @@ impl ToolDescription {
         Self { name: name.trim().to_owned(), line, ..Self::default() }
     }
 
-    /// Sets a length, unless it is 0.
+    /// Sets a length if it is greater than 0.
     fn length(&mut self, key: &'static str, length: f64, unit: LengthUnit, source: &str) {
         if length > 0.0 {
             let millimetres = rounded(length * unit.millimetres());
@@ -319,7 +319,7 @@ impl ToolDescription {
         }
     }
 
-    /// Sets the corner radius, which is 0 for a flat tip. `None` stands for any other or an unknown tip, and sets `shape` to "other".
+    /// Sets the corner radius, which is 0 for a flat tip. `None` means that the tip has another shape or is unknown, and sets `shape` to "other".
     fn shape(&mut self, radius: Option<(f64, LengthUnit)>) {
         match radius {
             Some((radius, unit)) => self.length("corner-radius", radius, unit, "type"),

@@ -229,7 +229,8 @@ impl Session<'_> {
         Argument::Name { name: path, candidates, drawing, directory }
     }
 
-    /// Finds the drawing with the file name `name`, ignoring its extension and case; the first in order if there are several.
+    /// Finds the drawing with the file name `name` plus an extension, in the first directory that contains one; if there are several, the first by
+    /// name.
     fn drawing_of_name(&self, name: &str, directories: &[Utf8PathBuf]) -> Option<SourceFile> {
         directories.iter().find_map(|directory| {
             let is_meant = |file: &&str| file.rsplit_once('.').is_some_and(|(stem, _)| stem == name);

@@ -73,7 +73,7 @@ pub enum Direction {
 }
 
 impl Graph {
-    /// Returns the nodes of a path, one for each set of values. The node with example values is left out if another path embeds this one.
+    /// Returns the nodes of a path, one for each set of values. The node with example values is left out if other paths embed this path.
     pub fn nodes_of(&self, name: &PathName, file: &Utf8Path) -> Vec<usize> {
         let is_it = |node: &Node| node.name == *name && node.file == *file;
         let mut indices: Vec<usize> =
@@ -268,7 +268,7 @@ struct TargetGraph {
 }
 
 impl TargetGraph {
-    /// Returns the nodes with incomplete embeddings. They are incomplete because the target embeds the node too deep, or embeds too many paths.
+    /// Returns the nodes with incomplete embeddings. They are incomplete because the target embeds the node too deeply, or embeds too many paths.
     fn incomplete_nodes(&self) -> HashSet<usize> {
         let cut = |(from, to): &(usize, EmbeddingEnd)| match to {
             EmbeddingEnd::Nowhere(_, Code::NestingTooDeep | Code::LimitReached) => Some(*from),

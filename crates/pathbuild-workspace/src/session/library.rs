@@ -38,7 +38,7 @@ pub struct ProgramMatches {
 /// The contents of a directory and of all directories below it.
 #[derive(Debug, Default)]
 pub(super) struct WalkResult {
-    /// All drawings, or all files that the search wants instead, in the order of [`compare_paths`].
+    /// All drawings, or all other files that [`Walk::is_wanted`] accepts, in the order of [`compare_paths`].
     pub(super) drawings: Vec<Utf8PathBuf>,
     /// The directory itself and all directories below it, in the order of [`compare_paths`].
     pub(super) directories: Vec<Utf8PathBuf>,
@@ -62,15 +62,16 @@ pub(super) struct Walk<'a> {
     pub(super) rules_limit: u64,
     /// Whether to use all cores.
     pub(super) is_parallel: bool,
-    /// A function that decides by a file's name whether the search wants the file.
+    /// A function that decides by a file's name whether the search collects the file.
     pub(super) is_wanted: fn(&Utf8Path) -> bool,
     /// Whether .gitignore files apply, besides .ignore.
     pub(super) obeys_git: bool,
 }
 
 impl Walk<'_> {
-    /// Finds all wanted files in and below a directory, respecting .gitignore and .ignore files inside it. Symbolic links to directories are not
-    /// followed: they may lead anywhere, even in circles. The resulting paths begin with `root` as given, so they are normal if `root` is.
+    /// Finds all files that `is_wanted` accepts in and below a directory, respecting .gitignore and .ignore files inside it. Symbolic links to
+    /// directories are not followed: they may lead anywhere, even in circles. The resulting paths begin with `root` as given, so they are normal if
+    /// `root` is.
     pub(super) fn search(self, root: &Utf8Path) -> WalkResult {
         let (mut walked, count) = match self.collect_levels(root) {
             Ok(walked) => walked,
@@ -429,7 +430,7 @@ pub(crate) fn is_ignore_file(name: &str) -> bool {
     IGNORE_FILES.contains(&name)
 }
 
-/// Whether an entry of this name changes the rules: an ignore file does; so does `.git`, the root of a repository, if there are rules already.
+/// Whether an entry of this name changes the rules: an ignore file does; so does `.git`, the root of a repository, if there already are rules.
 pub(super) fn changes_rules(name: &str, are_some: bool) -> bool {
     is_ignore_file(name) || are_some && name == ".git"
 }

@@ -25,7 +25,7 @@ use crate::workspace::relative;
 /// The drawings and paths that arguments resolve to.
 #[derive(Debug, Default)]
 pub struct Selection {
-    /// Drawings in named directories, in the order of their paths, without drawings that the arguments name themselves.
+    /// Drawings in named directories, in the order of their paths, except for those that the arguments also name individually.
     pub drawings: Vec<Utf8PathBuf>,
     /// Drawings that the arguments name.
     pub named: Vec<SourceFile>,
@@ -143,7 +143,7 @@ impl Session<'_> {
     }
 
     /// Returns the errors that kept candidate drawings from being read. Only candidates without a known path matter, because any of them may
-    /// contain the wanted path.
+    /// contain the requested path.
     fn read_errors(&self, candidates: &[SourceFile], names: NamesOf<'_>) -> Vec<Diagnostic> {
         let is_unread = |file: &SourceFile| names(*file).is_empty();
         let files = self.distinct_files(candidates.iter().copied().filter(is_unread));

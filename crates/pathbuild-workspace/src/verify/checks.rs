@@ -83,7 +83,7 @@ pub enum Reason {
     NoCutter,
     /// The height of the material is unknown.
     NoSurface,
-    /// The material of the drawing has several heights, and only a native program shows where each of them counts.
+    /// The material of the drawing has several heights, and only a native program shows where each of them applies.
     SeveralSurfaces,
     /// The program cuts, but never starts the spindle with a speed.
     NoSpeed,

@@ -335,7 +335,7 @@ impl SpindleStarts {
     }
 }
 
-/// Facts about the steps of a program that decide which checks count as made.
+/// Facts about the steps of a program that decide whether checks are recorded as made.
 struct CheckEvidence {
     /// Rapid moves from unknown positions, if the material is known.
     blind: Option<BlindRapidRules>,
@@ -557,7 +557,7 @@ impl<'v> Examination<'v> {
     }
 
     /// Returns doubts about the program's words. If there is a drawing to compare with, doubts about words that the drawing's program does not
-    /// contain are errors.
+    /// contain become errors, and so do unchecked formulas in `found`.
     fn doubts(&self, rewritten: Option<&RewrittenProgram>, found: &mut [Diagnostic]) -> Vec<Diagnostic> {
         let mut doubts = self.program.read.problems.clone();
         if rewritten.is_some_and(RewrittenProgram::is_same) {
@@ -585,8 +585,8 @@ fn is_about_decimal_point(doubt: &Diagnostic) -> bool {
     doubt.message.key == NO_DECIMAL_POINT.key
 }
 
-/// Whether the doubt concerns words that the drawing's program does not contain. Two kinds of doubts never do: the drawing does not determine how
-/// fine arcs are, and the user asked to ignore feeds.
+/// Whether the doubt concerns words that the drawing's program does not contain. Two kinds never do: doubts about arcs, because the drawing does not
+/// determine how fine they are, and about ignored feeds, because the user asked to ignore them.
 fn is_absent_from_drawing(doubt: &Diagnostic) -> bool {
     doubt.code() != Code::DoubtfulArc && doubt.message.key != FEED_IGNORED.key
 }
@@ -616,7 +616,7 @@ impl PossiblePosts {
         // Ignore a configured post that is broken: `emit` reports that.
         let configured = || {
             let own = PostProcessor::for_run(workspace, None, PostArguments::default()).ok().flatten()?;
-            // A post that names its dialect has not written programs of another one.
+            // A post that names its dialect has not written programs of another dialect.
             if own.reader().is_some() { Some(own) } else { post(None).ok().flatten() }
         };
         let configured = if named.is_some() { None } else { configured() };
@@ -634,8 +634,8 @@ impl PossiblePosts {
         self.dialect.or(self.named.as_ref().and_then(PostProcessor::reader))
     }
 
-    /// Returns the post that wrote a program of this dialect, if known. If the program's header shows no dialect, the program is attributed to a
-    /// configured definition that names none either.
+    /// Returns the post that wrote a program of this dialect, if known: the post named by `--post`, or else the configured one. A configured
+    /// definition that names no dialect is assumed if the dialect was guessed without a header.
     fn of(&self, dialect: Dialect, evidence: Option<EvidenceKind>) -> Option<&PostProcessor> {
         let is_without_header = evidence.is_some_and(|kind| kind != EvidenceKind::Header);
         let may_have_written = |post: &&PostProcessor| match post.reader() {
@@ -645,7 +645,7 @@ impl PossiblePosts {
         self.named.as_ref().or(self.configured.as_ref().filter(may_have_written))
     }
 
-    /// Translates a text by means of the definition that wrote it, if the definition names no dialect.
+    /// Translates a text by means of the post definition that wrote it; `None` if the definition is unknown or its programs are read in a dialect.
     fn translate(&self, text: &[u8], guess: Option<&Guess>) -> Option<DefinitionTranslation> {
         let dialect = guess.map(|guess| guess.dialect).or(self.dialect)?;
         let writer = self.of(dialect, guess.map(|guess| guess.evidence.kind))?;

@@ -45,7 +45,7 @@ impl ToolDiameters {
         first.or(self.header.map(|_| Origin::Program))
     }
 
-    /// Returns the widths according to the first source. If another source disagrees, the smaller diameter counts for removing material, and the
+    /// Returns the widths according to the first source. If another source disagrees, the smaller diameter is used for removing material, and the
     /// larger one for hitting material. Only the configuration and the header know the shape.
     fn cutter(&self) -> Option<Cutter> {
         let table = self.table.filter(|_| self.is_numbered);
@@ -80,7 +80,7 @@ impl<'s> Sources<'s> {
     }
 
     /// Determines the material. Its surface is taken from the command line, else from the drawing if it has only one, else from the program itself.
-    /// Where the command line and the program disagree, the higher surface counts.
+    /// Without such a drawing, the higher surface is used where the command line and the program disagree.
     fn known_stock(&self) -> Option<Stock> {
         let stock = match (self.options().surface, self.drawn_surface()) {
             (Some(given), Some(_)) => self.uniform(given),
@@ -322,8 +322,8 @@ impl<'s> Sources<'s> {
         self.tools().get(entry)
     }
 
-    /// Returns the chip loads allowed for the tools, each with the line from which the tool cuts. Empty for a program with subprograms and several
-    /// tools, in which the tool of a line depends on the caller.
+    /// Returns the chip loads allowed for the tools, each with the line from which the tool cuts. Empty for XpertMILL, whose layers are not tools,
+    /// and for a program with subprograms and several tools, in which the tool of a line depends on the caller.
     pub(super) fn chip_loads(&self) -> Vec<(u32, Option<ChipLoad>)> {
         if self.program.dialect == Dialect::Xpertmill || self.header.has_calls && self.header.tools.len() > 1
         {

@@ -107,7 +107,7 @@ impl WatchedDirectories {
         for file in files {
             let places = self.links.follow(system, &file, &workspace.working_directory, as_event);
             let outcomes = places.into_iter().map(|place| self.watch_link(source, place));
-            // If a directory cannot be listed, the drawings behind it are followed again after the next change.
+            // Ignore directories that cannot be listed: the links that lead through them are followed again after the next change.
             let errors = outcomes.filter_map(Result::err).filter(|error| !is_refusal(error));
             refused.extend(errors.last().map(|error| (file, error)));
         }

@@ -30,8 +30,8 @@ pub struct Request<'a> {
 
 /// A receiver of reports from the watch loop. Callbacks get the session, so that they can query more than the findings.
 pub trait Listener {
-    /// Whether the files of the configuration still have the contents that were loaded. Asked when changes of them begin to be reported, because
-    /// they may have changed in between.
+    /// Whether the files of the configuration still have the contents that were loaded. Called when the system begins to report changes of these
+    /// files, because they may have changed before.
     fn is_configuration_current(&self) -> bool {
         true
     }

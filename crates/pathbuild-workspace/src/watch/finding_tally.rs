@@ -32,7 +32,7 @@ impl FindingTally {
     }
 }
 
-/// Returns the findings that are not among others.
+/// Returns the findings that are not among `others`.
 pub(super) fn without(findings: &[Diagnostic], others: &[Diagnostic]) -> Vec<Diagnostic> {
     let others: HashSet<_> = others.iter().map(identity).collect();
     findings.iter().filter(|found| !others.contains(&identity(found))).cloned().collect()

@@ -124,7 +124,7 @@ impl<'a> Library<'a> {
         Batch { now: self.problems.clone(), ..Batch::default() }
     }
 
-    /// Takes over what was selected, and returns the diagnostics of arguments and directories.
+    /// Stores the selection, and returns the diagnostics of arguments and directories.
     fn take_selection(&mut self, selection: Selection) -> Vec<Diagnostic> {
         let mut problems = selection.problems;
         problems.extend(unused_configurations(&self.session, &selection.below));
@@ -183,7 +183,7 @@ impl<'a> Library<'a> {
     }
 
     /// Marks drawings with transient diagnostics to be checked again, except those just checked, and lists unreadable directories again. `further`
-    /// names drawings of which a program could not be written.
+    /// names drawings whose programs could not be written.
     pub(super) fn mark_transient(
         &mut self,
         further: &BTreeSet<Utf8PathBuf>,

@@ -1,5 +1,5 @@
-//! Changes that polling for events cannot notice: it compares modification times in whole seconds, and only notices later ones. A file may change twice
-//! within a second, or be replaced by an older one. (book: reference/decisions)
+//! Changes that polling for events cannot notice: it compares modification times in whole seconds, and only notices later ones. A file may change
+//! twice within a second, or be replaced by an older one. (book: reference/decisions)
 
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
@@ -23,8 +23,8 @@ struct PolledFile {
     is_compared: bool,
 }
 
-/// Time for which a file must keep its stamp before it is compared: a change after that time alters the stamp, because the times of all file systems in
-/// use have a resolution of at most two seconds.
+/// Time for which a file must keep its stamp before it is compared: a change after that time alters the stamp, because the times of all file systems
+/// in use have a resolution of at most two seconds.
 const REST: Duration = Duration::from_millis(2100);
 
 impl PolledFiles {
@@ -59,7 +59,7 @@ impl PolledFiles {
     }
 }
 
-/// Whether a file has the contents that its results were computed from. A file that could not be read then counts as changed if it can be read now.
+/// Whether a file still has the contents that its results were computed from, or could be read neither then nor now.
 fn is_as_read(session: &Session<'_>, file: SourceFile) -> bool {
     let db = session.db();
     let limit = session.workspace().settings.limits.file_size.value;

@@ -112,7 +112,7 @@ impl<'a> Writer<'a> {
         rivals
     }
 
-    /// Updates the diagnostics of programs in a batch. Without `scope`, because drawings are still to be checked, the common ones stay as they are.
+    /// Updates the diagnostics of programs in a batch. While drawings are still to be checked, `scope` is `None` and the common ones are left as is.
     pub(super) fn update_problems(
         &mut self,
         session: &Session<'_>,

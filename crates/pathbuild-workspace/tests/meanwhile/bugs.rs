@@ -131,7 +131,7 @@ fn a_bug_in_listing_ends_no_command() {
     in_each_listing(Event::Panic, "InternalError");
 }
 
-/// The unreadable directory is reported: otherwise a path in it would not be found, or another path would count as the only one of that name.
+/// The unreadable directory is reported: otherwise a path in it would not be found, or another path of that name would seem to be the only one.
 #[test]
 fn a_directory_that_cannot_be_listed_is_told() {
     in_each_listing(Event::Fail, "UnreadableFile");

@@ -23,8 +23,7 @@ fn place() -> OnDisk {
     OnDisk::configured(EMITTING, &[(DRAWING, drawn)])
 }
 
-/// If another process changes a program after it was written but before the result is cached, the changed program does not count as up to
-/// date.
+/// If another process changes a program after it was written but before the result is cached, the changed program is not considered up to date.
 #[test]
 fn a_program_that_another_changes_meanwhile_is_written_again() {
     for event in [Event::Change, Event::Replace, Event::Vanish] {

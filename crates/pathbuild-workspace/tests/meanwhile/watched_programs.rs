@@ -1,4 +1,5 @@
-//! Tests that `watch --emit` says after each change what `check` and `emit` say of the same files, and that the programs are those that `emit` writes.
+//! Tests that `watch --emit` reports after each change what `check` and `emit` report for the same files, and that it writes the same programs as
+//! `emit`.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -39,7 +40,7 @@ struct Comparer {
     /// How often each finding is counted.
     state: RefCell<BTreeMap<String, usize>>,
     edits: RefCell<Vec<String>>,
-    /// What differed at the last comparison.
+    /// Description of the difference at the last comparison.
     difference: RefCell<String>,
     codes: RefCell<BTreeMap<Code, usize>>,
     steps: Cell<usize>,
@@ -62,7 +63,7 @@ impl Comparer {
         Self { place, bell, chance, state, edits, difference, codes, steps }
     }
 
-    /// Returns what `check` and `emit --check` say, and which programs are not as `emit` would write them.
+    /// Returns the findings of `check` and `emit --check`, and the programs that differ from what `emit` would write.
     fn expected(&self) -> Vec<String> {
         let inputs = Inputs::default();
         let workspace = self.place.workspace(&inputs, Arc::new(OsSystem), false);

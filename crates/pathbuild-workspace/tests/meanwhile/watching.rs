@@ -124,7 +124,7 @@ fn watch_place(
     editor
 }
 
-/// Returns the update in which the transient finding disappeared: it follows that of the edit, and there is no further retry.
+/// Returns the update in which the transient finding disappeared. It must follow the update of the edit, without any further retry.
 #[track_caller]
 fn tried_again(editor: &Editor) -> Update {
     let told = editor.told.borrow();
@@ -213,7 +213,7 @@ impl Listener for Adder {
     }
 }
 
-/// Drawings in a directory that temporarily cannot be listed do not count as removed; new ones are found once it can be listed again.
+/// Drawings in a directory that temporarily cannot be listed are not treated as removed; new ones are found once it can be listed again.
 #[test]
 fn a_directory_that_cannot_be_listed_for_a_moment_loses_no_drawing() {
     let place = OnDisk::configured(EMITTING, &[OTHER, (VICTIM, &long("8001.1P"))]);
@@ -242,7 +242,7 @@ fn a_directory_that_cannot_be_listed_for_a_moment_loses_no_drawing() {
     assert!(again.tried_again.iter().any(|path| path.ends_with("lib")), "{again:#?}");
 }
 
-/// A listener for which the configuration changes after a number of questions.
+/// A listener that gives the prepared answers, the last one first, and then reports that the configuration has changed.
 struct Doubter {
     answers: RefCell<Vec<bool>>,
 }
