@@ -158,7 +158,7 @@ fn list_and_the_library_have_the_same_figures() {
     }
 }
 
-/// A baseline that the library writes is the one that the program writes.
+/// The library and the program write the same baseline.
 #[test]
 fn the_library_writes_baselines() {
     let [by_program, by_library] = [example(), example()];

@@ -279,7 +279,7 @@ fn settings_that_matter_ask_another_question() {
     assert_eq!(reused_drawings(&place), "5 / 5");
 }
 
-/// A drawing that was read in this run counts with its current content, even if earlier results did not depend on it.
+/// If a drawing was read in this run, its current content is used, even if earlier results did not depend on it.
 #[test]
 fn a_drawing_is_known_as_it_was_read_last() {
     let place = library();

@@ -174,7 +174,7 @@ fn what_two_programs_state_besides_moves_is_compared() {
     assert_prints(&json, 0, &[r#""states":[{"kind":"tool","line":8,"now":"T2","was":"T1"}]"#]);
 }
 
-/// The moves count from another zero, although they are the same in the coordinates of the program.
+/// The moves have another zero point, although they are the same in the coordinates of the program.
 #[test]
 fn a_zero_set_by_probing_is_a_change() {
     let head = "G21 G90 G17 G94 G54\nG0 Z20\nG0 X0 Y0\n";

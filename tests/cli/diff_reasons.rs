@@ -92,7 +92,7 @@ fn a_line_type_without_texts_is_told_instead_of_the_text() {
 
 #[test]
 fn what_changes_no_move_explains_nothing() {
-    // In both cases comments and a hidden line's text have changed, but only the depth changes moves.
+    // The comment changes as well, but only the depth changes moves.
     let drawing = |depth: &str, comment: &str| {
         part("1001.1P", &format!("B{depth} F200"), &format!("mill 0,0 40,0 \"Q{comment}\""))
     };

@@ -790,7 +790,7 @@ fn a_program_with_a_rapid_move_through_material_is_not_written() {
     );
     let back = post(&SLOTS.replace("G0 Y20", "G0 Z5\nG0 Y20\nG1 Z-1"), "6", "");
     assert!(back.status == Some(0) && back.stderr == "b.nc: written\n", "{back}");
-    // The user who lowers the severity takes the responsibility.
+    // A user who lowers the severity takes responsibility.
     let lowered = post(SLOTS, "6", "[severity]\nPB740 = \"warning\"\n");
     assert!(lowered.status == Some(0) && lowered.stderr.contains("warning[PB740]"), "{lowered}");
     let waiver = "[[severity-in]]\nfiles = [\"a.nc\"]\nPB740 = \"ignore\"\nreason = \"milled before\"\n";

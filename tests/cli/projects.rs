@@ -247,7 +247,7 @@ fn a_second_definition_is_noticed_even_in_the_drawing_that_embeds_it() {
     let run = check("1234.dxf", "1234.1P");
     let expected = "path 1234.1P exists twice: in 8001.dxf and in 1234.dxf";
     assert!(run.status == Some(1) && run.stderr.contains(expected), "{run}");
-    // Neither another path in a drawing of that name counts, nor a drawing whose name does not admit the path.
+    // Another path in a drawing of that name is no second definition; nor is a path in a drawing whose name does not admit it.
     for (beside, layer) in [("1234.dxf", "1234.2P"), ("1300.dxf", "1234.1P")] {
         let run = check(beside, layer);
         assert_eq!(run.status, Some(0), "{run}");

@@ -104,7 +104,7 @@ fn a_glob_that_matches_no_file_is_named() {
         "['old/**', 'new/**']",
         "['1234*']",
     ];
-    // Whether there are programs only decides about globs for programs.
+    // Globs for programs are only checked once there are programs.
     let programs = ["['gcode/**']", "['*.nc']", "['gcode/*.ngc']"];
     let mut place = place;
     let mut is_named;

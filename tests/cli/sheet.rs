@@ -536,7 +536,7 @@ fn joined_paths_have_one_sheet_with_all_cutters() {
     }
 }
 
-/// Clamps are positioned relative to the machine's zero, which is the path's start.
+/// The positions of clamps are relative to the program's zero, which is the path's start.
 #[test]
 fn clamps_are_listed_from_the_start() {
     let drawing = "layer 1234.1P\nstart 100,50 \"T2 O2 I1 B0\"\nmill 100,50 140,50\nend 140,50\n\
@@ -551,7 +551,7 @@ fn clamps_are_listed_from_the_start() {
     assert!(row, "{texts:?} {run}");
 }
 
-/// The rapid move that raises the tool onto a bar counts as well.
+/// The rapid move that raises the tool onto a bar is considered as well.
 #[test]
 fn the_lowest_rapid_may_be_one_that_rises() {
     let drawing = "layer 1234.1P\nstart 0,20 \"T5 O3 I2 B0.5 D2 P6 U30\"\nmill 0,20 300,20\n\

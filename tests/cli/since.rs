@@ -284,7 +284,7 @@ mod links {
         since(&place.file("store/b.bin", dxf("2001.1P", 4, None)), NOTHING);
         let place = linked("../store/a.bin", "parts/2001.dxf");
         since(&place.file("store/a.bin", dxf("2001.1P", 4, None)), ONE);
-        // The link is new, but leads to an old file.
+        // The link is new, but points to an old file.
         let place = linked("../store/a.bin", "parts/2001.dxf");
         symlink("../store/b.bin", place.path().join("parts/2002.dxf")).unwrap();
         since(&place, ONE);

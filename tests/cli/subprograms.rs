@@ -1,5 +1,5 @@
-//! Tests programs with subprograms and loops: those in the same file count wherever they are called. If a program calls any others, its lengths and
-//! times are not reported. (book: program/reading, "Subprograms")
+//! Tests programs with subprograms and loops: those in the same file are run wherever they are called. If a program calls any others, its lengths
+//! and times are not reported. (book: program/reading, "Subprograms")
 
 use crate::support::Place;
 

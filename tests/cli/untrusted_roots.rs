@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::support::{Place, Run};
 use crate::untrusted::{CONFIGURATION, dxf};
 
-/// Creates two repositories, `one` and `two`, and a drawing outside of both, to which a link in `two` leads.
+/// Creates two repositories, `one` and `two`, and a drawing outside of both, to which a link in `two` points.
 fn trees() -> Place {
     let place = Place::new()
         .file("one/.git/HEAD", "")
@@ -63,7 +63,7 @@ fn a_link_in_a_repository_leads_to_no_other_one() {
             .file("other/pathbuild.toml", CONFIGURATION)
             .file("other/1204.1P.dxf", dxf("1204.1P"));
         symlink("../other", place.path().join("tree/components")).unwrap();
-        // The user's own link leads to a tree and is outside of any repository.
+        // The user's own link points to a tree and is outside of any repository.
         symlink("other", place.path().join("mine")).unwrap();
         place
     };
@@ -83,7 +83,7 @@ fn a_cache_in_a_strangers_tree_is_not_used() {
         ("../cache", true),
         (".cache", false),
         ("link/cache", false),
-        // These links are outside and lead into the tree.
+        // These links are outside and point into the tree.
         ("../alias/.cache", false),
         ("../outside/inner/deep/.cache", false),
         ("../alias/../cache", true),

@@ -320,7 +320,7 @@ fn kept_results_do_not_depend_on_the_date() {
 
 const PROGRAM: &str = "G21 G90 G94 G17\nT1 M6\nS12000 M3\nG0 Z15\nG0 X0 Y0\nG1 Z-2 F200\nG1 X40 F600\nG0 Y20\nG1 X0\nG0 Z15\nM5\nM30\n";
 
-/// The file of `--accept` is that of `--update-baseline`, too.
+/// `--update-baseline` writes the same file as `--accept`.
 #[test]
 fn the_baseline_beside_the_configuration_is_updated_without_being_named() {
     let place = place();

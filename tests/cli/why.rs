@@ -132,12 +132,12 @@ fn results_hold_in_directories_with_links() {
     link("store/a.bin", &component);
     assert_eq!(place.run("check").status, Some(0));
     all_hold(&place);
-    // The file to which the link leads has changed.
+    // The file to which the link points has changed.
     fs::write(place.path().join("store/a.bin"), [&bytes[..], b"\n"].concat()).unwrap();
     assert_eq!(why(&place, "8001.1P"), "8001.dxf: would be compiled again\n  1111.dxf has changed\n");
     assert_eq!(place.run("check").status, Some(0));
     all_hold(&place);
-    // The link leads to a file with the same bytes, which may be another drawing.
+    // The link points to a file with the same bytes, which may be another drawing.
     link("store/b.bin", &component);
     let said = why(&place, "8001.1P");
     assert!(

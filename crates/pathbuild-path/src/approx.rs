@@ -35,7 +35,7 @@ const SQUARES_PER_MM: f64 = 1000.0;
 /// Offset of the grid in squares, so that points with few decimals, and the midpoints between them, are not on a border between squares.
 const GRID_OFFSET: f64 = 0.37;
 
-/// Returns the grid square that contains a point. Points that coincide have the same square as their key, except across the borders of squares.
+/// Returns the grid square that contains a point. Points that coincide are in the same square, unless a border between squares separates them.
 #[expect(clippy::cast_possible_truncation, reason = "far outside, all squares are one")]
 pub(crate) fn grid_square(at: Point2<f64>) -> [i64; 2] {
     [at.x, at.y].map(|coordinate| (coordinate * SQUARES_PER_MM + GRID_OFFSET).floor() as i64)

@@ -14,7 +14,7 @@ pub struct PathOptions {
     pub feed: Option<f64>,
     /// `--sweep-height`: S of the emitted path in mm. Paths that need it must not be folded without it.
     pub sweep_height: Option<f64>,
-    /// `--probe-feed`: Z in mm/min. Probes without it fall back on feeds.
+    /// `--probe-feed`: Z in mm/min. Without this option, Z defaults to a feed: F of the path or `--feed`.
     pub probe_feed: Option<f64>,
     /// Whether to follow `PathDxf2GCode` even where it deviates from its manuals. (book: program/compatible)
     pub compatible: bool,
@@ -68,8 +68,8 @@ pub(crate) struct Texts<'v, 't> {
 }
 
 impl PathNumbers {
-    /// Returns the sweep height (S) of a path that does not give it: that of `--sweep-height`, or the default. `None` if the option is needed but
-    /// missing.
+    /// Returns the sweep height (S) for a path that does not give it: the value of `--sweep-height`, or the default. `None` if the option is needed
+    /// but missing.
     pub(crate) fn sweep_height(self, options: &PathOptions, role: PathRole) -> Option<f64> {
         fallback(Letter::S, ElementClass::PathStart, self, options, role).map(|(height, _)| height)
     }

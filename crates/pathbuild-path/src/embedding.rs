@@ -117,8 +117,8 @@ impl PathSignature {
         }
     }
 
-    /// The sweep height (S) of the path in a role: its own, or else that of `--sweep-height`, or the default. `None` if the option is required but
-    /// missing.
+    /// The sweep height (S) of the path in a role: its own, or else the value of `--sweep-height`, or the default. `None` if the option is required
+    /// but missing.
     pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
         let numbers = PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: None };
         self.sweep_height.or_else(|| numbers.sweep_height(options, role))
@@ -202,7 +202,7 @@ impl PathSignature {
         too_low.map(problem).collect()
     }
 
-    /// Returns the height in mm of the highest point of the path's own material and probes, above its plane.
+    /// Returns the height in mm, above the path's plane, of the highest point of its own material and raised probes.
     pub fn own_top(&self) -> f64 {
         self.raised_probes.iter().map(|probe| probe.height).fold(self.thickness, f64::max)
     }

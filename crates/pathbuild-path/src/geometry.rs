@@ -104,7 +104,7 @@ impl Curve {
         }
     }
 
-    /// Returns the section between two distances from the start, in mm along the curve. A line without length has only one.
+    /// Returns the section between two distances from the start, in mm along the curve. Every section of a line without length is the line itself.
     pub fn section(&self, from: f64, to: f64) -> Self {
         match self {
             Self::Line(line) => {
@@ -237,7 +237,7 @@ impl Curve {
         }
     }
 
-    /// Returns the interior points of this curve that may be nearest to `other`. None if `other` is a line: the ends of both curves and the
+    /// Returns the interior points of this curve that may be nearest to `other`. Empty if `other` is a line: the ends of both curves and the
     /// candidates on `other` then suffice.
     fn nearest_candidates(&self, other: &Self) -> Vec<Xy> {
         match (self, other) {
@@ -269,8 +269,8 @@ impl Line {
         self.start + along * (along.dot(&(point - self.start)) / squared).clamp(0.0, 1.0)
     }
 
-    /// Whether two lines cross, so that each has its ends on both sides of the other. Lines that only touch, with an end of one on the other, do not
-    /// cross. Nor do lines of which one continues the other, wherever rounding puts their ends.
+    /// Whether two lines cross: the ends of each are on opposite sides of the other. Lines that only touch, with an end of one on the other, do not
+    /// cross. Nor does a line cross its own continuation, however the ends are rounded.
     pub(crate) fn crosses(&self, other: &Self) -> bool {
         let divides = |one: &Self, other: &Self| {
             let along = one.end - one.start;

@@ -162,8 +162,8 @@ impl Outline {
         near.any(|piece| above(radius, way.distance(&piece.data.curve))) || self.contains(way.start())
     }
 
-    /// Whether a point that is not on the outline is inside: a ray to the right crosses pieces that run upwards and pieces that run downwards in
-    /// different numbers.
+    /// Whether a point that is not on the outline is inside, that is, whether a ray to the right crosses different numbers of upward and downward
+    /// pieces.
     pub(crate) fn contains(&self, point: Xy) -> bool {
         let [right, _] = self.extent().upper();
         let ray = AABB::from_corners([point.x, point.y], [right.max(point.x), point.y]);
@@ -213,7 +213,7 @@ fn monotone(curve: &Curve) -> Vec<Curve> {
     cuts.windows(2).map(|cut| curve.section(along(cut[0]), along(cut[1]))).collect()
 }
 
-/// Returns the bounding box of a curve, widened by `near`; an arc gets that of its whole circle.
+/// Returns the bounding box of a curve, or of the whole circle for an arc, widened by `near`.
 pub(crate) fn widened_box(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
     let (a, b) = match curve {
         Curve::Line(line) => (line.start, line.end),

@@ -145,7 +145,7 @@ impl Language {
         self.path_pattern.is_layer(layer) || self.is_keep_out(layer) || self.is_part(layer)
     }
 
-    /// Returns the curves that were left out of a drawing. A block counts only if everything that it draws lies on layers without a meaning.
+    /// Returns the curves that were left out of a drawing, except for blocks that draw on a layer with a meaning.
     pub(crate) fn left_out<'d>(&self, drawing: &'d Drawing) -> impl Iterator<Item = &'d OmittedCurve> {
         drawing.left_out.iter().filter(|left_out| !left_out.layers.iter().any(|layer| self.is_read(layer)))
     }

@@ -137,11 +137,11 @@ pub enum ElementClass {
     HelicalMark,
     HelicalSupport,
     /// A circle that cannot be classified, because the cutter diameter is unknown or larger than the circle: letters of all kinds of
-    /// circles pass.
+    /// circles are accepted.
     UnknownCircle,
     Subpath,
     Probe,
-    /// A faulty element, or one with an ignored text: every letter passes.
+    /// A faulty element, or one with an ignored text: every letter is accepted.
     Unread,
 }
 

@@ -279,8 +279,8 @@ impl Path {
         self.sweep_height(&PathOptions::default(), PathRole::Embedded).unwrap_or_default()
     }
 
-    /// The sweep height (S) of the path in a role: its own, or else that of `--sweep-height`, or the default. `None` if the option is required but
-    /// missing.
+    /// The sweep height (S) of the path in a role: its own, or else the value of `--sweep-height`, or the default. `None` if the option is required
+    /// but missing.
     pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
         self.sweep_height.or_else(|| self.numbers().sweep_height(options, role))
     }
@@ -334,7 +334,7 @@ impl Path {
 }
 
 impl Subpath {
-    /// Whether errors hide T, O or M of the segment.
+    /// Whether errors hide the value of a letter: T, O or M.
     pub fn hides(&self, letter: Letter) -> bool {
         self.unknown.contains(letter)
     }
@@ -377,8 +377,8 @@ impl Helix {
 }
 
 impl Bars {
-    /// Returns the number of bars on a segment of this length: as many as fit. A length that is a multiple of U + P except for rounding counts as
-    /// one, so that the number does not depend on the direction of the segment.
+    /// Returns the number of bars on a segment of this length: as many as fit. A length that is nearly a multiple of U + P is treated as that
+    /// multiple, so that rounding does not make the number depend on the direction of the segment.
     pub fn count(&self, length: f64) -> f64 {
         let spacing = self.distance + self.length;
         let nearest = (length / spacing).round();

@@ -92,7 +92,7 @@ pub struct QProjectLine {
 }
 
 /// Plans the Q-project of a component: one path for each O, in order of first appearance. Each embedded path uses the values of its first
-/// proxy line, or its own. Paths with errors are left out.
+/// proxy line, or else its own values and example values. Paths with errors are left out.
 pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
     let mut by_cutter: Vec<Vec<(Path, QProjectLine)>> = Vec::new();
     for planned in component.paths.iter().filter_map(|raw| planned_line(component, raw)) {

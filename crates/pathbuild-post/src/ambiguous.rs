@@ -42,7 +42,7 @@ fn quoted_argument<'d>(problem: &'d Diagnostic, name: &str) -> Option<&'d str> {
     })
 }
 
-/// Whether two words of a group contradict each other on every control. Some pairs do not: G80 may stand beside a motion, some controls
+/// Whether two words of a group contradict each other on every control. Some pairs do not: G80 may accompany a motion, some controls
 /// take M7 and M8 in one line, and a repeated word adds nothing.
 fn is_exclusive(first: &str, second: &str) -> bool {
     let words = [first, second];

@@ -520,7 +520,7 @@ fn is_known(movement: &Move, has_probed: bool) -> bool {
     movement.to.known == Axes::ALL && (movement.from.known == Axes::ALL || has_probed)
 }
 
-/// Whether a move counts along an axis from a position that only the machine knows, such as G91 after a probe. A job has absolute
+/// Whether a move is relative, along an axis, to a position that only the machine knows, as with G91 after a probe. A job has absolute
 /// coordinates only.
 fn moves_by_unknown_axis(movement: &Move) -> bool {
     let Move { from, to, .. } = movement;

@@ -68,8 +68,8 @@ fn shown(of: Code, example: &str, lang: Lang) -> String {
     format!("{files}{}{said}{picture}", if files.contains('«') { means } else { String::new() })
 }
 
-/// Returns the command that draws a picture of the stock in which the findings of the part check are filled, because a page in the terminal
-/// has no pictures; empty for other codes.
+/// Returns a sentence with the command that shows the finding in a picture of the stock, because a page in the terminal has no pictures; empty for
+/// codes other than those of the part check.
 fn picture(of: Code, command: &str, lang: Lang) -> String {
     let is_of_part = (Code::GougedPart..=Code::OutlineNotCut).contains(&of);
     let Some(drawing) = command.strip_prefix("check ").filter(|_| is_of_part) else { return String::new() };

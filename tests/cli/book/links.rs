@@ -35,7 +35,7 @@ pub(super) fn images(text: &str) -> Vec<&str> {
     images.filter_map(|rest| rest.split_once("](")?.1.split(')').next()).collect()
 }
 
-/// Returns the file to which a link of a page leads, relative to the project's directory.
+/// Returns the file to which a link on a page points, relative to the project's directory.
 pub(super) fn target(page: &Page, link: &str) -> String {
     let folder = page.file.parent().unwrap().to_string_lossy().replace('\\', "/");
     let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();

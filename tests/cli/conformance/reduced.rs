@@ -28,8 +28,8 @@ fn reduced_line(line: &str) -> Option<String> {
     is_kept.then(|| line.to_owned())
 }
 
-/// Whether two lines are equal: numbers with three decimals may differ by one unit of the last, and lengths and minutes of the statistics
-/// by one; -0.000 is always wrong.
+/// Whether two lines are equal: numbers with three decimals may differ by one unit of the last decimal, and whole millimetres and minutes of the
+/// statistics by one; -0.000 is always wrong.
 pub(crate) fn is_same_line(expected: &str, written: &str) -> bool {
     if written.contains("-0.000") {
         return false;

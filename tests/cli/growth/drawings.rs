@@ -42,7 +42,7 @@ pub fn chain(count: usize) -> String {
     entities(&(0..count).map(|index| line(at(index), at(index + 1))).collect::<String>(), at(count))
 }
 
-/// Returns a chain of lines, half of them among as many probes, in rows of 20.
+/// Returns a chain of lines, and as many probes beside it, in columns of 20.
 pub fn probed(count: usize) -> String {
     let place = |index: usize| {
         let [row, place] = [index / 20, index % 20].map(|it| 8.0 * f64::from(u32::try_from(it).unwrap()));

@@ -168,7 +168,7 @@ fn words_of(dialect: Dialect) -> PostWords {
     PostWords::of_programs(written.map(|output| output.text), dialect)
 }
 
-/// An effect in which a change may be dangerous: a cut with the spindle's state, or a rapid move below S.
+/// An effect of a program that makes a change dangerous if it differs: a cut with the spindle's state, or a rapid move below S.
 type Effect = (Move, Option<Spindle>);
 
 /// Returns the effects of a program: each cut with the spindle's state, and rapid moves below S.
@@ -179,7 +179,7 @@ fn effects(text: &str, dialect: Dialect, program: &Program) -> Vec<Effect> {
     let mut effects = Vec::new();
     let mut has_length = false;
     for Step { action, .. } in interpret(text.as_bytes(), dialect, &options).steps {
-        // A tool length takes effect with the next move. If there are several before the move, the last one counts.
+        // A tool length takes effect with the next move. Several before the move are a single effect.
         if matches!(&action, Action::Move(it) if !it.is_standstill()) && std::mem::take(&mut has_length) {
             effects.push((nothing(), None));
         }

@@ -158,7 +158,7 @@ const OF_CHORDS: [(&str, &str, bool); 6] = [
     ("G01 X16.918 Y13.29 Z0.75", "G01 X16.919 Y13.29 Z0.75", false),
     ("G01 X16.918 Y13.29 Z0.75", "G01 X16.918 Y13.286 Z0.75", true),
     ("G01 X7.503 Y40.274", "G01!X7.503 Y40.274", true),
-    // The first layer is selected by its number as well.
+    // The program must select its layer, even if it is the first one.
     ("M06 01\r\n", "", true),
 ];
 

@@ -13,7 +13,7 @@ use super::{Known, PROGRAMS, counts};
 use crate::book::kept;
 use crate::support::{Place, project};
 
-/// The lines of a program, with the index of its line for each move.
+/// A program: its lines, and its moves, each with the index of its line.
 pub(super) struct Program {
     lines: Vec<String>,
     moves: Vec<(usize, Move)>,

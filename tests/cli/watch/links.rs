@@ -16,7 +16,7 @@ fn linked(link: impl FnOnce(&Path)) -> Place {
     place
 }
 
-/// Edits the file to which the component leads, and asserts that the component and the program that embeds it are processed.
+/// Edits the file to which the component points, and asserts that the component and the program that embeds it are processed.
 fn is_noticed(watch: &Watch<'_>, file: &str) {
     watch.write(file, dxf("1001.1P", 4, &[]));
     let said = watch.until("library/parts/1001.dxf: changed");
@@ -64,7 +64,7 @@ fn every_link_on_the_way_is_watched() {
     });
     let watch = Watch::begin(&place, "watch --format concise");
     is_noticed(&watch, "store/a.bin");
-    // The link in the middle now leads elsewhere.
+    // The link in the middle now points elsewhere.
     watch.write("store/b.bin", dxf("1001.1P", 4, &[]));
     fs::remove_file(place.path().join("master/1001.dxf")).unwrap();
     symlink("../current/b.bin", place.path().join("master/1001.dxf")).unwrap();
@@ -72,7 +72,7 @@ fn every_link_on_the_way_is_watched() {
     watch.write("store/b.bin", dxf("1001.1P", 5, &[]));
     let said = watch.until(" 0 new findings");
     assert!(said.last().unwrap().contains("library/parts/1001.dxf: changed"), "{said:#?}");
-    // The directory link now leads elsewhere, too.
+    // The directory link now points elsewhere, too.
     fs::create_dir(place.path().join("other")).unwrap();
     watch.write("other/b.bin", dxf("1001.1P", 4, &[]));
     fs::remove_file(place.path().join("current")).unwrap();
@@ -96,7 +96,7 @@ fn an_ignore_file_behind_a_link_is_watched() {
         watch.until("library/old/1009.dxf: ");
         watch.write("rules", "");
         watch.until("library/old/1009.dxf: ");
-        // No drawing leads to that directory, because it contains none.
+        // With these rules, the library has no drawings, but its ignore file must still be watched.
         watch.write("rules", "*.dxf\n");
         watch.until("library/old/1009.dxf: ");
         watch.write("rules", "");

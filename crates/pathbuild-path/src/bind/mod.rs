@@ -624,7 +624,7 @@ impl Binder<'_> {
         }
     }
 
-    /// Reports support segments of which nothing is cut through. Short edges of rounded corners stand between longer sides with gaps, so single ones are
+    /// Reports support segments that are nowhere cut through. Short edges of rounded corners are between longer sides with gaps, so single ones are
     /// only doubtful if no segment of the path has a gap.
     fn report_missing_gaps(&mut self) {
         let elements = &self.raw.drawn.elements;

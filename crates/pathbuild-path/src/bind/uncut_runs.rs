@@ -1,4 +1,4 @@
-//! Runs of connected support segments of which nothing is cut through. (book: language/support-bars)
+//! Runs of connected support segments that are nowhere cut through. (book: language/support-bars)
 
 use std::collections::BTreeMap;
 
@@ -82,7 +82,7 @@ pub(super) fn uncut_runs<'a>(segments: &[SupportSegment<'a>]) -> Vec<UncutRun<'a
         .collect()
 }
 
-/// Returns the groups of segments of the same kind with common ends, each in ascending order.
+/// Returns the groups of connected segments of the same kind, each as the segments' indices in ascending order.
 fn runs<'a>(
     segments: &[SupportSegment<'a>],
     kind: impl Fn(&SupportSegment<'a>) -> Option<EntityKind>,

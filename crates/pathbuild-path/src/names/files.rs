@@ -219,8 +219,7 @@ impl RangeTable {
         let group = path.0.first();
         match group.and_then(|group| FirstGroup::new(group)).zip(group) {
             Some((first, group)) => {
-                // A text is compared with integers as if they were texts, but the table does not have them in that order, so all integers are
-                // scanned.
+                // A text is compared with integers as if they were texts, but the table is not sorted that way, so all integers are scanned.
                 if !first.is_integer() {
                     self.integers().iter().for_each(|entry| take(&entry.range, entry.file));
                 }
@@ -256,7 +255,7 @@ impl RangeTable {
     }
 }
 
-/// Returns PB519 for paths in the file's name that are on no layer, and PB521 for paths that are never searched in a file of this name. Q-projects
+/// Returns PB519 for paths in the file's name that are on no layer, and PB521 for paths that are never looked up in a file of this name. Q-projects
 /// are exempt, since they are named after the drawing that they test. `stem`: the name without `.dxf`.
 pub fn check_file_name(
     stem: &str,

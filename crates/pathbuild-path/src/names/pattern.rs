@@ -290,7 +290,7 @@ impl DefaultPattern {
         })
     }
 
-    /// Returns all non-overlapping pairs of matches with a hyphen between them, from left to right.
+    /// Returns all non-overlapping pairs of matches that a hyphen or an en dash separates, from left to right.
     fn find_ranges(self, text: &str) -> impl Iterator<Item = (Match, Match)> {
         let mut from = 0;
         let pair = move |start| {

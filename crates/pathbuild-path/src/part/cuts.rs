@@ -29,7 +29,7 @@ pub struct PathCuts {
     pub bars: Vec<StandingBar>,
     /// The start and the end of the path.
     pub ends: (Xy, Xy),
-    /// The paths that the path embeds. Their cuts count as well.
+    /// The paths that the path embeds. Their own `PathCuts` contain their cuts.
     pub embedded: Vec<EmbeddedPlace>,
 }
 

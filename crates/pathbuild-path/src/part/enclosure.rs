@@ -11,7 +11,7 @@ use crate::keep_out::widened_box;
 pub(super) struct Enclosure<'s> {
     part: &'s PreparedPart<'s>,
     cuts: &'s CutIndex<'s>,
-    /// For each path, whether it cuts the part out. If so, all of its through cuts count.
+    /// For each path, whether it cuts the part out. If so, all of its through cuts are considered.
     own: &'s [bool],
     /// The through cuts of other paths near the part's rim. The material that holds the part may end at them.
     beside: Vec<Cut<'s>>,
@@ -20,7 +20,7 @@ pub(super) struct Enclosure<'s> {
 /// A through cut, with the section that goes through the plate.
 type Cut<'s> = (&'s IndexedCut<'s>, Curve);
 
-/// Distance in mm from the rim of a part within which the cuts of other paths count: twice the larger O. `radius` is half of that O.
+/// Returns the distance in mm from the rim of a part within which cuts of other paths are considered: twice O. `radius` is half of O.
 pub(super) fn reach(radius: f64) -> f64 {
     4.0 * radius
 }
@@ -37,7 +37,7 @@ impl<'s> Enclosure<'s> {
         Self { part, cuts, own, beside }
     }
 
-    /// Returns the first own cut within O of the rim, if the own cuts suffice to close a ring.
+    /// If the own cuts suffice to close a ring, returns the first of those within O of the rim, or else the first of all.
     pub(super) fn own_cut(&self) -> Option<&'s IndexedCut<'s>> {
         let through = self.own_cuts();
         if !self.is_closed(&through) {

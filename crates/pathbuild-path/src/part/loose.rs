@@ -95,8 +95,8 @@ fn can_escape(at: Xy, sweeps: &[SweptLine]) -> bool {
 
 /// Whether sweeps close a ring around a point that none of them covers.
 ///
-/// A union-find over overlapping sweeps. Each sweep stores its angle around the point relative to its parent. If two sweeps of one group overlap at
-/// an angle that differs from the stored one, they close a ring.
+/// Groups overlapping sweeps by union-find. Each sweep stores its angle around the point relative to its parent. If two sweeps of one group overlap
+/// at an angle that differs from the stored one, they close a ring.
 fn is_ring_closed(centre: Xy, sweeps: &[SweptLine]) -> bool {
     let boxes = BoxIndex::new(sweeps.iter().map(|sweep| widened_box(&Curve::Line(sweep.line), sweep.radius)));
     let mut groups = Groups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };

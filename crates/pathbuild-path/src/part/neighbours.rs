@@ -107,9 +107,9 @@ impl<'c> PlacedCuts<'c> {
         NeighbourCuts { gouges: gouged, bars }
     }
 
-    /// Returns the level, in the program, from which the cuts of another path are measured to tell whether they spoil a part of this one. A cut that
-    /// goes through the other path's own plate spoils this part wherever it ends below this plate's upper face: it is no groove that this drawing
-    /// wants. So the level of a path on higher shims is its own one, but below the upper face of this plate.
+    /// Returns the level, in the program, from which cuts of another path are measured to tell whether they spoil a part of this path. It is the
+    /// other path's own level, but not below this path's level, and not above this path's material. So a cut through the other path's plate that
+    /// ends in this part spoils it, and is not taken for one of its grooves.
     fn level_for_cuts_of(&self, other: &Self) -> f64 {
         let highest = (self.cuts.thickness - MIN_CUT_DEPTH).max(0.0);
         self.raised + (other.raised - self.raised).clamp(0.0, highest)
@@ -141,7 +141,7 @@ impl<'c> PlacedCuts<'c> {
         severed.collect()
     }
 
-    /// Whether one of these parts is equal to a part of another path, or contains it, as placed. Its outline then shows the other part once more, or
+    /// Whether a part of this path is equal to a part of another path, or contains it, as placed. Its outline then shows the other part once more, or
     /// the sheet from which the other part is cut.
     pub fn shows_part_of(&self, part: usize, other: &Self) -> bool {
         let is_near = self.kept.zip(other.kept).is_some_and(|(own, other)| own.intersects(&other));

@@ -17,7 +17,7 @@ use crate::read::entities::{FoundText, TextCircle};
 use crate::read::texts::{LayerTexts, MAX_EXAMINED_ELEMENTS, MAX_SEARCHED_LAYERS, Texts};
 use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 
-/// Maximum number of layers that a finding about a text lists because the text would find an element on them.
+/// Maximum number of layers that a finding about a text lists as those on which the text would find an element.
 const MAX_LISTED_LAYERS: usize = 3;
 
 /// Upper bound on the elements that are examined for hints about texts without an element, in addition to those examined to assign texts.
@@ -99,8 +99,8 @@ impl<'d> LayerTexts<'d> {
         }
     }
 
-    /// Returns PB116 if another element of the same kind is about as near, or one of another kind is nearer. Other elements do not count if the text
-    /// would be an error there: a marker instead of an element or the reverse, and elements that do not accept one of its letters.
+    /// Returns PB116 if another element of the same kind is about as near, or one of another kind is nearer. Ignores elements on which the text would
+    /// be an error: a marker instead of an element or the reverse, and elements that do not accept one of its letters.
     fn assignment_doubt(
         &self,
         text: &FoundText<'_>,

@@ -23,7 +23,7 @@ pub(crate) struct Candidate {
     pub(crate) is_taken: bool,
 }
 
-/// The part of a path that a candidate stands for. It gets the text that is assigned to the candidate.
+/// The part of a path that a candidate represents. It gets the text that is assigned to the candidate.
 #[derive(Clone, Copy)]
 pub(crate) enum Owner {
     Start,
@@ -273,7 +273,7 @@ impl CandidateIndex {
     }
 }
 
-/// Returns the bounding box of a shape; an arc gets that of its whole circle.
+/// Returns the bounding box of a shape, or of the whole circle for an arc.
 fn box_around(shape: &Shape) -> AABB<[f64; 2]> {
     match shape {
         Shape::Circle { centre, radius } => square(*centre, *radius),

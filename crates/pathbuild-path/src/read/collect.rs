@@ -124,7 +124,7 @@ impl PathCollector<'_> {
         path
     }
 
-    /// Returns the findings about the texts of layers that have a path name but contain nothing else.
+    /// Returns the findings about the texts of layers that have a path name but contain only texts.
     pub(crate) fn orphans(mut self) -> Vec<Diagnostic> {
         take(&mut self.texts).assign(&mut self, 0.0);
         let mut diagnostics = take(&mut self.diagnostics);

@@ -162,7 +162,7 @@ impl ClampReader<'_> {
         }
         self.check_unreadable();
         if self.problems.iter().any(Diagnostic::is_error) {
-            // The missing part may belong to an outline, or be its text.
+            // The entity that could not be read may belong to an outline, or be its text.
             return Vec::new();
         }
         self.check_plane(entities);

@@ -179,7 +179,7 @@ impl Graph {
         for half_edge in half_edges() {
             outgoing.entry(self.tails[half_edge]).or_default().push(half_edge);
         }
-        // The order round a node matters only for three or more.
+        // The order round a node matters only if three or more half-edges begin there.
         for edges in outgoing.values_mut().filter(|edges| edges.len() > 2) {
             let shortest =
                 edges.iter().map(|edge| self.curves[edge / 2].length()).fold(10.0 * JOIN_DISTANCE, f64::min);

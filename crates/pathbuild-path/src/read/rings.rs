@@ -11,7 +11,7 @@ use crate::part::{BoxIndex, Stretch, add_stretches_within, at_along, join_stretc
 pub(super) const JOIN_DISTANCE: f64 = 0.01;
 
 /// Maximum number of pairs that are compared to find a crossing, or a ring in an open outline: enough for outlines of a hundred thousand short lines.
-/// Only outlines with long lines close beside each other need more comparisons; they then count as sound.
+/// Only outlines with long lines close beside each other need more comparisons; such outlines are not reported.
 pub(super) const MAX_COMPARED_PAIRS: usize = 1_000_000;
 
 /// Consecutive curves, each with its number.
@@ -67,7 +67,7 @@ pub(super) struct Crossing {
 }
 
 impl Crossing {
-    /// Returns the curves from the first passage to the second.
+    /// Returns the loop that the sequence forms between its two passes through the crossing.
     pub(super) fn between(&self, curves: &[Curve]) -> Vec<Curve> {
         let ((first, from), (second, to)) = (self.first, self.second);
         let begin = curves[first].section(from, curves[first].length());

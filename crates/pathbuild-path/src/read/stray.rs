@@ -207,7 +207,7 @@ fn with_space(name: &str) -> Option<String> {
 /// Endings of plurals, in English and German.
 const PLURALS: [&str; 4] = ["s", "e", "n", "en"];
 
-/// A number, as a pattern may require it after a name.
+/// Numbers that a pattern may require after a name.
 const NUMBERS: [&str; 3] = ["1", " 1", "_1"];
 
 /// Returns PB119 if a text would have an effect on the layer of a path.

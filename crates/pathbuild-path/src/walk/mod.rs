@@ -223,7 +223,7 @@ impl<'a> Walker<'a> {
         }
         let passage =
             self.oriented_from_here(segment, Passage::in_drawn_direction(self.ends.of(segment)), false);
-        // An arc keeps its centre and radius: the gap before it becomes a short line. To a hole, circle or subpath the tool sweeps.
+        // An arc keeps its centre and radius: the gap before it becomes a short line. To reach a hole, circle or subpath, the tool sweeps.
         if !coincide(passage.start, self.at) {
             if self.is_milled_arc(segment) {
                 self.go(segment, passage.lead_in(self.at));

@@ -10,7 +10,7 @@ use crate::approx::{coincide, near};
 use crate::geometry::Xy;
 use crate::path::Path;
 
-/// Whether segment `a` comes before segment `b`. Lengths are compared approximately, which is not transitive, so use this for a single scan in
+/// Whether segment `a` comes before segment `b`. Lengths are compared approximately, which is not transitive, so use this only in a single scan in
 /// segment order.
 pub(super) fn comes_before(path: &Path, ends: &Ends, a: usize, b: usize) -> bool {
     let (ranked, other) = (rank(path, a), rank(path, b));

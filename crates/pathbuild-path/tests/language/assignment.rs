@@ -124,7 +124,7 @@ fn an_arc_may_be_as_far_as_the_texts_radius() {
     let arc = "mill arc centre 0,0 r 1 from 0 to 180";
     assert!(finds(arc, &mtext("0,2.4", "F100")));
     assert!(!finds(arc, &mtext("0,2.400001", "F100")));
-    // The inside of the arc counts as well.
+    // A text on the inside of the arc finds it as well.
     let arc = "mill arc centre 0,0 r 20 from 0 to 180";
     assert!(finds(arc, &mtext("0,18.600001", "F100")));
     assert!(!finds(arc, &mtext("0,18.599999", "F100")));
@@ -192,7 +192,7 @@ fn markers_of_the_end_and_turns_and_hidden_lines_take_no_text() {
     assert_eq!(codes(&raw.diagnostics), ["PB107"]);
 }
 
-/// The text of a DOT line is assigned but ignored, so that the line can be enabled again; so is that of a DOT probe.
+/// The text of a DOT line is assigned but ignored, so that the line can be enabled again. The same is true of a DOT probe.
 #[test]
 fn skipped_elements_take_their_text() {
     assert_eq!(owners(&format!("skip 0,0 40,0\n{}", text("20,0.5", "%x9="))), ["line %x9="]);

@@ -26,7 +26,7 @@ fn special_circles_are_told_apart_by_their_diameters() {
     }
 }
 
-/// The radius is compared by `near()`: within 1e-6 of the radius and 0.001 mm.
+/// The radius is compared by `near()`, with a tolerance of 1e-6 times the sum of the radius and 0.001 mm.
 #[test]
 fn diameters_compare_approximately() {
     let edges = [

@@ -326,7 +326,7 @@ fn a_nearer_element_of_another_kind_is_a_rival() {
     assert_eq!(texts(&format!("{sweep}\n{text}"), 0.1), [""; 0]);
     assert_eq!(texts(&format!("{ring}\ntext 8,0 \"B2\" height 1 align centre middle\n{text}"), 0.1), [""; 0]);
     assert_eq!(texts(&format!("{}\n{text}", ring.replace("mill 0,0 17,0", "mill 0,3 17,3")), 0.1), [""; 0]);
-    // The ring is nearer to the text.
+    // The text is nearer to the circle than to the line.
     let inside = "text 19.9,0.2 \"B3\" height 1 align centre middle";
     assert_eq!(texts(&format!("mill 0,0 30,0\ncircle 20,0.2 d 6\n{inside}"), 0.1), [""; 0]);
 }

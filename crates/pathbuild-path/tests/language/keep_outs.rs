@@ -238,7 +238,7 @@ fn the_tool_may_go_over_a_clamp() {
     assert!(enters(&clamps, &down(15.0)));
 }
 
-/// Ramps and helices count only where they are lower than the clamp.
+/// A ramp or helix hits a clamp only where it is lower than the clamp.
 #[test]
 fn a_slope_counts_below_the_height() {
     let clamps = right(SQUARE);

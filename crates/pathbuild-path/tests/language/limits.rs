@@ -106,7 +106,7 @@ fn an_elements_values_are_greater_than_0() {
             assert_eq!(with(outside(letter)), [format!("PB203 {letter}")], "{letter} {statement}");
         }
     }
-    // The value is positive, but leads to endless bars, which is reported by another rule.
+    // The smaller value is not positive. The larger one is, but may be too small for another rule.
     assert_eq!(on(&format!("bars 0,0 40,0 \"U{OUTSIDE}\""), parameters)[0], "PB203 U");
     assert!(!on(&format!("bars 0,0 40,0 \"U{INSIDE}\""), parameters).contains(&"PB203 U".to_owned()));
 }
@@ -148,8 +148,8 @@ fn letters_without_effect_are_checked_too() {
     assert_eq!(on("mill 0,0 40,0 \"S5\"", "T5 O3 I1 B0"), ["PB203 S"]);
 }
 
-/// T of a probe or a subpath is the thickness at that position: it must be below the path's S, and may be below depths that the element does not
-/// have.
+/// T of a probe or a subpath is the thickness at that position: it must be below the path's S, and is not compared with B and D, which the element
+/// does not have.
 #[test]
 fn an_elements_own_t_is_compared_with_the_paths_s_alone() {
     let probe =

@@ -5,8 +5,7 @@ use pathbuild_path::{Placement, Xy};
 const ORIGIN: Xy = Xy::new(0.0, 0.0);
 const THERE: Xy = Xy::new(5.0, 7.0);
 
-/// This also holds if only the embedded path or only the segment has no direction, which is possible because their lengths may differ by up to 0.001
-/// mm.
+/// The embedded path or the segment may be the only one without a direction, because their lengths may differ by up to 0.001 mm.
 #[test]
 fn without_a_direction_a_path_is_turned_as_what_is_around_it() {
     let east = (ORIGIN, Xy::new(1.0, 0.0));

@@ -43,7 +43,7 @@ fn a_range_comes_before_a_list() {
 #[test]
 fn a_list_allows_its_texts_exactly() {
     assert_eq!(allowed("xP1,P2,P3", &["P1", "P3", "p1", "P", "P1,P2", ""]), ["P1", "P3"]);
-    // Values are compared as text, so 1.0 is not 1.
+    // Values of a list are compared as texts, so 1.0 is not 1.
     assert_eq!(allowed("x1,2", &["1", "1.0"]), ["1"]);
     assert_eq!(allowed("x?P1,?P2", &["P1", "?P1", "P2"]), ["P1", "P2"]);
     assert_eq!(allowed("xa\u{a0},\u{a0}b", &["a", "b"]), ["a", "b"]);

@@ -132,8 +132,8 @@ impl Definition {
         self.options.number_format.most_decimals()
     }
 
-    /// Returns the name of the section for rapid moves or of that for feed moves, whichever has a text that is empty or only a comment; the former if
-    /// both have one. `None` if neither has.
+    /// Returns the name of the first section whose text is empty or only a comment, of those for rapid moves and for feed moves; `None` if both texts
+    /// have words.
     pub(crate) fn empty_motion(&self) -> Option<&'static str> {
         let is_mark = |what: &Macro| matches!(what, Macro::Section(Section::Comment | Section::EndComment));
         let is_empty = |section: &Section| {
@@ -385,7 +385,7 @@ fn template_error(section: Section, error: &TemplateError, file: &Utf8Path) -> D
 }
 
 /// Maximum number of macro names that an undefined macro is compared with to suggest one, so that files with many undefined macros are
-/// still fast.
+/// still processed quickly.
 const MAX_COMPARED_NAMES: usize = 1000;
 
 /// Input of a writer: a job, a definition and the macros of all sources, checked together.

@@ -155,7 +155,7 @@ fn tenths(word: &Word) -> Option<u32> {
     (0.0..=1e6).contains(&tenths).then_some(tenths as u32)
 }
 
-/// A letter whose last number is remembered, as the control does.
+/// A letter whose last number the writer remembers, as the control does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Register {
     X,
