@@ -186,7 +186,7 @@ pub enum Change {
         code: u16,
         /// Whether G52 or G92 is active from here on; `None` if the command does not change that.
         are_shifted: Option<bool>,
-        /// Whether later positions count from the same zero as earlier ones. They do not if the command sets the zero before the first move,
+        /// Whether later positions have the same zero as earlier ones. They do not if the command sets the zero before the first move,
         /// or at a position that only the machine knows.
         is_followed: bool,
     },
@@ -218,7 +218,7 @@ pub enum ToolLength {
 pub enum Corners {
     /// G61: the tool stops at corners, or keeps to the path.
     Exact,
-    /// G64: the control rounds corners, by at most this many mm if P is given. (Q, the tolerance for joining lines, counts in the same way.)
+    /// G64: the control rounds corners, by at most this many mm if P is given: P, or Q (the tolerance for joining lines) if Q is greater.
     Rounded(Option<f64>),
 }
 

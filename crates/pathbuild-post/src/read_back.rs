@@ -136,8 +136,7 @@ pub(super) fn check(
     if problems.is_empty() { Ok(doubts) } else { Err(problems) }
 }
 
-/// Returns the finding about the first length without a decimal point, which the control may read as thousandths. It stands for all such
-/// words.
+/// Returns the finding about the first length without a decimal point, which the control may read as thousandths. Further ones are not reported.
 fn length_without_point(problems: &[Diagnostic]) -> Option<Diagnostic> {
     problems
         .iter()

@@ -88,7 +88,7 @@ fn split_steps(program: &Program, longest: f64) -> impl Iterator<Item = ProgramS
     })
 }
 
-/// Yields each step, either unchanged or as a move to be split.
+/// Yields comments unchanged, and moves as moves to be split, each with the corrected lift that must precede it, if any.
 fn steps_or_moves(
     program: &Program,
     longest: f64,
@@ -182,7 +182,7 @@ impl SplitMove {
         }
     }
 
-    /// Returns a part, counted from 1, corrected at its end.
+    /// Returns the part with this number, from 1, with the height corrected at its end.
     pub(crate) fn piece(&self, number: u64) -> ProgramStep {
         let ToolPosition { at: to, z } = self.after(number);
         let z = Height { z, at: to };

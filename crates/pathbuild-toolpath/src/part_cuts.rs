@@ -168,5 +168,5 @@ impl BarPlace {
     }
 }
 
-/// Length in mm up to which the remnant of a bar does not count.
+/// Length in mm up to which the remnant of a bar is ignored.
 const MAX_NEGLIGIBLE_REMNANT: f64 = 0.01;

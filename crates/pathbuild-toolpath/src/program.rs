@@ -86,7 +86,7 @@ impl Program {
         })
     }
 
-    /// Returns the peck depth C in mm that applies from each element on, by step numbers as those of [`moves`](Self::moves).
+    /// Returns the peck depth C in mm that applies from each element on, by step number as in [`moves`](Self::moves).
     pub fn pecks(&self) -> Vec<(u32, Option<f64>)> {
         let peck = |(number, step): (u32, &ProgramStep)| match step {
             ProgramStep::Comment(Comment::Element { peck, .. }) => Some((number, *peck)),
@@ -432,7 +432,7 @@ impl Add for Total {
 }
 
 impl Total {
-    /// Returns the estimated real time in whole minutes, rounded up after discarding less than 0.0000001 s.
+    /// Returns the estimated real time in whole minutes, rounded up after rounding to 0.0000001 s.
     pub fn minutes(&self) -> f64 {
         let seconds = SLOWDOWN_FACTOR * self.time * 60.0;
         ((seconds * 1e7).round() / 1e7 / 60.0).ceil()

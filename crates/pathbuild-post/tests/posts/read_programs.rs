@@ -194,7 +194,7 @@ fn a_zero_set_where_the_tool_is_known_to_be_is_followed() {
         let last = job.operations[0].steps.last();
         assert!(matches!(last, Some(JobStep::Move(movement)) if movement.to.x() == 25.0), "{word}: {last:?}");
     }
-    // G10 L2 counts from the machine's zero, and where the tool is in the machine is unknown.
+    // G10 L2 is relative to the machine's zero, and the tool's position in the machine is unknown.
     is_zero_refused(&format!("{HEAD}{CUT}G10 L2 P1 X0\n"), Dialect::LinuxCnc, 7, "G10");
     // At a stop and at a tool change, the axes may be moved.
     for stop in ["M0", "T2 M6"] {

@@ -130,7 +130,7 @@ fn what_verify_warns_of_is_a_warning_about_the_output() {
 fn the_height_is_stated_after_a_tool_change_by_hand() {
     let by_hand = |change: &str| changed("T{$tool.index} M6\nG43 H{$tool.index}", change);
     let unstated = "after a stop for a tool change or a new zero, the program moves in X or Y";
-    // Without any T, only the program knows that the tool changes.
+    // The operator changes the tool at a stop, with or without a T word beside it.
     for stop in ["M0", "T{$tool.index}\nM0", "M0\nT{$tool.index}"] {
         assert_eq!(by_hand(&format!("{stop}\n{{$set(z,NaN)}}")), FINE, "{stop}");
         let found = by_hand(stop);

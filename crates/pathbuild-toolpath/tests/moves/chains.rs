@@ -76,7 +76,7 @@ fn distances_are_in_space() {
 /// If several edges are equally near, the first in segment order is chosen, and its end rather than its start.
 #[test]
 fn ties_go_to_the_first_segment_and_to_its_end() {
-    // A full circle begins and ends at the same point. The walk runs it from its end, so its edge starts at its other end.
+    // A full circle begins and ends at the same point. The walk reverses it, and milling reverses it again: it begins at the end of the walked curve.
     let circle = "arc CONTINUOUS centre 10,0 r 10 from 180 to 180\nend 0,0";
     assert_eq!(moves(&path("T5 O3 I5 B0", circle)), ["L 5", "D 0", "A 0,0 0", "L 10"]);
     // The tool is in the middle of a line that is milled there and back, so both ends of the next edge are equally near.
@@ -146,7 +146,7 @@ fn a_comment_stands_before_each_pass_of_its_segment() {
         ]
     );
     assert_eq!(moves_and_comments(&path("T5 O3 I5 B0", "mill 0,0 40,0 \"Q\"\nend 40,0"))[2], "Q ");
-    // The comment also stands between the plunge and the move up to a bar.
+    // The comment also follows the plunge if the segment begins with a bar.
     let bars = path("T5 O3 I5 B0 D3 P50 U50", "bars 0,0 40,0 \"Qx\"\nend 40,0");
     assert_eq!(moves_and_comments(&bars)[..4], ["L 5", "D 3", "Q x", "M 40,0 3"]);
     assert_eq!(shown(&program_with(&bars, COMPATIBLE), true)[..4], ["L 5", "D 0", "Q x", "L 3"]);

@@ -53,7 +53,7 @@ fn a_plunge_between_edges_is_the_next_segments() {
 
 #[test]
 fn plunges_into_a_bar_run_at_the_segments_feed() {
-    // A plunge onto the bars of an edge above D has the feed of the chain; slopes are lines.
+    // The plunge onto the bar at the start has the segment's feed, which is lower than the path's. Slopes are lines, not plunges.
     let bars = path("T5 O3 D2 B0 P2 U38 I5 F80", "bars 0,0 40,0 \"F30\"\nend 40,0");
     assert_eq!(plunges(&program(&bars)), [(30.0, 30.0)]);
     let counted = |step: &&ProgramStep| matches!(step, ProgramStep::Move { count, .. } if count.class == MoveClass::Drilling);
