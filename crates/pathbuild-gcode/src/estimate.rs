@@ -18,7 +18,7 @@ pub struct Kinematics {
 
 /// Estimates the duration of a program in seconds: moves and dwells, without stops for the operator.
 ///
-/// Axes with unknown positions count as not moving. A move without a feed counts as a rapid; the interpreter reports the missing feed.
+/// Axes with unknown positions are treated as not moving, and a move without a feed as a rapid move; the interpreter reports the missing feed.
 pub fn seconds(steps: &[Step], kinematics: &Kinematics) -> f64 {
     let mut seconds = 0.0;
     let mut moves: Vec<TimedMove> = Vec::new();

@@ -13,10 +13,10 @@ use crate::provenance::{Provenance, head_remarks};
 use crate::read::Problems;
 use crate::verify::Cutter;
 
-/// Maximum difference in mm at which two lengths in comments count as equal: they are rounded, often to two decimals.
+/// Maximum difference in mm at which two lengths in comments are considered equal: they are rounded, often to two decimals.
 const ROUNDING_TOLERANCE: f64 = 0.01;
 
-/// Maximum difference in mm at which two lengths that are not rounded count as equal.
+/// Maximum difference in mm at which two lengths that are not rounded are considered equal.
 const EXACT_TOLERANCE: f64 = 1e-6;
 
 /// One inch in mm.
@@ -290,7 +290,7 @@ pub struct StatedCutter {
     pub diameter: f64,
     /// The width in mm of the flat part of the tip, if it is known.
     pub flat: Option<f64>,
-    /// Maximum difference in mm at which another diameter counts as equal to this one.
+    /// Maximum difference in mm at which another diameter is considered equal to this one.
     tolerance: f64,
 }
 
@@ -313,7 +313,7 @@ impl StatedCutter {
         libm::fabs(self.diameter - diameter) <= self.tolerance
     }
 
-    /// Returns the widths for the check of rapid moves. If the tip is not known to be flat, only the centre line of the moves counts, both for
+    /// Returns the widths for the check of rapid moves. If the tip is not known to be flat, only the centre line of the moves is considered, both for
     /// removing material and for collisions, so that the tool always fits into its own cut.
     pub fn widths(&self) -> Cutter {
         let flat = self.flat.unwrap_or(0.0);
@@ -352,7 +352,7 @@ struct Collector {
     /// The description of the tool in use, and whether that tool has cut.
     of_current: Option<(StatedCutter, bool)>,
     number: Option<u32>,
-    /// The line of the last tool change or description after the last cut.
+    /// The line of the last tool change since the last cut, or else of the first description since then.
     since: Option<u32>,
     tools: Vec<CuttingTool>,
     corners: [Option<(u32, [f64; 3])>; 2],
@@ -436,7 +436,7 @@ impl Collector {
         self.is_of_pathbuild |= statement.surface.is_some();
     }
 
-    /// Records a corner of the stock. If comments state different corners, the higher one counts, which leaves more material.
+    /// Records a corner of the stock. If comments state different corners, the one with the greater Z is used.
     fn corner(&mut self, line: u32, index: usize, corner: [f64; 3]) {
         let Some((_, known)) = self.corners[index] else {
             self.corners[index] = Some((line, corner));

@@ -136,7 +136,7 @@ impl fmt::Display for Provenance {
     }
 }
 
-/// Parses the displayed form, also in upper case, because some posts write only that.
+/// Parses the displayed form, also in upper case, because some posts write only upper case.
 impl FromStr for Provenance {
     type Err = ();
 

@@ -25,8 +25,8 @@ pub fn statistics(program: &Program, rapid: f64) -> Statistics {
     }
 }
 
-/// Filter for the moves of a parsed program whose length counts: those between positions that are completely known and that the program has specified
-/// since the last tool change.
+/// Filter for the moves of a parsed program whose length is included in totals: those between positions that are completely known and that the
+/// program has specified since the last tool change.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LengthFilter {
     /// The axes specified before the current step.
@@ -34,7 +34,7 @@ pub(crate) struct LengthFilter {
 }
 
 impl LengthFilter {
-    /// Whether the length of the next step counts. It must be called for every step.
+    /// Whether the length of the next step is included in totals. Must be called for every step.
     pub(crate) fn counts(&mut self, step: &Step) -> bool {
         let stated = std::mem::replace(&mut self.stated, step.stated);
         match &step.action {
@@ -92,7 +92,7 @@ impl Tally {
         Total { length, time: if length > 0.0 { length / rapid } else { 0.0 } }
     }
 
-    /// Adds a move. `has_length` states whether its length is known and counts.
+    /// Adds a move. `has_length` states whether its length is known and included.
     pub(crate) fn add(&mut self, movement: &Move, has_length: bool) {
         self.arcs += u64::from(matches!(movement.shape, MoveShape::Arc(_)));
         let kind = match movement.pace {

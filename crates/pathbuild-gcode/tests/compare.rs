@@ -1,4 +1,4 @@
-//! Tests which lists of moves count as the same program.
+//! Tests which lists of moves are considered the same program.
 
 mod common;
 

@@ -121,7 +121,7 @@ fn the_unit_is_that_of_the_program_unless_the_field_names_one() {
     assert_eq!(with_unit("1 = End Mill {3.175 mm}", "G20"), "3: T1 3.175 flat 3.175");
     assert_eq!(with_unit("1 = End Mill {0.125 inch}", "G21"), "3: T1 3.175 flat 3.175");
     assert_eq!(with_unit("tool#=1 flute=0.25 len=1 unit=imperial", "G21"), "3: T1 6.35 flat ?");
-    // The unit in force at the comment counts, not the first one of the program.
+    // The unit in force at the comment applies, not the first one of the program.
     let later = format!("G20\nG21\n(TOOL/MILL,6,0,9,0)\nT1 M6\n{CUT}");
     assert_eq!(tools(&later), ["4: T1 6 flat 6"]);
 }

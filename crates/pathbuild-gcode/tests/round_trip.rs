@@ -62,7 +62,7 @@ fn program(sketches: &[Sketch]) -> Program {
                 let centre = spoke(direction);
                 let turned = spoke(if clockwise { direction - angle } else { direction + angle });
                 let is_full = angle == std::f64::consts::TAU;
-                // No slope is so steep that a move with less than the last digit in the plane descends.
+                // Arcs of less than 0.01 mm do not descend, because no slope is that steep.
                 let z = if length < 0.01 { height_now } else { z };
                 let to = if is_full { at } else { at + centre.coords - turned.coords };
                 PlannedMove::Arc { feed, clockwise, centre, to, z: height(z), is_spiral: false }

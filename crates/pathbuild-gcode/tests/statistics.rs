@@ -55,7 +55,7 @@ fn counting_pauses_behind_a_tool_change() {
     assert_lengths(&format!("{START}T1 M6\nG0 X40 Y0\nG0 X0\nG1 X9"), [0.0; 3]);
     assert_lengths(&format!("{START}T1 M6\nG0 X40 Y0\nG0 Z5\nG91\nG1 X9"), [9.0, 0.0, 0.0]);
     assert_lengths(&format!("{START}T1 M6\nG91\nG0 X40 Y1 Z1\nG1 X9"), [0.0; 3]);
-    // T alone has no effect, nor do layers of XpertMILL.
+    // Counting does not pause at T alone, nor at a layer of XpertMILL.
     assert_lengths(&format!("{START}T2\nG0 X6"), [0.0, 0.0, 6.0]);
     let layers = "G0 X0 Y0 Z5\nT5 M6\nG0 X6 Y0 Z5";
     assert_eq!(lengths(layers, Xpertmill)[2], 6.0);
@@ -69,7 +69,7 @@ fn drilling_is_what_goes_less_than_a_two_thousandth_of_a_millimetre_in_the_plane
     assert!(inside[0] == 0.0 && (inside[1] - 4.0).abs() < 1e-6, "{inside:?}");
     let outside = lengths(&format!("G21 G90 G94 G17\n{START}G1 X0.00051 Z1"), LinuxCnc);
     assert!(outside[1] == 0.0 && (outside[0] - 4.0).abs() < 1e-6, "{outside:?}");
-    // X and Y together count as one move in the plane.
+    // The limit applies to the distance in the plane, not to each axis.
     assert_lengths(&format!("{START}G1 X0.0003 Y0.0003 Z1"), [0.0, libm::hypot(4.0, 0.000_424_264), 0.0]);
     assert_lengths(&format!("{START}G1 X0.0004 Y0.0004 Z1"), [libm::hypot(4.0, 0.000_565_685), 0.0, 0.0]);
     // Rapid moves count as sweeps in any direction.

@@ -369,7 +369,7 @@ fn a_stop_is_above_the_material() {
         assert_eq!(stop_at("5"), FINE);
         assert_eq!(stop_at("4.999"), FINE);
         assert_eq!(stop_at("4.99"), ["7 stop-at-depth"]);
-        // A stop after the last move counts as the end of the program; a stop beside T counts as a tool change.
+        // A stop after the last move is reported as the end of the program, and a stop beside T as a tool change.
         assert_eq!(behind_slot(stop), ["5 end-not-raised"]);
     }
     assert_eq!(behind_slot("T2\nM0\nG0 Z10"), ["7 tool-change-at-depth"]);

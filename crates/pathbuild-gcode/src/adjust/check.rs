@@ -24,7 +24,7 @@ pub(super) struct Check<'c, 'a> {
     pub(super) survey: &'c ProbeSurvey<'a>,
 }
 
-/// Minimum difference, in mm, at which two positions or heights count as different: both are written with three decimals.
+/// Minimum difference, in mm, at which two positions or heights are considered different: both are written with three decimals.
 pub(super) const MIN_DIFFERENCE: f64 = 0.000_5;
 
 impl Check<'_, '_> {

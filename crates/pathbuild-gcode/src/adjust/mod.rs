@@ -126,7 +126,8 @@ pub fn is_adjusted_from(program: Source<'_>, clean: Source<'_>) -> bool {
     adjusted_again(program, clean).is_some_and(|expected| is_same_program(program.bytes, &expected))
 }
 
-/// Returns the result of [`adjust`] for `clean` with the measured heights listed in the header of a program; `None` unless all of them are listed.
+/// Returns the result of [`adjust`] for `clean` with the measured heights listed in the header of a program; `None` if heights are missing or
+/// formulas are faulty.
 pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>> {
     let stated = ProbeTable::read(program).probes;
     let measured = |(probe, made): (&u32, &ProgramProbe)| Some((*probe, made.measured?));

@@ -146,7 +146,7 @@ pub(super) fn located(line: Line<'_>, fault: &Fault) -> Diagnostic {
     line.fault(fault.message, fault.at.clone()).quoting("found", &*found).with("limit", DEPTH_LIMIT)
 }
 
-/// Converts the position of an error from the formula to the line.
+/// Converts an error in a formula to an error in the line that contains the formula.
 pub(super) fn in_line(fault: &Fault, spot: &FormulaSpan) -> Fault {
     let start = spot.formula.start;
     Fault { at: fault.at.start + start..fault.at.end + start, ..*fault }

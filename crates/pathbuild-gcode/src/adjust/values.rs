@@ -281,8 +281,8 @@ fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<LoggedHe
     measured
 }
 
-/// Reports the first result that was measured at another position than that of its probe. A displacement that all results share is ignored, because
-/// the log may lack the offset of the workpiece. Probes whose position in the program is not stated are not compared.
+/// Reports the first result that was measured at a position other than its probe's. A displacement that all results share is ignored, because the
+/// log may lack the offset of the workpiece. Probes whose position in the program is not stated are not compared.
 fn misplaced_result(probes: &[&mut ProbeLine<'_>], measured: &[LoggedHeight<'_>]) -> Option<Diagnostic> {
     let mut common: Option<[f64; 2]> = None;
     probes.iter().zip(measured).find_map(|(probe, measured)| {
@@ -299,7 +299,7 @@ fn misplaced_result(probes: &[&mut ProbeLine<'_>], measured: &[LoggedHeight<'_>]
     })
 }
 
-/// Distance in mm along an axis within which a result counts as measured at its probe: a machine stops at whole steps.
+/// Distance in mm along each axis within which a result is accepted as measured at its probe: a machine stops at whole steps.
 const PLACE_TOLERANCE: f64 = 0.1;
 
 /// Parses the position in `x,y,z:1`.

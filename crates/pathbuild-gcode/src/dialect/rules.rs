@@ -78,7 +78,7 @@ pub struct Rules {
     pub rises_before_holes: bool,
     /// Whether drilling cycles return to their initial height (G98) by default.
     pub lifts_to_start: bool,
-    /// Whether G80 may stand beside a motion word, which then applies.
+    /// Whether G80 is allowed on a line with a motion word, which then applies.
     pub ends_cycles_beside_motion: bool,
     /// Whether drilling cycles and G80 are a modal group of their own, so that G80 restores the motion that was in effect before the cycle.
     pub cycles_are_apart: bool,
@@ -470,7 +470,7 @@ pub(super) static MACH3: Rules = Rules {
     program_numbers: true,
     keeps_offsets: true,
     lifts_to_start: true,
-    // From memory of "Using Mach3Mill": G59 P selects one of 254 systems, of which the first six are G54 to G59.
+    // From memory of "Using Mach3Mill": G59 P1 to P253 select a system; P1 to P6 are G54 to G59.
     systems: Some(SystemNumbers { code: 590, regular: 6, most: 253 }),
     // Vectric's post for Mach3 begins programs with `G00G21G17G90G40G49G80` and `G71G91.1`.
     unit_synonyms: Some([700, 710]),
@@ -488,7 +488,7 @@ const ISO: Rules = Rules {
     // From memory of the operator's manual: operation 1 of a canned cycle is the positioning of X and Y, operation 2 the rapid move to R.
     rises_before_holes: false,
     lifts_to_start: true,
-    // G80 is in a modal group of its own (09), so another motion word may stand beside it.
+    // G80 is in a modal group of its own (09), so its line may contain another motion word.
     ends_cycles_beside_motion: true,
     cycles_are_apart: true,
     lengths: LengthRules { keeps_entry: true, keeps_length: false },

@@ -501,7 +501,7 @@ impl Interpreter<'_> {
         block.arguments.iter().map(value).collect()
     }
 
-    /// Evaluates the condition of a block's O word. A missing value is reported and counts as false.
+    /// Evaluates the condition of a block's O word. A missing value is reported and treated as false.
     fn condition(&mut self, block: &Block<'_>) -> bool {
         let Some(word) = block.o_word else { return false };
         match self.arguments(block, word) {

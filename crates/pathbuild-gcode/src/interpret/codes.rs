@@ -114,7 +114,7 @@ impl Command {
         }
     }
 
-    /// Returns how far the interpreter executes the command. `NotFollowed` has been reported already, so it counts as `Followed`.
+    /// Returns how far the interpreter executes the command; `Followed` also for unsupported commands, which have been reported already.
     pub(super) fn effect(self) -> WordEffect {
         match self {
             Self::NoEffect(Group::ToolLength | Group::PathControl) => WordEffect::Followed,

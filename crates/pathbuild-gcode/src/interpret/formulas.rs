@@ -28,7 +28,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Records that a block has words; comments from here on do not count as listing probes.
+    /// Records that a block has words: comments after the first such block list no probes.
     pub(super) fn begin_words(&mut self, block: &Block<'_>) {
         self.stated.has_begun |= !block.words.is_empty();
     }

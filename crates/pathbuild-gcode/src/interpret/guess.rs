@@ -120,7 +120,7 @@ fn guess_by_feature(head: &[u8]) -> Option<Guess> {
     })
 }
 
-/// Replaces Fanuc by another control whose programs have a number if that control accepts every line of the program and Fanuc does not.
+/// Replaces a guess of Fanuc with another control with program numbers, if that control accepts every line of the program and Fanuc does not.
 fn with_all_words(head: &[u8], guess: Guess) -> Guess {
     if takes_every_line(head, guess.dialect) {
         return guess;
@@ -346,7 +346,7 @@ fn word_meaning(rules: &Rules, code: u16) -> Option<WordMeaning> {
         _ if code == inch || code == mm => WordMeaning::Command(Command::Inches(code == inch)),
         _ if rules.words.g_own.contains(&code) => WordMeaning::Own,
         Command::Dwell => WordMeaning::Dwell(match rules.dwell.p {
-            // The configuration selects the unit, so the difference does not count as a dispute.
+            // The configuration selects the unit, so the difference is not disputed.
             DwellUnit::BySetting => DwellUnit::Seconds,
             unit => unit,
         }),

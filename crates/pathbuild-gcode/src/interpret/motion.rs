@@ -14,8 +14,8 @@ use super::state::{INCH, State, StatedLength};
 use crate::dialect::RadiusTolerance;
 use crate::read::{Block, SourcePosition, Span};
 
-/// The lowest height of G53, in mm, that counts as a retract. Posts stay some millimetres below machine zero, to keep clear of the switches: Carbide
-/// Create writes `G53G0Z-5.000`, `OpenBuilds` `G53 G0 Z-10`.
+/// The lowest height of G53, in mm, that is accepted as a retract. Posts stay some millimetres below machine zero, to keep clear of the switches:
+/// Carbide Create writes `G53G0Z-5.000`, `OpenBuilds` `G53 G0 Z-10`.
 pub(crate) const LOWEST_RETRACT: f64 = -10.0;
 
 impl Interpreter<'_> {
@@ -94,8 +94,8 @@ impl Interpreter<'_> {
         if motion == Motion::None && self.rules.cycles_are_apart && is_kept { left } else { (motion, code) }
     }
 
-    /// Reports a probe without coordinates, and warns about a motion word that neither moves nor sets F: in dialects where each line states
-    /// its motion, such a word has no effect on later lines either.
+    /// Reports a probing word without coordinates. In dialects where each line states its motion, also warns about G0 and G1 without coordinates or
+    /// F, which have no effect on later lines.
     fn check_does_something(&mut self, block: &Block<'_>, motion: Motion, code: u16, span: Span) {
         let sets_feed = self.words.values.has(b'F') && !self.rules.layers;
         let is_straight = matches!(motion, Motion::Rapid | Motion::Feed);

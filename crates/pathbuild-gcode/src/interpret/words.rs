@@ -97,7 +97,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Checks that there is only one G word and one M word, because the control only obeys one per line.
+    /// Checks that there is only one G word and one M word, because the control obeys only one of each per line.
     fn check_one_each(&mut self, block: &Block<'_>) {
         for letter in [b'G', b'M'] {
             let mut words = block.words.iter().filter(|word| word.letter == letter);

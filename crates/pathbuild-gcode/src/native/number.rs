@@ -205,7 +205,7 @@ impl<'a> Formulas<'a> {
     }
 }
 
-/// Returns the indices of the probes of a program that do not correct any height, because four others are nearer everywhere.
+/// Returns the indices of the probes of a program that have no weight in the formula of any height.
 pub fn unused_probes(program: &Program, correction: Correction) -> Vec<usize> {
     let formulas = Formulas::new(program, correction);
     formulas.map_or_else(Vec::new, |formulas| formulas.unused(&correction.steps(program)))

@@ -247,7 +247,8 @@ impl Writer<'_> {
         end.or_else(|| (!is_short(length)).then_some(to))
     }
 
-    /// Returns the centre to print, relative to the position of the tool. Compatible programs print the nearest one.
+    /// Returns the centre to print, relative to the position of the tool. Except in compatible programs, it is shifted by up to one unit of the last
+    /// digit if that makes the radii at both ends of the printed arc match.
     fn arc_centre(&self, to: Xy, centre: Xy) -> Xy {
         if self.program.compatible {
             return centre;

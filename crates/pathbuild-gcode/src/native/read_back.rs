@@ -158,7 +158,7 @@ fn difference_error(found: &Difference) -> Box<Diagnostic> {
     read_back_error(&found.diagnostic())
 }
 
-/// Creates the error of pathbuild that stands for a problem in the text.
+/// Converts a problem in the text to an error of pathbuild itself (PB006).
 fn read_back_error(problem: &Diagnostic) -> Box<Diagnostic> {
     let line = problem.place.line.map(|line| format!(" (line {line})")).unwrap_or_default();
     let message = problem.text(pathbuild_diagnostic::Lang::En);

@@ -225,7 +225,7 @@ impl<'t> BlockReader<'t> {
         }
     }
 
-    /// Reads a line into the parts. Returns false if it cannot be read, or is an empty `%`.
+    /// Reads a line into the parts. Returns false if it cannot be read, or is a `%` without any text.
     fn read(&mut self, line: &[u8]) -> bool {
         if line.len() > LONGEST_LINE {
             let shown = &line[..256];

@@ -47,7 +47,7 @@ impl BlindRapidRules {
                 let is_low = is_low_in_machine(movement);
                 let is_doubtful = match movement.named {
                     None => movement.pace == Pace::Rapid && self.is_blind(movement, stated),
-                    // At a known position, there may be material below; at an unknown one, the machine has a tool setter or a magazine.
+                    // There may be material below a known position. At an unknown one, the machine is assumed to have a tool setter or a magazine.
                     Some(_) => is_low && known(&movement.from, stated).has(Axes::XY),
                 };
                 if is_doubtful {

@@ -182,7 +182,7 @@ fn place(at: &Position) -> String {
 }
 
 fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -> Difference {
-    // The rest of a move does not count as a missing counterpart; rather, the corresponding move ended too early.
+    // If one program ends within a move of the other one, its last move, which ended too early, is shown instead of a missing move.
     let shown = |one: &Walker<'_>, other: &Walker<'_>| {
         one.current().or_else(|| other.is_within().then(|| one.last()).flatten())
     };

@@ -43,7 +43,7 @@ impl CornerRules {
 
     fn cut(&mut self) {
         match self.corners {
-            // LinuxCNC takes P0 for no limit.
+            // LinuxCNC treats P0 as no limit.
             Some((line, Corners::Rounded(Some(most)))) if most > 0.0 => {
                 let is_largest = self.largest.is_none_or(|(_, largest)| most > largest);
                 if most > self.limit * MARGIN && is_largest {

@@ -52,7 +52,7 @@ impl DepthRules {
         }
     }
 
-    /// Reports a stop or a tool change as deep as the last cut, once until the tool cuts again.
+    /// Reports a stop or a tool change at the depth of the last cut, at most once until the tool cuts again.
     fn report_at_cut(&mut self, message: &'static Message, line: u32) {
         if let Some(z) = self.depths.at_cut.take() {
             self.stops.add_at_line(message, line, |d| d.with("z", z));

@@ -237,7 +237,7 @@ impl<'s> KnownMaterial<'s> {
         }
     }
 
-    /// Removes the material along a cutting move. Cells that are only touched count as removed, so that the grid never causes a false
+    /// Removes the material along a cutting move. Cells that are only touched are treated as removed, so that the grid never causes a false
     /// report.
     fn remove_material(&mut self, line: u32, movement: &Move) {
         let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
@@ -260,7 +260,7 @@ impl<'s> KnownMaterial<'s> {
         });
     }
 
-    /// Returns the first material that a rapid move hits. Cells that are only touched do not count.
+    /// Returns the first material that a rapid move hits. Cells that are only touched are ignored.
     fn first_hit(&mut self, line: u32, movement: &Move) -> Option<Hit> {
         let piece = self.stock.at(line).filter(|_| is_low_rapid(movement, self.stock))?;
         let is_plunge = movement.keeps_xy();
@@ -384,7 +384,7 @@ pub(super) fn pieces(movement: &Move, sagitta: f64) -> impl Iterator<Item = Move
 /// The finest useful resolution in mm; programs have three decimals.
 const MIN_RESOLUTION: f64 = 0.01;
 
-/// Minimum width in mm that the map resolves for a cutter of which only the centre line counts.
+/// Minimum width in mm that the map resolves for a cutter of which only the centre line is considered.
 const MIN_CENTRE_LINE_CUTTER: f64 = 1.0;
 
 const DEFAULT_MAX_VISITED_CELLS: u64 = 1_000_000_000;

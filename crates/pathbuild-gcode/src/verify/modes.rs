@@ -12,9 +12,9 @@ use crate::dialect::Dialect;
 use crate::interpret::code_name;
 use crate::read::Problems;
 
-/// Reports words by which a program may move differently from another program although both state the same positions. `words` are the words of
-/// the other program. Reported are unsupported words, other coordinate systems, machine positions, tool lengths and tool changes, and modes
-/// that only the other program states before its first move.
+/// Reports words by which a program may move differently from another program although both state the same positions: unsupported words, other
+/// coordinate systems, machine positions, tool lengths and tool changes, and modes that only the other program states before its first move. `words`
+/// are the words of the other program.
 pub fn foreign_modes(steps: &[Step], words: &PostWords, dialect: Dialect) -> Vec<Diagnostic> {
     let mut rules = WordRules::strict(words, dialect);
     let mut missing = words.lead.clone();

@@ -15,7 +15,7 @@ use crate::dialect::Dialect;
 use crate::interpret::{Options, code_name, interpret_each};
 use crate::read::{BlockReader, Problems, Value, Word};
 
-/// Heights are equal if they differ by less than this, in mm.
+/// Tolerance in mm within which heights are equal.
 const HEIGHT_TOLERANCE: f64 = 0.002;
 
 /// The rules that need no map of the material: pass every step of a program, then call [`finish`](Self::finish). The cost is
@@ -446,7 +446,7 @@ fn check_probe_direction(line: u32, movement: &Move, problems: &mut Problems) {
 /// Number of decimals that arc centres in millimetres require.
 const MIN_CENTRE_DECIMALS: u8 = 3;
 
-/// Radii are equal if they differ by less than this, in mm.
+/// Tolerance in mm within which radii are equal.
 const RADIUS_TOLERANCE: f64 = 1e-4;
 
 /// Reports the first arc of a program in millimetres if its arc centres have decimals but never three of them. Numbers without decimals are

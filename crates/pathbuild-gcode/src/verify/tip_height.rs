@@ -1,9 +1,9 @@
 //! Finds moves in the plane at a height that only the controller knows: at the beginning of a program, and after a tool change by hand.
 //! (book: program/reading, "Tool changes by hand")
 //!
-//! At a stop the operator may change the tool and set the zero, or only clean: then the tool is where the program left it. A stop counts as a tool
-//! change if T names another tool than that of the last cut, if it is beside M6, or if the program sets a zero or another tool length after it. With
-//! M6, a tool that was raised to a machine position stays there.
+//! At a stop the operator may change the tool and set the zero, or only clean: then the tool is where the program left it. A stop is treated as a
+//! tool change if T names a tool other than that of the last cut, if it is beside M6, or if the program sets a zero or another tool length after it.
+//! With M6, a tool that was raised to a machine position stays there.
 
 use pathbuild_diagnostic::Message;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -98,7 +98,7 @@ impl TipHeight {
         }
     }
 
-    /// Whether T has selected another tool than that of the last cut, for a tool change without M6.
+    /// Whether T has selected a tool other than that of the last cut, for a tool change without M6.
     fn is_other_tool(&self) -> bool {
         !self.has_inserted && self.selected.is_some() && self.selected != self.cutting
     }
@@ -160,7 +160,8 @@ impl TipHeight {
         (moves_in_plane && !is_raised).then_some(&say::START_NOT_RAISED)
     }
 
-    /// Handles a move after a stop or a tool change. A coordinate that has not changed counts as a move, since the operator may have moved the axes.
+    /// Handles a move after a stop or a tool change. A coordinate that has not changed is treated as a move too, since the operator may have moved
+    /// the axes.
     fn leave_stop(&mut self, step: &Step, movement: &Move) -> Option<&'static Message> {
         let stated = step.stated_since_stop;
         let rises = movement.keeps_xy() && (movement.homes_z() || movement.to.z() > movement.from.z());

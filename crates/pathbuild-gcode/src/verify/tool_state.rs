@@ -12,7 +12,7 @@ pub struct ToolState {
     dialect: Dialect,
     /// Number of the tool selected by the last T.
     selected: Option<u32>,
-    /// Number of the tool inserted by the last M6; `None` before the first M6, and if none of the T words before it has a number.
+    /// Number of the tool inserted by the last M6; `None` before the first M6, or if the number of that tool is unknown.
     inserted: Option<u32>,
     /// H of the last G43 with an H, which some controls reuse for a G43 without H.
     entry: Option<u32>,

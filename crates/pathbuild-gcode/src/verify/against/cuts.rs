@@ -347,7 +347,7 @@ fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
     }
 }
 
-/// Checks that two arcs have the same centre, because the points of a short arc hardly determine it.
+/// Checks that two arcs have the same centre, because the points of a short arc hardly determine its centre.
 fn check_centres(found: &Move, expected: &Move) -> Result<(), DifferenceKind> {
     let (MoveShape::Arc(ours), MoveShape::Arc(theirs)) = (found.shape, expected.shape) else { return Ok(()) };
     let are_near = ours.centre.iter().zip(theirs.centre).all(|(a, b)| libm::fabs(a - b) <= CENTRE_TOLERANCE);
@@ -449,7 +449,7 @@ impl RapidSequence {
         self.moves.iter().map(|(_, movement)| movement.to.z()).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Returns the fraction of a plunge at which these moves end, if they are those between two pecks: up in the hole and down again, no deeper
+    /// Returns the fraction of a plunge at which these moves end, if they are the moves between two pecks: up in the hole and down again, no deeper
     /// than the program has cut.
     fn peck_fraction(&self, plunge: &Plunge) -> Option<f64> {
         let (_, last) = self.moves.last()?;
@@ -496,9 +496,8 @@ impl RapidSequence {
         }
     }
 
-    /// Returns the moves after the program has reached `place`, where the expected moves may begin. The error is an earlier move that is not
-    /// harmless. `None` if the program does not reach the place, or if it does so from an unknown height although the place `is_later` than the
-    /// start.
+    /// Returns the moves after the program has reached `place`, where the expected moves may begin; `None` if the program does not reach it. If the
+    /// place `is_later` than the start, it must be reached from a known height. The error is an earlier move that is not harmless.
     fn moves_after_arrival(
         &self,
         place: &Position,

@@ -17,10 +17,10 @@ use crate::verify::corners::{BUILT_IN_ROUNDING, MARGIN};
 use crate::verify::tool_state::{LengthFit, ToolState};
 use crate::verify::words::PostWords;
 
-/// Heights are equal if they differ by less than this, in mm.
+/// Tolerance in mm within which heights are equal.
 const HEIGHT_TOLERANCE: f64 = 0.002;
 
-/// Speeds in 1/min are equal if they differ by less than this.
+/// Tolerance in 1/min within which speeds are equal.
 const SPEED_TOLERANCE: f64 = 0.01;
 
 #[derive(Debug)]
