@@ -417,8 +417,8 @@ impl Listings {
 /// Panic payload of work that exceeded this time limit.
 pub(crate) struct TimeoutPanic(pub(crate) Duration);
 
-/// Runs work that usually makes no queries. If it makes a query that unwinds because its drawing has changed, that counts as a bug here. Cancellation
-/// is passed on.
+/// Runs work that usually makes no queries. If a query in it unwinds because its drawing has changed, that is reported as a bug. Cancellation is
+/// passed on.
 ///
 /// # Errors
 /// PB006 if it panicked, PB005 if it exceeded its time limit; both without a place.

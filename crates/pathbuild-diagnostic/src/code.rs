@@ -276,8 +276,7 @@ codes! {
 }
 
 impl Code {
-    /// Whether the configuration may lower the severity. This is forbidden for errors that would make a program wrong, and for those of `adjust`. (book:
-    /// reference/configuration)
+    /// Whether the configuration may lower the severity, as it may for all warnings and for errors from PB610 on. (book: reference/configuration)
     pub fn can_be_lowered(self) -> bool {
         self.severity() == Severity::Warning || self.number() >= 610
     }

@@ -186,7 +186,7 @@ impl TextFault {
 /// An `f64` that can be compared exactly and hashed, so that values containing it are `Eq`.
 ///
 /// Equality is bitwise, except that -0 equals 0. It is deliberately exact: whether two coordinates of a drawing coincide is decided by the
-/// approximate comparisons of book: reference/glossary, never by this type.
+/// approximate comparisons of book: language/markers, never by this type.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Number(pub f64);
 
@@ -261,8 +261,8 @@ impl Ord for Number {
     }
 }
 
-/// Formats at most three decimals without trailing zeros, the precision of a drawing. Very small values that would appear as 0, such as a
-/// gap of 0.0004 mm, are formatted with two significant digits, and rounding errors below a millionth of a micrometre as 0.
+/// Formats the number with at most three decimals, the precision of a drawing, and without trailing zeros. Very small values that would
+/// appear as 0, such as a gap of 0.0004 mm, get two significant digits; rounding errors below a millionth of a micrometre become 0.
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = self.0;

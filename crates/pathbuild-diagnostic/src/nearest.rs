@@ -39,7 +39,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 }
 
 /// Whether two names differ by a single typing error: a character changed, added, left out or swapped with its neighbour. Case and leading
-/// zeros are ignored, and names with consecutive numbers are different names.
+/// zeros are ignored. A changed digit is no typing error, because names with different numbers are different names.
 pub fn is_slip(name: &str, other: &str) -> bool {
     let plain = |name: &str| {
         let name = name.to_lowercase();

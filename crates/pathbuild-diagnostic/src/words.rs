@@ -137,7 +137,7 @@ words! {
     DEFAULT: "default", "Vorgabe";
     /// Place of a clamp in the drawing that a message is about.
     CLAMP_OF_DRAWING: "at {point}", "bei {point}";
-    /// Place of a clamp that an embedded path brings along.
+    /// Place of a clamp that belongs to the drawing of an embedded path.
     CLAMP_OF_COMPONENT: "from {drawing} at {point} of this drawing", "aus {drawing} bei {point} dieser Zeichnung";
 }
 

@@ -1,4 +1,4 @@
-//! Messages are identified by their keys.
+//! Tests messages: their keys, and the numbers, sentences and foreign texts in them.
 
 use std::collections::BTreeSet;
 
@@ -33,7 +33,7 @@ fn numbers_of_one_message_are_told_apart() {
     assert!(said(8.0, 8.0).contains("diameter 8 mm"));
 }
 
-/// A library's messages exist in English only, so German messages quote them.
+/// The error text of a dependency is English, so it is put in quotes in German messages.
 #[test]
 fn words_of_a_library_are_quoted_in_german() {
     let problem =
@@ -60,7 +60,7 @@ fn a_noun_agrees_with_its_count() {
     assert_eq!([1, 1_000_000].map(|number| counted(number, Lang::De)), ["1 Bogen", "1.000.000 Bögen"]);
 }
 
-/// Small numbers are written without powers of ten, with two significant digits.
+/// Numbers below 0.0005 are written with two significant digits and without powers of ten.
 #[test]
 fn small_numbers_are_no_powers_of_ten() {
     let shown = |number: f64| Number(number).to_string();

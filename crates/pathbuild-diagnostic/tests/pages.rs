@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::{Code, Lang};
 
-/// Codes without an example: it would require a bug, or a block, which the tables of examples do not show.
+/// Codes without an example: the first would require a bug, the second a block, which the tables of examples do not show.
 const WITHOUT_EXAMPLE: [Code; 2] = [Code::InternalError, Code::MirroredSubpath];
 
 fn codes() -> impl Iterator<Item = Code> {

@@ -1,4 +1,4 @@
-//! A fast test of whether the BLOCKS section matters: it scans for layer names without parsing any block.
+//! A fast test of whether any block may draw on a wanted layer: it scans for layer names without parsing the blocks.
 
 use wide::u8x16;
 
@@ -6,7 +6,7 @@ use crate::encoding::Decoder;
 use crate::layers::Layers;
 use crate::pairs::{Pairs, line_length, without_cr};
 
-/// Whether any entity in these blocks may name a wanted layer as its own; the layers on which the blocks are inserted are not considered.
+/// Whether any entity in these blocks may itself be on a wanted layer; the layers on which the blocks are inserted are not considered.
 /// `false` is definitive, however codes are padded and however broken the section is, because every line after a possible code 8 counts as
 /// a layer name.
 pub(crate) fn may_hold_wanted<'a>(

@@ -1,4 +1,4 @@
-//! The BLOCKS section. It is indexed at the first INSERT that may insert something wanted; each block is read at its first such INSERT. Most
+//! The BLOCKS section. It is indexed at the first INSERT that may draw on a wanted layer; each block is read at its first such INSERT. Most
 //! drawings need neither.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -56,7 +56,7 @@ enum BlockLayers {
     /// The layers have yet to be determined.
     #[default]
     Unknown,
-    /// The layers of all entities in the block that may be wanted.
+    /// The layers of all entities in the block that may be drawn on a wanted layer.
     Known(Rc<[LayerId]>),
     /// The layers are not known in advance: the contents must be read item by item.
     Items,
@@ -112,7 +112,7 @@ impl<'a> Blocks<'a> {
         self.all[block.0].base.clone()
     }
 
-    /// Returns the items in a block that may be wanted.
+    /// Returns the items in a block that may be drawn on a wanted layer.
     pub(crate) fn items(
         &mut self,
         block: BlockId,
@@ -149,7 +149,7 @@ impl<'a> Blocks<'a> {
         let (wanted, seen) = self.look_for_wanted(block, layer, reader, steps)?;
         let wanted: Rc<[LayerId]> = wanted.into();
         if wanted.is_empty() {
-            // Nothing in the nested blocks is wanted either, so all visited blocks share the result.
+            // The nested blocks draw on no wanted layer either, so all visited insertions share the result.
             self.wanted.extend(seen.into_iter().map(|seen| (seen, Rc::clone(&wanted))));
         }
         self.wanted.insert((block, layer), Rc::clone(&wanted));
@@ -225,7 +225,7 @@ impl<'a> Blocks<'a> {
         Ok((wanted, seen))
     }
 
-    /// Determines the layers of a block's contents that may be wanted.
+    /// Determines the layers of those contents of a block that may be drawn on a wanted layer.
     fn layers(&mut self, block: BlockId, reader: &mut EntityReader<'a, '_>) -> Result<BlockLayers, Fatal> {
         let block = &mut self.all[block.0];
         if matches!(block.layers, BlockLayers::Unknown) {

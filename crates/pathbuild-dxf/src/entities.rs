@@ -26,9 +26,9 @@ pub(crate) struct EntityReader<'a, 'o> {
     pub(crate) layers: Layers<'a, 'o>,
     pub(crate) line_types: LineTypes<'a>,
     pub(crate) fields: Fields<'a>,
-    /// The BLOCKS section, until it is known whether blocks matter.
+    /// The BLOCKS section, until it has been searched for wanted layers.
     unseen_blocks: Option<Pairs<'a>>,
-    /// Whether insertions on unwanted layers may draw something wanted.
+    /// Whether insertions on unwanted layers may draw on wanted ones.
     blocks_matter: bool,
     /// The BLOCKS section, until it has been searched for texts to note.
     unnoted_blocks: Option<Pairs<'a>>,
@@ -74,7 +74,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
-    /// Returns the next entity that is or may be wanted; `None` at the record that ends the section or block. That record remains the head.
+    /// Returns the next entity that may be drawn on a wanted layer; `None` at the record that ends the section or block, which remains the head.
     #[inline(always)]
     pub(crate) fn next_item(
         &mut self,
@@ -95,8 +95,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
-    /// Reads to the end of the block and returns the layers of all entities that may be wanted. Returns `None` if layers alone do not suffice: for
-    /// insertions, and for texts, which may contain undecodable characters.
+    /// Reads to the end of the block and returns the layers of all entities that may be drawn on a wanted layer. Returns `None` if layers alone do
+    /// not suffice: for insertions, and for texts, which may contain undecodable characters.
     pub(crate) fn layers_ahead(
         &mut self,
         records: &mut Records<'a>,
@@ -162,7 +162,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         Ok(Some(Item { traits, shape }))
     }
 
-    /// Reads the groups of the head record. Returns its common properties if it may be wanted.
+    /// Reads the groups of the head record. Returns its common properties if it may be drawn on a wanted layer.
     fn read_common_properties(
         &mut self,
         records: &mut Records<'a>,
@@ -227,7 +227,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         Ok((want, found))
     }
 
-    /// Whether inserting a block on a layer may draw something wanted.
+    /// Whether a block that is inserted on this layer may draw on a wanted one.
     fn insertion_matters(&mut self, layer: LayerId, space: Space) -> bool {
         if let (Some(blocks), Some(is_noted)) = (self.unnoted_blocks.take(), self.options.note_text) {
             let Self { layers, decoder, .. } = self;
@@ -313,8 +313,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 }
 
-/// Whether an entity on a layer may be wanted. An entity on layer 0 of a block may be, because its layer depends on the insertion. An insertion may
-/// be, because its block may contain something wanted.
+/// Decides whether to keep an entity: if its layer is wanted, if it is on layer 0 of a block, because its layer then depends on the insertion, or if
+/// it is an insertion, because its block may draw on a wanted layer.
 #[inline]
 fn fill_decision(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, space: Space) -> FillDecision {
     let may_be_wanted = layers.is_kept(layer)

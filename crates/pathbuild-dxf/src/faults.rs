@@ -45,7 +45,7 @@ pub(crate) fn pair_error(message: &'static Message, pair: &Pair<'_>) -> Fatal {
     Box::new(Diagnostic::new(message).quoting("found", value_excerpt(pair.value)).at_line(pair.line, None))
 }
 
-/// Returns PB002 for a pair that stands where a section should end.
+/// Returns PB002 for a pair found where a section should end.
 pub(crate) fn missing_end_error(section: &str, found: &Pair<'_>) -> Fatal {
     let mut diagnostic = pair_error(&SECTION_NOT_ENDED, found);
     diagnostic.arguments.push(("section", Value::quoted(section)));

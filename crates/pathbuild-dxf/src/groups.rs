@@ -1,7 +1,7 @@
 //! Fast iteration over the pairs of entities. Unusual pairs are left to [`Pairs`], which is careful rather than fast.
 //!
 //! Lines of a DXF file are only a few bytes long, and their lengths vary. A new search for each line would cost more than the line itself
-//! and would depend on the search before, so all line ends of a stretch of bytes are found at once.
+//! and would have to wait for the previous search, so all line ends of a stretch of bytes are found at once.
 
 use wide::u8x16;
 

@@ -104,7 +104,7 @@ impl<'a> Pairs<'a> {
         Self { at, line, ..*self }
     }
 
-    /// Returns those of these pairs that come before `end`.
+    /// Returns the pairs that come before `end`.
     pub(crate) fn until(&self, end: &Self) -> Self {
         Self { bytes: &self.bytes[..end.at], ..*self }
     }

@@ -139,7 +139,7 @@ impl Placement {
     }
 }
 
-/// Largest coordinate or length of a path in mm: a machine of one kilometre, with enough digits left for all computations.
+/// Largest coordinate or length of a path in mm: one kilometre, which exceeds any machine and leaves enough digits for all computations.
 pub(crate) const MAX_COORDINATE: f64 = 1e6;
 
 impl Geometry {

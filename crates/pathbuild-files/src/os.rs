@@ -60,7 +60,7 @@ impl System for OsSystem {
             if is_temporary(name, |name| !name.is_empty()) {
                 temporary.push(directory.join(name));
             }
-            // A link counts as what it leads to; a dangling one counts as a file, which then cannot be read.
+            // A link is listed as its target is; a dangling link is listed as a file, which then cannot be read.
             let is_directory = match kind {
                 EntryKind::Directory => true,
                 EntryKind::Link => fs::metadata(directory.join(name)).is_ok_and(|data| data.is_dir()),

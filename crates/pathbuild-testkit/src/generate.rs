@@ -64,7 +64,7 @@ impl Library {
         self.plan.directories()
     }
 
-    /// A pathbuild.toml for the library.
+    /// Returns the text of a pathbuild.toml for the library.
     pub fn configuration(&self) -> String {
         let names: Vec<String> = self.directories().iter().map(|name| format!("{name:?}")).collect();
         let names = names.join(", ");

@@ -28,12 +28,13 @@ use std::path::{Path, PathBuf};
 #[doc = include_str!("../README.md")]
 struct ReadmeExamples;
 
-/// The project's directory.
+/// Returns the project's directory.
 pub fn project() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }
 
-/// Test data that is not ours to publish, in ../shared beside the project; `None` if it is absent, in which case the test is skipped.
+/// Returns the path of test data in ../shared beside the project, which is not ours to publish. If it is absent, reports that the test is skipped
+/// and returns `None`.
 #[expect(clippy::disallowed_methods, reason = "test data lies beside the project")]
 pub fn shared(name: &str) -> Option<PathBuf> {
     let path = project().join("../shared").join(name);

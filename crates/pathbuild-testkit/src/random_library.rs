@@ -315,7 +315,7 @@ fn project(number: u32, random: &mut Random) -> Vec<u8> {
     for segment in 0..2 {
         let fault = if segment == faulty { fault } else { 0 };
         let embedded = match fault {
-            // The project itself, or another one that may embed it: this may close a cycle.
+            // The project itself, which closes a cycle, or one with a lower number.
             4 | 5 => 8001 + u32::try_from(random.below((number - 8000) as usize)).unwrap_or_default(),
             _ => 1001 + u32::try_from(random.below(COMPONENT_COUNT as usize)).unwrap_or_default(),
         };

@@ -603,7 +603,7 @@ impl SceneMove {
         [self.way.to.x(), self.way.to.y()]
     }
 
-    /// Returns the lowest Z in mm, which an arc in a vertical plane has between its ends; `None` if the height of neither end is known.
+    /// Returns the lowest Z in mm, which may lie between the ends of an arc in a vertical plane; `None` if the height of neither end is known.
     pub fn depth(&self) -> Option<f64> {
         let [.., z] = self.way.extent();
         z.map(|(low, _)| low)

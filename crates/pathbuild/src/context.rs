@@ -160,7 +160,7 @@ impl Context {
         }
     }
 
-    /// Shows findings that are fixed as lines of JSON, if that is the format.
+    /// Shows fixed findings as lines of JSON, if JSON is the format.
     pub(crate) fn show_fixed(&self, fixed: &[Diagnostic]) {
         if self.format == Format::Json {
             let lines = lines::fixed(fixed, &self.machine_view());
@@ -173,7 +173,7 @@ impl Context {
         self.machine_view().raw_name(file).into_owned()
     }
 
-    /// Tells the user the date of the run if, since the last call, a waiver with an end has held because of that date.
+    /// Tells the user the date of the run if a waiver with an end has accepted a finding since the last call.
     pub(crate) fn name_date(&self) {
         if self.is_date_decisive.swap(false, Ordering::Relaxed)
             && let Some(date) = self.settings.date

@@ -36,7 +36,7 @@ pub struct Closure<'db> {
     pub missing_options: Vec<MissingOption>,
 }
 
-/// An option that must be given because a path does not set the parameter.
+/// An option that must be given because a path lacks the corresponding parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MissingOption {
     /// The option `--feed`, because a path needs a feed and gives none.

@@ -315,7 +315,7 @@ impl Content {
 }
 
 impl PathIndex {
-    /// Builds the index of a path. Calls `use_path` if the cuts of the path are known.
+    /// Builds the index of a path. Passes the path to `use_path` if its cuts are known.
     fn new(
         db: &dyn Db,
         raw: &RawPath,
@@ -359,7 +359,7 @@ pub struct PathSummary {
 }
 
 impl PathSummary {
-    /// Binds and walks a path. Calls `use_path` if its cuts are known.
+    /// Binds and walks a path. Passes it to `use_path` if its cuts are known.
     pub(super) fn new(
         db: &dyn Db,
         raw: &RawPath,

@@ -194,7 +194,7 @@ impl<'t> Search<'t> {
         if parts[around.id].file == parts[owner.id].file && coincide(at, drawn) {
             return Sentence::new(&words::CLAMP_OF_DRAWING).with("point", Point::new(drawn.x, drawn.y));
         }
-        // Exact comparison finds the same clamp again, although the placements of several programs round differently.
+        // Round, because placements of one clamp in several programs differ slightly, and findings about it are compared exactly.
         let [x, y] = [at.x, at.y].map(|coordinate| (coordinate * 1000.0).round() / 1000.0);
         Sentence::new(&words::CLAMP_OF_COMPONENT)
             .quoting("drawing", &clamp.drawing)

@@ -123,7 +123,7 @@ impl<'a> LayerEnds<'a> {
         which: usize,
         message: &'static Message,
     ) -> Option<(Note, f64)> {
-        // There already is a note about another circle.
+        // There is already a note about another circle.
         if problem.notes.iter().any(|note| note.message != &drawing::START_TEXT) {
             return None;
         }

@@ -263,8 +263,8 @@ impl<'db> PlacedProgram<'db> {
         std::iter::successors(Some(path), |inner| self.paths[*inner].parent.map(|(outer, _)| outer))
     }
 
-    /// Returns the innermost path that contains both an element and another path, and the element of the innermost path that is, or embeds, the given
-    /// element.
+    /// Returns the innermost path that contains both an element and another path, and the element of that innermost path that is the given element or
+    /// embeds it.
     fn innermost_common_path(&self, mut path: usize, element: u32, other: usize) -> (usize, &'db Origin) {
         let around: Vec<usize> = self.path_and_embedders(other).collect();
         let mut origin = &self.paths[path].cuts.cuts.elements[element as usize].origin;

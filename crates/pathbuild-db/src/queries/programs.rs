@@ -156,8 +156,8 @@ pub(super) struct Occurrences<'t> {
 }
 
 impl<'t> Occurrences<'t> {
-    /// Returns the innermost path that contains both an element and another path, and the element of the innermost path that is, or embeds, the given
-    /// element.
+    /// Returns the innermost path that contains both an element and another path, and the element of that innermost path that is the given element or
+    /// embeds it.
     pub(super) fn innermost_common_path(self, mut at: StepOrigin, other: u32) -> (u32, Option<u32>) {
         let around_other: Vec<u32> = self.path_and_embedders(other).collect();
         while !around_other.contains(&at.occurrence) {

@@ -22,7 +22,7 @@ enum Step {
     Deepen(usize),
     /// Inserts a remark before a path.
     Remark(usize),
-    /// Draws the path in a second file as well, in its own directory or in the search directory.
+    /// Draws a path in a second file as well, in its own directory or in the search directory.
     Double(usize, usize),
     Remove(usize),
     /// Renames a file so that, according to its name, it cannot define its path.

@@ -48,14 +48,14 @@ fn an_edited_clamp_reaches_what_embeds_its_path() {
     assert_eq!(trace("project"), ["lib/8001.1P.dxf 8001.1P"]);
     world.draw("lib/1111.1P.dxf", &with_clamp("8"));
     assert_eq!(world.outcome("project"), right);
-    // An unclear clamp is an error of both the component and the project; without the setting it is ignored.
+    // A clamp without a valid height is an error of both the component and the project; without the setting it is ignored.
     world.draw("lib/1111.1P.dxf", &with_clamp("2").replace("Z90", "high"));
     assert_eq!(world.codes("project"), ["PB117", "PB511"]);
     Settings::get(&world.db).set_language(&mut world.db).to(language);
     assert_eq!(world.outcome("project").program, right.program);
 }
 
-/// Moves into clamps are reported only if all clamps are clear, even if a path embeds nothing.
+/// Moves into clamps are reported only if all clamps have valid outlines and heights. This also holds for a path that embeds nothing.
 #[test]
 fn moves_into_clamps_are_looked_for_where_all_are_clear() {
     for (label, code) in [("Z90", "PB407"), ("high", "PB117")] {

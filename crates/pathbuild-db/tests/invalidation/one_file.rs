@@ -128,7 +128,7 @@ fn an_edited_sibling_runs_nothing_of_the_path() {
     assert_eq!(world.outcome("path"), before);
 }
 
-/// The layer name is the path's name: the path is still found under it.
+/// Renaming a layer renames its path: the path is no longer found under the old name, and the other path is not affected.
 #[test]
 fn a_renamed_sibling_runs_nothing_of_the_path() {
     let mut world = world();

@@ -8,7 +8,7 @@ use crate::{PartTest, codes, messages, number};
 
 const START: &str = "layer 1234.1P\nstart -5,-5 \"T2 O2 I0.5 B-0.2 D0.8 P3 U8 A20 S5\"\n";
 
-/// Returns a plate of 40 x 25 mm with two openings, whose circles begin at 3 o'clock. The contour is drawn with `verb`.
+/// Returns a plate of 40 x 25 mm with two round openings. The contour is drawn with `verb`.
 fn plate(verb: &str) -> String {
     format!(
         "{START}sweep -5,-5 11,13\nmill circle 11,13 d 10\nsweep 11,13 31,13\nmill circle 31,13 d 6\n\
@@ -49,7 +49,7 @@ fn a_contour_too_far_outside_leaves_material_all_round() {
     }
 }
 
-/// The contour passes the mouth of a notch. What is left there can only be the edge of the plate if the contour is open.
+/// The contour passes the mouth of a notch. If the contour is closed, material is left in the notch; if not, the notch may be in the plate's edge.
 #[test]
 fn a_notch_that_a_closed_contour_passes_is_left() {
     let with = |contour: &str, notch: &str| {
@@ -69,7 +69,8 @@ fn a_notch_that_a_closed_contour_passes_is_left() {
     let notched = closed.replace("1,1 41,1 41,26", &format!("1,1 41,1 {wide} 41,26"));
     let mut left = PartTest::default().diagnostics(&[("1234.1P.dxf", &notched)]);
     left.retain(|found| found.code().to_string() == "PB215");
-    // The finding is at the longest of the notch's three sides. The cut ends 4 mm away from this side; some samples are nearer to the cut.
+    // The finding is at one of the notch's long sides, except for its last millimetre, which the cutter cannot reach. The stretch ends 4 mm from the
+    // cut; the samples are nearer.
     let (thickness, length) = (number(&left[0], "thickness"), number(&left[0], "length"));
     assert!((3.7..4.0).contains(&thickness), "{}", left[0].text(Lang::En));
     assert!((length - 4.0).abs() < 0.01, "{}", left[0].text(Lang::En));
@@ -279,7 +280,7 @@ fn a_cut_beside_all_bars_separates_them_from_the_plate() {
     assert_eq!((found.code().to_string().as_str(), found.path.as_deref()), ("PB217", Some("1234.2P")));
 }
 
-/// A second path closes a ring that cuts off all bars, on whichever sides of the plate they are. One side of that ring is then left open.
+/// A second path closes a ring that cuts off all bars, on whichever sides of the plate they are. With `sweep`, the left side of the ring is open.
 #[test]
 fn bars_on_any_sides_lead_nowhere_within_a_ring() {
     for sides in 1..16 {
@@ -300,7 +301,7 @@ fn bars_on_any_sides_lead_nowhere_within_a_ring() {
     }
 }
 
-/// A cut that is farther away may be made in another plate, or after the part was taken out.
+/// A cut farther from the part than twice the cutter diameter may be made in another plate, or after the part was taken out.
 #[test]
 fn cuts_of_other_paths_count_within_twice_the_cutter_diameter() {
     let codes = |y: f64| {
@@ -331,7 +332,7 @@ fn bars_between_components_need_material_to_hold_to() {
     assert_eq!(found(3.5, &PartTest { is_held_otherwise: true, ..PartTest::default() }), []);
 }
 
-/// Short lines without a gap stay whole, and are one bar.
+/// A line too short for a gap between bars (P + U) is left standing as a whole, as one bar.
 #[test]
 fn a_whole_segment_may_be_a_bar() {
     let drawing =
@@ -457,8 +458,8 @@ fn bars_must_not_be_cut_by_other_components() {
     assert_eq!(codes(0.77).len(), 6, "every bar of this side, by more than the tolerance");
 }
 
-/// A raised component is on a raised plate. Cuts of the other component go through that plate; its own cuts go through its plate, and into the other
-/// one if they end below the upper face, at Z2.
+/// A raised component is on a raised plate, through which the cuts of the other component go. The raised component's own cuts enter the other plate
+/// only if they end below that plate's upper face at Z2.
 #[test]
 fn heights_of_embeddings_raise_the_plate() {
     let component = component();
@@ -531,7 +532,7 @@ fn a_hole_that_the_part_lacks_is_a_gouge() {
         plate("bars").replace("sweep 31,13 0,0", "sweep 31,13 21,13\nmill circle 21,13 d 2\nsweep 21,13 0,0");
     let found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
     let [found] = &found[..] else { panic!("{found:?}") };
-    // The position is 5 mm from the edge of the larger opening.
+    // The centre is 5 mm from the edge of the larger opening, and the radius is 1 mm.
     assert!((number(found, "depth") - 6.0).abs() < 1e-6, "{found:?}");
 }
 
@@ -794,7 +795,7 @@ fn a_wedge_is_as_thick_in_both_directions() {
     assert!((rising - falling).abs() < 1e-6 && (0.9..=1.0).contains(&rising), "{rising} {falling}");
 }
 
-/// The cutter of 2 mm passes 0.6 mm below a corner of the part.
+/// The axis of the 2 mm cutter passes 0.6 mm below a corner of the part.
 #[test]
 fn a_gouge_at_a_corner_is_as_deep_as_the_corner_is_overlapped() {
     for corner in [17.0, 17.3, 17.45, 17.8] {

@@ -20,7 +20,7 @@ fn curves_join_within_a_hundredth() {
     );
 }
 
-/// A gap may be up to a tenth of the outline's 117.5 mm; threads and letters have larger gaps.
+/// A gap may be up to a tenth of the drawn outline, which is 118 mm less the gap; threads and letters have larger gaps.
 #[test]
 fn a_gap_is_named_up_to_a_tenth_of_the_outline() {
     let gap = |x: f64| messages(&beside(&format!("line {x},1 40,1\n{SIDES}")));
@@ -226,7 +226,7 @@ fn lines_that_overshoot_all_corners_form_an_outline() {
         ];
         messages(&beside(&format!("{}\n{CIRCLE}", lines.join("\n"))))
     };
-    // The outline is 118 mm long, and eight ends are beyond it.
+    // The outline is 118 mm long, and eight ends of `over` mm are beyond its corners.
     for over in [0.6, 1.6] {
         let found = with_hole(over);
         assert!(found.len() == 1 && found[0].starts_with("PB219"), "{over}: {found:?}");

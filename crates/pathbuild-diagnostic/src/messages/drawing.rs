@@ -363,7 +363,7 @@ messages! {
         help_en: "leave only the text with the height: make texts smaller, move them apart, or move mere notes to another layer",
         help_de: "nur den Text mit der Höhe dort lassen: Texte verkleinern, auseinanderschieben oder bloße Notizen auf einen anderen Layer legen",
     }
-    /// A text of a clamp that gives no height.
+    /// A text inside a clamp that does not give a height.
     NO_CLAMP_HEIGHT: InvalidKeepOut {
         en: "the text \"{text}\" does not give the height of this clamp",
         de: "der Text \"{text}\" gibt die Höhe dieses Spannmittels nicht an",
@@ -468,7 +468,7 @@ messages! {
         help_en: "open the drawing in a CAD program and save it again",
         help_de: "die Zeichnung in einem CAD-Programm öffnen und neu speichern",
     }
-    /// A group of an entity that must contain a number, but does not.
+    /// A group of an entity whose value should be a number, but is not.
     VALUE_NOT_A_NUMBER: InvalidDxf {
         en: "{entity}: group {code} must be a number, not \"{value}\"",
         de: "{entity}: Gruppe {code} muss eine Zahl sein, nicht \"{value}\"",
@@ -580,7 +580,7 @@ messages! {
         help_en: "set the width to 0 and draw what is meant: the path of the cutter, or the outline",
         help_de: "die Breite auf 0 setzen und zeichnen, was gemeint ist: den Weg des Fräsers oder den Umriss",
     }
-    /// A spline that is given by points on it only.
+    /// A spline given by fit points instead of control points.
     SPLINE_BY_FIT_POINTS: UnsupportedCurve {
         en: "{entity} is left out: it has fit points, but no control points",
         de: "{entity} wird ausgelassen: er hat Passpunkte, aber keine Kontrollpunkte",

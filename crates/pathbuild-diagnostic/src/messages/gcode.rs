@@ -13,7 +13,7 @@ messages! {
         help_en: "if it is only a remark, begin it with another word",
         help_de: "ein anderes Wort davorsetzen, wenn es nur eine Bemerkung ist",
     }
-    /// A coordinate without a decimal point, such as `X10`, which may count as thousandths.
+    /// A coordinate without a decimal point, such as `X10`, which some controllers read as thousandths.
     NO_DECIMAL_POINT: DoubtfulSpelling {
         en: "`{word}` has no decimal point: some {dialect} controllers read it as thousandths",
         de: "`{word}` hat keinen Dezimalpunkt: manche Steuerungen mit {dialect} lesen das als Tausendstel",
@@ -55,7 +55,7 @@ messages! {
         help_en: "check that {written} does what the program needs",
         help_de: "prüfen, ob das Programm stattdessen dies tun darf",
     }
-    /// A word that the output of a post does not have.
+    /// A word of the program that the output of a post lacks.
     WORD_LEFT_OUT: ForeignWord {
         en: "the post does not write {word}: it is missing from the output",
         de: "der Postprozessor schreibt {word} nicht: es fehlt in der Ausgabe",
@@ -90,7 +90,7 @@ messages! {
         help_en: "write {word} on a line of its own",
         help_de: "{word} in eine eigene Zeile schreiben",
     }
-    /// A second M code in a line of a control that refuses such lines.
+    /// A second M code on a line, for a control that refuses such lines.
     SECOND_M_REFUSED: ConflictingWords {
         en: "{dialect} allows only one M code on a line; here are {first} and {second}",
         de: "{dialect} erlaubt in einer Zeile nur ein M-Wort; hier stehen {first} und {second}",
@@ -153,7 +153,7 @@ messages! {
         help_en: "write the letter of the word before the number; a comment begins with {comment}",
         help_de: "den Buchstaben des Worts davorsetzen; ein Kommentar beginnt mit {comment}",
     }
-    /// A block number that is too large, or not at the beginning.
+    /// A block number that is too large, or not at the beginning of its line.
     BLOCK_NUMBER: InvalidWord {
         en: "`{found}` is not a block number for {dialect}",
         de: "`{found}` ist für {dialect} keine Satznummer",
@@ -508,14 +508,14 @@ messages! {
         help_en: "put the second one on a line of its own; perhaps a letter is missing between the two",
         help_de: "das zweite in eine eigene Zeile setzen; vielleicht fehlt zwischen beiden ein Buchstabe",
     }
-    /// Two words that both use the coordinates.
+    /// Two words on one line that both use its coordinates.
     AXES_WANTED_TWICE: ConflictingWords {
         en: "{first} and {second} both use the coordinates of this line",
         de: "{first} und {second} verwenden beide die Koordinaten dieser Zeile",
         help_en: "put them on separate lines",
         help_de: "auf zwei Zeilen verteilen",
     }
-    /// A word that requires another word.
+    /// A word on a line that lacks another word it needs.
     NEEDS: MissingWord {
         en: "{word} needs {missing}",
         de: "{word} braucht {missing}",

@@ -129,7 +129,7 @@ messages! {
         help_en: "use $mops once in PostFile, and $blocks once in MOP",
         help_de: "$mops einmal in PostFile verwenden und $blocks einmal in MOP",
     }
-    /// Macros that multiply the text that is written.
+    /// Macros that write far too much text for the number of moves.
     MACRO_SIZE: EndlessMacro {
         en: "the post writes far too much text for the number of moves in the program",
         de: "der Postprozessor schreibt viel zu viel Text für die Zahl der Bewegungen im Programm",
@@ -521,7 +521,7 @@ messages! {
         help_en: "put it into a statement that rounds, such as one with \".\" or \"#\"",
         help_de: "die Variable in eine Anweisung setzen, die rundet, etwa mit \".\" oder \"#\"",
     }
-    /// A file that is missing, or not below the directory of the post.
+    /// A file to insert that is missing, or not below the directory of the post.
     INSERTION_REFUSED: InjectedFile {
         en: "{text}, line {line}, column {column}: {name} cannot be inserted: {reason}",
         de: "{text}, Zeile {line}, Spalte {column}: {name} kann nicht eingefügt werden: {reason}",
@@ -675,12 +675,12 @@ messages! {
         en: "the output makes this cut with T{found}, but the program uses T{expected}",
         de: "die Ausgabe führt diesen Schnitt mit T{found} aus, das Programm aber mit T{expected}",
     }
-    /// Note: a cut before T selects a tool, or before M6 inserts it if the post writes M6.
+    /// Note: a cut before T selects a tool or, if the post writes M6, before M6 inserts the tool.
     TOOL_NOT_SELECTED: PostDiffers {
         en: "the output has not changed to T{expected}, with which the program makes this cut",
         de: "die Ausgabe hat nicht auf T{expected} gewechselt, mit dem das Programm diesen Schnitt macht",
     }
-    /// Note: a cut after T alone, on a control that changes tools by M6 or by hand only.
+    /// Note: a cut after T alone, on a control that changes tools only by M6 or by hand.
     TOOL_NOT_CHANGED: PostDiffers {
         en: "T alone does not change the tool on this control, and the output does not stop (M0) for T{expected}",
         de: "T allein wechselt auf dieser Steuerung kein Werkzeug, und die Ausgabe hält für T{expected} nicht an (M0)",
@@ -836,14 +836,14 @@ messages! {
         help_en: "write an arc of several turns as single turns; leave probing to a program of the machine's own",
         help_de: "einen Bogen mit mehreren Umläufen als einzelne Umläufe schreiben; das Antasten einem Programm der Maschine überlassen",
     }
-    /// A command of a definition that failed, or that could not be run.
+    /// A definition's command that failed or could not be run.
     POST_BUILD_FAILED: PostBuildFailed {
         en: "the post's command \"{command}\" failed: {reason}",
         de: "der Befehl \"{command}\" des Postprozessors ist fehlgeschlagen: {reason}",
         help_en: "correct the command, or run it by hand; the program itself was written",
         help_de: "den Befehl berichtigen oder von Hand ausführen; das Programm selbst wurde geschrieben",
     }
-    /// A command of a definition in an untrusted repository.
+    /// A definition's command that is not run, because the repository is untrusted.
     POST_BUILD_REFUSED: PostBuildFailed {
         en: "the post's command \"{command}\" is not run: the repository is not trusted",
         de: "der Befehl \"{command}\" des Postprozessors wird nicht ausgeführt: dem Repository wird nicht vertraut",

@@ -43,7 +43,7 @@ messages! {
         help_en: "probe again; remove lines of other probes or of earlier runs from the log",
         help_de: "noch einmal antasten; aus dem Protokoll die Zeilen anderer Proben und früherer Läufe entfernen",
     }
-    /// A line of a sender's log that is no probe result.
+    /// A line of a sender's log that looks like a probe result, but is malformed.
     BROKEN_LOG_LINE: InvalidProbeLine {
         en: "this line is not a probe result",
         de: "diese Zeile ist kein Messergebnis",

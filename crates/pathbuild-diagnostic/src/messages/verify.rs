@@ -274,28 +274,28 @@ messages! {
         help_en: "use the cutter named in the header, or correct `[tool]`; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
         help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
     }
-    /// A cutter in the header or the tool table that differs from that of an option.
+    /// A cutter diameter in the header or the tool table that differs from `--cutter`.
     OTHER_CUTTER_GIVEN: Disagreement {
         en: "{place} says that the cutter's diameter is {found} mm, but --cutter says {given} mm",
         de: "{place} gibt den Fräser mit {found} mm an, --cutter mit {given} mm",
         help_en: "correct the wrong value; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
         help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
     }
-    /// A cutter in the header or an option that differs from that of the drawing.
+    /// A cutter diameter in the header or an option that differs from the drawing's.
     OTHER_CUTTER_DRAWN: Disagreement {
         en: "{place} says O{found}, the drawing O{drawn}",
         de: "{place} nennt O{found}, die Zeichnung O{drawn}",
         help_en: "emit the program again, or leave the option out",
         help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
     }
-    /// A surface in the header or an option that differs from that of the drawing.
+    /// A height of the surface in the header or an option that differs from the drawing's.
     OTHER_SURFACE_DRAWN: Disagreement {
         en: "{place} says the surface is at {found}, the drawing at {drawn}",
         de: "{place} gibt die Oberfläche mit {found} an, die Zeichnung mit {drawn}",
         help_en: "emit the program again, or leave the option out",
         help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
     }
-    /// A surface that the program states and that differs from that of an option.
+    /// A height of the surface in the header that differs from `--surface`.
     OTHER_SURFACE_GIVEN: Disagreement {
         en: "the header says that the surface is at Z {found}, but --surface says {given}",
         de: "laut Kopf liegt die Oberfläche bei Z {found}, laut --surface bei {given}",
@@ -428,14 +428,14 @@ messages! {
         help_en: "begin with G0 Z above the material",
         help_de: "mit G0 Z über dem Material beginnen",
     }
-    /// A program that moves in the plane after a tool change by hand before it raises the cutter.
+    /// A program that moves in the plane after a stop for a tool change or a new zero, before it states or raises Z.
     CHANGE_NOT_RAISED: StartNotRaised {
         en: "after a stop for a tool change or a new zero, the program moves in X or Y before it states Z: only the controller knows how high the cutter is",
         de: "nach einem Halt für Werkzeugwechsel oder Nullpunkt fährt das Programm in X oder Y, bevor es Z nennt: nur die Steuerung weiß, wie hoch der Fräser steht",
         help_en: "raise the cutter with G0 Z before X and Y; the definition of a post-processor does so at the end of its ToolChange",
         help_de: "den Fräser mit G0 Z anheben, bevor X und Y kommen; die Definition eines Postprozessors tut das am Ende ihres ToolChange",
     }
-    /// A program that also changes the height in its first move in the plane.
+    /// A program that changes Z in its first move in the plane, although the height before it is unknown.
     START_ASLANT: StartNotRaised {
         en: "the first move in the plane also changes the height, which is unknown before it: on its way, the cutter may hit material or clamps",
         de: "die erste Bewegung in der Ebene ändert zugleich die Höhe, die vorher unbekannt ist: unterwegs kann der Fräser Material oder Spannmittel treffen",

@@ -17,11 +17,11 @@ use crate::shapes::is_mirrored;
 pub(crate) struct Insert<'a> {
     /// The block's name as spelt in this INSERT.
     pub(crate) block: SmolStr,
-    /// The placement of the copies. A fault in it matters only if the block holds something wanted.
+    /// The placement of the copies. A fault in it matters only if the block draws on a wanted layer.
     pub(crate) array: Result<Array, EntityError<'a>>,
 }
 
-/// The placement of the copies of a block, computed on demand because most blocks hold nothing wanted.
+/// The placement of the copies of a block, computed on demand because most blocks draw on no wanted layer.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Array {
     /// Insertion point in object coordinates.

@@ -121,8 +121,8 @@ fn attachment_align(code: i64) -> (HorizontalAlign, VerticalAlign) {
     (horizontal, vertical)
 }
 
-/// Returns the rotation of an MTEXT seen from above: 50 or 11/21, whichever comes later. A mirrored MTEXT is read from the other end, so that its
-/// lines run the same way.
+/// Returns the rotation of an MTEXT seen from above: 50 or 11/21, whichever comes later. A mirrored MTEXT runs from right to left, so the opposite of
+/// its direction is returned.
 fn rotation<'a>(fields: &Fields<'a>, is_mirrored: bool) -> Result<f64, BadGroup<'a>> {
     let by_angle = fields.get(50).map(|value| value.line);
     let by_point = fields.get(11).map(|value| value.line).filter(|line| Some(*line) > by_angle);

@@ -7,8 +7,8 @@ use pathbuild_dxf::{Options, read};
 
 use crate::support::{file, file_codes, options};
 
-/// Inserts a block on a layer with different scales in x and y, so that its contents are left out if they matter. Returns the number of entities on
-/// layer P that are left out.
+/// Inserts a block on a layer, with different scales in x and y, so that contents on layer P are left out. Returns the number of entities left out on
+/// layer P.
 fn left_out(blocks: &str, layer: &str) -> usize {
     let insert = format!("0 INSERT\n8 {layer}\n2 B\n10 0\n20 0\n41 2\n42 3");
     let options = Options { keep_layer: &|name| name == "P", ..options() };
@@ -84,7 +84,7 @@ fn a_block_without_a_name_changes_nothing_about_others() {
     assert_eq!(left_out(&(block("2 B", &other) + &block("70 0", &wanted)), "X"), 0);
 }
 
-/// Whichever of two blocks with the same name draws something wanted, the insertion is a fault.
+/// If two blocks have the same name and either draws on a wanted layer, an insertion is a fault.
 #[test]
 fn of_two_blocks_of_a_name_each_counts() {
     let faults = |blocks: &str| {
@@ -138,7 +138,7 @@ fn blocks_that_name_very_many_layers_are_looked_at_in_time() {
     assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
 }
 
-/// Damage in blocks is reported only if they may contain something wanted: otherwise they are not read, like other unused sections.
+/// Damage in blocks is reported only if a block may draw on a wanted layer: otherwise the blocks are not read, like other unused sections.
 #[test]
 fn what_is_broken_in_blocks_is_told_if_they_may_hold_something_wanted() {
     let broken = |content: &str| drawing(content).replace(" 62\n1\n", " 6x\n1\n");

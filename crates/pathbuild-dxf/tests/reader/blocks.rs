@@ -372,7 +372,7 @@ fn heights_of_blocks_add_up() {
     assert_eq!(z("10 0\n20 0\n30 0", "43 0"), 0.0);
 }
 
-/// A damaged BLOCKS section may begin with a layer before its first block. This is not reported if nothing in the section is wanted.
+/// A damaged BLOCKS section may begin with a layer before its first block. This is not reported if no block draws on a wanted layer.
 #[test]
 fn a_section_of_blocks_may_begin_with_a_layer() {
     let section = |name: &str, pairs: &str| format!("0\nSECTION\n2\n{name}\n{pairs}0\nENDSEC\n");

@@ -20,7 +20,7 @@ use super::model::{
 };
 use super::text_positions::text_circle;
 
-/// The tag of an entity, which stands in for its handle, is this number plus the index of the entity.
+/// The tag of an entity, which is written in place of its handle, is this number plus the index of the entity.
 pub(crate) const TAG_BASE: u64 = 1 << 60;
 
 /// The usual line types with their patterns in mm: dashes positive, gaps negative, dots 0.
@@ -38,7 +38,7 @@ pub const LINE_TYPES: [(&str, &[f64]); 11] = [
     ("PHANTOM", &[31.75, -6.35, 6.35, -6.35, 6.35, -6.35]),
 ];
 
-/// Converts a sheet to a drawing of the crate `dxf`. Tags are counted through the entities of the drawing, then those of the blocks.
+/// Converts a sheet to a drawing of the crate `dxf`. Tags number the entities of the drawing first, then those of the blocks.
 pub(crate) fn drawing(sheet: &Sheet, tickets: &mut StringPlaceholders) -> Drawing {
     let mut drawing = Drawing::new();
     drawing.clear();

@@ -38,7 +38,7 @@ impl Default for Draft {
 }
 
 impl Draft {
-    /// An empty drawing with layer 0.
+    /// Creates an empty drawing with layer 0.
     pub fn new() -> Self {
         Self::default()
     }
@@ -124,12 +124,12 @@ pub struct Sheet {
     line_types: Vec<(String, Vec<f64>)>,
     blocks: Vec<Block>,
     entities: Vec<Entity>,
-    /// The surrounding template, and how many of its last entities to omit.
+    /// The template with entities to write before and after those of the sheet, and how many of its last entities to omit.
     template: Option<(Arc<Template>, usize)>,
     next_handle: u64,
 }
 
-/// First handle of entities; those of tables and objects follow the last entity.
+/// First handle of an entity. The handles of tables and objects follow those of the entities.
 const FIRST_HANDLE: u64 = 0x100;
 
 impl Sheet {
@@ -191,8 +191,8 @@ impl Sheet {
         self.entities.iter().filter(move |entity| entity.line == line).filter_map(|entity| entity.handle)
     }
 
-    /// Surrounds the sheet with a template, except for the template's last `left_out` entities. The template's content does not appear in
-    /// [`Sheet::entities`], but its layers must be among the sheet's.
+    /// Adds a template's entities before and after those of the sheet, without the template's last `left_out` entities. They do not appear in
+    /// [`Sheet::entities`], but the template's layers must be among the sheet's.
     pub fn within(self, template: Arc<Template>, left_out: usize) -> Self {
         Self { template: Some((template, left_out)), ..self }
     }

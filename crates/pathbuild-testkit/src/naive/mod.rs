@@ -44,14 +44,14 @@ struct Drawing {
     content: RawFile,
     clamps: Vec<KeepOut>,
     clamp_problems: Vec<Diagnostic>,
-    /// Whether a clamp is unclear, so that no path of the drawing becomes a program.
+    /// Whether the outline or the height of a clamp is unclear, so that no path of the drawing becomes a program.
     has_unclear_clamps: bool,
 }
 
 /// A path with values: index of the drawing, index of the path in it, and the values.
 type Instance = (usize, usize, Bindings);
 
-/// The default settings of the language, without any configuration.
+/// Returns the default settings of the language, without any configuration.
 pub fn language() -> Language {
     Language {
         path_pattern: PathPattern::default(),

@@ -151,7 +151,7 @@ fn polylines_ellipses_and_splines_take_texts() {
     assert!(sheet("spline fit 0,0 10,10 20,0 \"B0\"").is_ok());
 }
 
-/// The circles are those of book: language/parameter-texts, computed by hand for letters of 10 mm and texts of five characters: w = 30, h = 10.
+/// The circles are those of book: language/parameter-texts, computed by hand for letters of 10 mm; a TEXT of five characters has w = 30 and h = 10.
 #[test]
 fn the_text_circle_follows_the_anchor() {
     let circle = |text: &str| {

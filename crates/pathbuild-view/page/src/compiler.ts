@@ -20,7 +20,7 @@ export interface Options {
   lang: string;
 }
 
-/** A path of a drawing, or all of them. */
+/** A path of a drawing, or all of its paths. */
 export interface Place {
   file: string;
   path: string | null;

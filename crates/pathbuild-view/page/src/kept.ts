@@ -1,5 +1,6 @@
 // Strokes in large numbers. Without a graphics card each of them costs half a microsecond, however short it is. Finished strokes are therefore
-// kept as a picture, and a step draws only the new ones. For steps backwards there are pictures of the first parts.
+// kept as a picture, and a step draws only the new ones. For steps backwards, pictures of the first part of the strokes, the first two parts and
+// so on are kept.
 
 import * as THREE from "three";
 

@@ -13,7 +13,7 @@ const scale = $("scale");
 const depths = $("depths");
 const items = $("meanings");
 
-/** Side in mm of the squares of the stock from which it is shown: grooves then have visible steps, and heights are those of a whole square. */
+/** Side in mm of the squares of the stock from which the legend states it: grooves then have visible steps, and each square has one height. */
 const COARSE = 0.1;
 
 /** The kinds of things that the picture shows in addition to cuts. */

@@ -124,7 +124,7 @@ export interface Scene {
   schema: string;
   version: number;
   title: string;
-  /** Height in mm above the plate below which a cut counts as going through it. */
+  /** Height in mm above the plate at or below which a cut goes through the material. */
   through: number;
   paths: Path[];
   other_layers: ({ type: "shape"; layer: string; shape: Shape } | { type: "text"; text: string; at: Point })[];

@@ -24,7 +24,7 @@ const code = $("code");
 const rows = $("rows");
 const details = $("details");
 
-/** Height in px of a row of G-code, larger on touch screens. */
+/** Height in px of a row of G-code, larger on narrow pages. */
 const ROW = innerWidth > 700 ? 18 : 44;
 /** Maximum number of labels with numbers and texts: more would cover the picture. */
 const MOST_SPOTS = 600;
@@ -168,7 +168,7 @@ function listed(path: Path | undefined): string {
   return (isNative ? path?.native?.gcode : undefined) ?? path?.gcode ?? "";
 }
 
-/** Shows the name of the listed file, and offers the other text. */
+/** Shows the name of the listed file, and offers to switch between the written and the native text. */
 function whose(path: Path | undefined): void {
   const isDrawn = path !== undefined && path.embedded.length > 0;
   $("program").hidden = !isDrawn || !path.gcode;
@@ -801,7 +801,7 @@ addEventListener("keydown", (event) => {
   const isHelping = $<HTMLDialogElement>("help").open && event.key !== "?";
   const isButton = target instanceof HTMLButtonElement && event.key === " ";
   const isTyping = target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement || (target instanceof HTMLInputElement && target !== slider);
-  // Otherwise, Escape leads back to the library on the live page.
+  // Without a measurement to end, Escape leads back to the library on the live page.
   const isOther = event.key === "Escape" && !measured;
   if (!act || isOther || isButton || isTyping || isHelping || !(isOpen || "ld?".includes(event.key))) return;
   event.preventDefault();

@@ -96,8 +96,8 @@ impl Canvas {
         self.raw(&format!("<path d=\"{data}\" {attributes}/>"));
     }
 
-    /// Adds a path to the element of the paths before it, if they have the same attributes. It must look the same alone and among them: it is a line,
-    /// or a filled shape that runs round in the same direction as all others.
+    /// Adds a path to the element of the paths before it, if they have the same attributes. The path must look the same alone and among them: it must
+    /// be a line, or a filled shape whose outline runs round in the same direction as all others.
     pub(super) fn merged_path(&mut self, data: &str, attributes: &str) {
         match &mut self.open_path {
             Some(open) if open.attributes == attributes && open.count < MAX_MERGED_PATHS => open.count += 1,

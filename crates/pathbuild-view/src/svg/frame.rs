@@ -314,7 +314,7 @@ fn length_within([from, to]: &[Point; 2], [low, high]: Rectangle) -> f64 {
     (leaves - enters).max(0.0) * libm::hypot(to[0] - from[0], to[1] - from[1])
 }
 
-/// Returns the offsets at which a text is tried, nearest first: across in half widths of the text, down in heights.
+/// Returns the offsets at which a text is tried, nearest first: x in half widths of the text, y in heights.
 fn offsets() -> impl Iterator<Item = Point> {
     let rows = (0..=MAX_TEXT_DISTANCE).flat_map(|row| [f64::from(row), -f64::from(row)]);
     let mut steps: Vec<Point> =

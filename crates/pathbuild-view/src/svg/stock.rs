@@ -639,8 +639,8 @@ fn draw_leftovers(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransfor
     canvas.close();
 }
 
-/// Fills the inner corners of a part, outside of its outline. The cuts are drawn over them, so that only the areas remain that the cutter
-/// does not reach.
+/// Fills the inner corners of a part, outside of its outline. The cuts are drawn over them, so that only the areas that the cutter does not
+/// reach remain.
 fn draw_corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
     let sharp = |ring: &Vec<Shape>| {
         let next = ring.iter().cycle().skip(1);

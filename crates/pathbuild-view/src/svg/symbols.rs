@@ -190,7 +190,7 @@ fn draw_texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room
     canvas.close();
 }
 
-/// Number of characters of the longest line of a text.
+/// Returns the number of characters of the longest line of a text.
 fn longest_line(label: &Label) -> usize {
     label.text.lines().map(|line| line.chars().count()).max().unwrap_or(0)
 }

@@ -258,7 +258,7 @@ pub struct VerifyArgs {
 }
 
 impl VerifyArgs {
-    /// Returns the programs, followed by the path. The path's configuration applies to programs outside its tree.
+    /// Returns the programs, followed by the path of `--against`, whose configuration also applies to programs outside of its tree.
     pub(super) fn inputs(&self) -> Inputs {
         let mut inputs = Inputs::places(self.files.iter().filter(|file| *file != "-"));
         inputs.inputs.extend(self.against.clone());
@@ -347,7 +347,7 @@ pub struct ViewArgs {
 }
 
 impl ViewArgs {
-    /// Returns the first given option that only programs can use.
+    /// Returns the first given option that applies only to programs.
     pub fn program_option(&self) -> Option<&'static str> {
         let ReadingArgs { dialect, unit_codes, absolute_arc_centres, ignore_feed } = &self.reading;
         let options = [

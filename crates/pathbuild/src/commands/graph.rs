@@ -277,7 +277,7 @@ fn json(context: &Context, graph: &Graph) -> Value {
     json!({ "paths": paths, "embeddings": embeddings })
 }
 
-/// Returns the JSON object of a path. `example` states whether the values are only examples, with which no path embeds it; `erroneous`
+/// Returns the JSON object of a path. `example` states whether the values are only examples, not those of an embedding; `erroneous`
 /// states whether its drawing has errors, so that its embeddings may be incomplete.
 fn path_json(context: &Context, node: &Node) -> Value {
     json!({

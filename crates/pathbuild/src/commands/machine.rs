@@ -69,7 +69,7 @@ fn tool_bit(context: &Context, library: &Utf8Path, name: &str) -> Result<String,
         .or_else(|reason| sibling.map_or(Err(reason), |file| text(context, &file)))
 }
 
-/// A file with the description of a machine that it contains.
+/// A file, and the description of a machine or of tools that was read from it.
 type DescribedFile<'f> = (&'f Utf8Path, Description);
 
 /// Shows the values of the descriptions and those of the configuration, and writes them if requested. Returns warnings.

@@ -115,7 +115,7 @@ fn rewrite_and_report(
         return Err(Vec::new());
     }
     let steps = std::mem::take(&mut program.read.steps);
-    // In native programs, only G38.3 can be replaced. `emit` does that without a warning, too.
+    // In native programs only G38.3 can be replaced, which `emit` also does without a warning.
     if program.dialect != Dialect::Native {
         let mut altered = altered_words(&steps);
         program.place_own(&mut altered);

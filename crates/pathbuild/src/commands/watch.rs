@@ -27,7 +27,7 @@ use pathbuild_workspace::findings::Findings;
 /// Watches until the user ends it.
 ///
 /// # Errors
-/// The reason, as a sentence, why the configuration must be loaded and watching restarted.
+/// The reason, as a sentence, why the configuration must be loaded again and watching restarted.
 pub(crate) fn run(
     context: &Context,
     args: &WatchArgs,
@@ -97,7 +97,7 @@ struct WatchPrinter<'a> {
 }
 
 impl WatchPrinter<'_> {
-    /// Writes the numbers of the findings after a change, or after the first check, as a line of JSON, and for the summary of the run.
+    /// Writes the numbers of findings after the first check or a change as a line of JSON, and adds them to the last line of the document.
     fn count(&self, number: u64, mut row: Value, counts: FindingCounts, new: usize) {
         let FindingCounts { errors, warnings, known } = counts;
         for (name, count) in [("errors", errors), ("warnings", warnings), ("known", known)] {

@@ -81,7 +81,7 @@ fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
     is_drawing(file).then_some(file)
 }
 
-/// Distance in mm from the place of a finding up to which another place is the same.
+/// Points with coordinates that differ by at most this many mm are the same place.
 const SAME_PLACE: f64 = 1e-6;
 
 /// Returns the place of a finding, with further places mentioned in its message and notes. `zero` is the origin of the message's coordinates in the

@@ -10,7 +10,7 @@ import { Stock } from "./stock.js";
 /** Share of a texel by which a ray may deviate over the whole depth and still count as vertical. */
 const VERTICAL = 0.01;
 
-/** Draws, for each pixel of the stock's box, the first surface that a ray through the pixel meets. */
+/** Picture of the stock: each pixel of the stock's box shows the first surface that a ray through the pixel meets. */
 export class StockPicture {
   readonly object: THREE.Mesh<THREE.BoxGeometry, THREE.ShaderMaterial>;
   private above: THREE.ShaderMaterial;

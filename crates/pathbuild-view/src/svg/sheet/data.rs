@@ -9,7 +9,7 @@ use crate::svg::frame::widen;
 /// Width and height of a page in mm.
 pub(super) const PAPER: Point = [210.0, 297.0];
 
-/// Units of a page's SVG per mm of paper. Letters of 10 units have 9.4 pt.
+/// Units of a page's SVG per mm of paper. A letter size of 10 units is 9.4 pt.
 pub(super) const UNITS: f64 = 3.0;
 
 /// The data of a setup sheet. Lengths are in mm.

@@ -9,7 +9,7 @@ use crate::svg::legend::ranges;
 /// Maximum number of runs of numbers in one step of the checklist, which must fit on a page.
 const MAX_RUNS: usize = 40;
 
-/// Depth in mm above which a cut into shims is not only rounding.
+/// Minimum depth in mm of a reported cut into shims. Smaller depths are only rounding errors.
 const MIN_CUT: f64 = 0.0005;
 
 /// Consecutive numbers of elements of one piece of material: an embedded path, with the paths in it that lie at the same height.
@@ -40,7 +40,7 @@ pub(super) fn height_count(sheet: &Sheet) -> usize {
     distinct(sheet.scene.paths.iter().flat_map(runs).map(|run| run.heights[0])).len()
 }
 
-/// Returns each Z of upper faces of milled material in ascending order; `None` if no material lies on shims.
+/// Returns the distinct Z of the upper faces of milled material in ascending order; `None` if no material lies on shims.
 pub(super) fn upper_faces(sheet: &Sheet) -> Option<Vec<f64>> {
     let runs: Vec<Run<'_>> = sheet.scene.paths.iter().flat_map(runs).collect();
     let mut tops = distinct(runs.iter().map(|run| run.heights[1]));

@@ -237,7 +237,7 @@ fn refuse_submodules(
 }
 
 impl Drawings {
-    /// Renames files of a revision in diagnostics to `REVISION:FILE`, as Git does. That a revision has no drawings is no error: all are new.
+    /// Renames files of a revision in diagnostics to `REVISION:FILE`, as Git does. Removes the error that the revision has no drawings: all are new.
     pub(super) fn name(&self, context: &Context, problems: &mut Vec<Diagnostic>) {
         let Some(revision) = &self.revision else { return };
         problems.retain(|problem| *problem.message != outputs::NO_DRAWING);

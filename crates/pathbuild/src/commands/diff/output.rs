@@ -151,7 +151,7 @@ pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
 const MAX_REASON_LINES: usize = 24;
 
 /// Returns the lines that explain the changes, each with its indentation level: an introduction, then the reasons. A reason may have
-/// reasons of its own, which follow it one level deeper. Empty if it is unknown whether there is an explanation.
+/// reasons of its own, which follow it one level deeper. Empty if the reasons were not determined.
 fn explanation(program: &ProgramDiff, lang: Lang) -> Vec<(usize, String)> {
     let Some(reasons) = &program.reasons else { return Vec::new() };
     if reasons.is_empty() {
