@@ -163,7 +163,7 @@ impl Baseline {
         unused.collect()
     }
 
-    /// Returns the fingerprints of the findings, in the order of the findings. File names in the fingerprints are relative to `base`.
+    /// Returns the fingerprints of the findings, in the order of the findings. `base` is the directory that the findings' file names are relative to.
     fn keys(&self, findings: &[Diagnostic], base: &Utf8Path) -> Vec<FindingKey> {
         let now = Fingerprint::with_places(findings, &|file| self.place(file, base));
         let keys = now.iter().zip(Fingerprint::of(findings));

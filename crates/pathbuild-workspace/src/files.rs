@@ -110,8 +110,8 @@ pub fn replace_report(context: &Workspace, file: &Utf8Path, text: &str) -> Resul
     }
 }
 
-/// Returns the reason if a name is that of a drawing or of the configuration in use, which no other output may replace. Only the name matters, not
-/// whether the file exists.
+/// Returns the reason if a name is that of a drawing or of a configuration, which no other output may replace. Only the name matters, not whether
+/// the file exists.
 pub fn name_of_source(context: &Workspace, file: &Utf8Path) -> Option<&'static Text> {
     let is = |extension: &str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(extension));
     let is_configuration = file.file_name().is_some_and(|name| name.eq_ignore_ascii_case(FILE_NAME))

@@ -320,7 +320,7 @@ impl PostProcessor {
 }
 
 /// Returns the words allowed in programs of a dialect: those of the post-processor that wrote the program, if known; else those of the built-in
-/// post for the dialect.
+/// post for the dialect, or of native programs if there is none.
 pub fn known_words(
     settings: &Settings,
     system: &Arc<dyn System>,
@@ -342,7 +342,7 @@ fn relative(file: &Utf8Path, context: &Workspace) -> Utf8PathBuf {
     file.strip_prefix(&context.working_directory).unwrap_or(file).to_owned()
 }
 
-/// Runs the command in the directory of the file and waits for it. Its output goes to stderr, since stdout is for results.
+/// Runs the command in the working directory and waits for it. Its output goes to stderr, since stdout is for results.
 ///
 /// # Errors
 /// If the command cannot be started, or exits with a status other than 0.

@@ -64,12 +64,12 @@ impl DroppedProgram {
     }
 }
 
-/// Reads a program, and returns its scene with the findings of [`verify`](crate::verify), the checks that were made, and the cutters and the material that
-/// they assumed.
+/// Reads a program, and returns its scene with the findings of [`verify`](crate::verify), the checks that were made, and the cutters and the material
+/// that they assumed.
 ///
 /// # Errors
-/// If the program has more steps than may be stored, or if the options cannot be used, for example because the configuration of the post-processor has
-/// errors.
+/// If the program has more steps than may be stored, or if the options cannot be used, for example because the configuration of the post-processor
+/// has errors.
 pub fn program_scene(
     session: &mut Session<'_>,
     file: &Utf8Path,
@@ -157,7 +157,8 @@ impl Assumptions {
     }
 }
 
-/// Returns the header of a program, the cutters that it states, and the height of the material's upper face; `None` if it does not state that height.
+/// Returns the header of a program, the cutters that it states, and the height of the material's upper face: the one that rapid moves were checked
+/// with, if it is level, or else the stated one.
 fn stated_cutters_and_surface(
     program: &Program,
     rapids: Option<&RapidValues>,

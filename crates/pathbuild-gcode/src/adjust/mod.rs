@@ -159,7 +159,7 @@ pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
 /// Puts measured heights into a program.
 ///
 /// # Errors
-/// All errors in the files, each with line and column: PB601 to PB604. Then no program is produced.
+/// All errors in the files, with line and column if they have a place: PB601 to PB604. Then no program is produced.
 pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     let mut problems = Vec::new();
     let table = ProbeTable::read(inputs.program);

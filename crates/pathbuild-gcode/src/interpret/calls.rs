@@ -386,7 +386,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         None
     }
 
-    /// Counts a call or loop that begins. Reports an error and returns false if too many are being executed.
+    /// Enters a call or loop. Reports an error and returns false if calls and loops are nested too deeply.
     fn enter(&mut self, line: u32) -> bool {
         if self.depth >= MAX_CALL_DEPTH {
             self.report(&say::CALLS_TOO_DEEP, line, "", MAX_CALL_DEPTH as u64);

@@ -249,7 +249,7 @@ impl Offsets {
         }
     }
 
-    /// Whether the difference along an axis between the current tool length and the length at the tool's first cut is unknown.
+    /// Whether the tool has cut with a length that is unknown along an axis, so another length displaces its tip by an unknown amount.
     pub(super) fn is_length_unknown(&self, axis: usize) -> bool {
         self.length.at_cut.is_some_and(|lengths| lengths[axis].is_none())
     }
@@ -289,8 +289,8 @@ impl Offsets {
         self.first.filter(|_| self.is_placed(system)).unwrap_or(system)
     }
 
-    /// Executes G10 L2: sets the origin of a system in machine coordinates. Returns false if the preceding positions, which are in the same system,
-    /// are not known in machine coordinates.
+    /// Executes G10 L2: sets the origin of a system in machine coordinates. Returns false if the system is active and the preceding positions are not
+    /// known in machine coordinates.
     pub(super) fn place(&mut self, system: Option<WorkSystem>, axis: usize, at: f64) -> bool {
         let system = system.unwrap_or(self.active);
         self.set_zero(system, axis, at, SystemOrigin::Machine);

@@ -371,7 +371,7 @@ impl Interpreter<'_> {
         });
     }
 
-    /// Marks the values of words that do not change the path as used, if these values are known to be harmless.
+    /// Marks the values of inert words as used. Reports missing values, and values that are not known to be harmless.
     pub(super) fn take_inert(&mut self, block: &Block<'_>) {
         let words = self.rules.words;
         if words.inert.is_empty() {

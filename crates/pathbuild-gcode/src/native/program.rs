@@ -114,8 +114,8 @@ pub fn is_compatible(text: &[u8]) -> bool {
     lines.find(|line| !matches!(line.first(), None | Some(b'(' | b'%' | b';'))) == Some(b"F150".as_slice())
 }
 
-/// Writes a program with LF as line ends. Its statistics count a move that is split for its correction as one. `provenance` is the line that states
-/// which program wrote the file, and from which drawing; empty to omit the line.
+/// Writes a program with LF as line ends. Its statistics count a move that is split for its correction as one. `provenance` is the line that
+/// identifies the origin of the program; empty to omit the line.
 ///
 /// # Errors
 /// PB005 if the text exceeds `most` bytes.

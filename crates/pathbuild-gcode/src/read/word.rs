@@ -333,7 +333,7 @@ impl Line<'_> {
             && rest.iter().all(|word| matches!(word.letter, b'S' | b'P'))
     }
 
-    /// Reads the rest of the line up to a semicolon as a message, unless it is S or P with a number.
+    /// Reads the rest of the line, up to a semicolon or a checksum, as a message, unless it begins with S or P and a number.
     pub(super) fn message(&mut self) {
         self.skip_blanks();
         let rest = &self.bytes[self.at..];

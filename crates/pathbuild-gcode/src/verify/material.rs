@@ -40,7 +40,7 @@ pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: 
     });
 }
 
-/// Returns the lines of the rapid moves that hit material, in ascending order; empty for programs that are too large for the map.
+/// Returns the lines of the rapid moves that hit material, in the order of the moves; empty for programs that are too large for the map.
 pub fn rapid_hits(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<u32> {
     let mut lines = Vec::new();
     apply_moves(program, stock, &mut Problems::default(), &mut |bench, line, movement, _| {
@@ -98,8 +98,8 @@ fn report_too_large(line: u32, stock: &Stock, problems: &mut Problems) {
     });
 }
 
-/// Whether the given cuts, which are entirely below a rapid move, have cleared its path, assuming material up to `surface` all around. Returns false
-/// as well if the number of cells does not suffice.
+/// Whether those of the given cuts that are entirely below a rapid move have cleared its path, assuming material up to `surface` all around. Returns
+/// false as well if the number of cells does not suffice.
 pub(super) fn have_cleared_path<'c>(
     line: u32,
     movement: &Move,

@@ -91,7 +91,7 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
     found
 }
 
-/// Returns the stock at a rapid move and the highest surface along it; `None` if the move stays above that surface.
+/// Returns the stock at a rapid move and the highest surface along it; `None` if the move goes straight up or stays above that surface.
 fn stock_below_surface<'s>(
     line: u32,
     movement: &Move,

@@ -254,7 +254,8 @@ impl<'c> Rules<'c> {
         }
     }
 
-    /// Reports the first cut at an unknown position in the plane, because other checks ignore such moves.
+    /// Reports the first cut at an unknown position in the plane, because other checks ignore such moves, and a cut at the height of a machine
+    /// position.
     fn check_cut_position(&mut self, line: u32, movement: &Move) {
         // Programs for a rotary axis use only X or Y, so one known axis suffices.
         let is_unknown = movement.from.known.and(movement.to.known).and(Axes::XY).is_empty();
@@ -449,8 +450,8 @@ const MIN_CENTRE_DECIMALS: u8 = 3;
 /// Tolerance in mm within which radii are equal.
 const RADIUS_TOLERANCE: f64 = 1e-4;
 
-/// Reports the first arc of a program in millimetres if its arc centres have decimals but never three of them. Numbers without decimals are
-/// considered to be written by hand and exact.
+/// Reports the first arc of a program in millimetres whose centre has decimals, if no coordinate or centre in the program has three of them and some
+/// arc has different radii at its ends. Numbers without decimals are considered to be written by hand and exact.
 pub fn coarse_arc_finding(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
     let mut reader = BlockReader::new(text, dialect.rules());
     let (mut finest, mut first) = (0, None);

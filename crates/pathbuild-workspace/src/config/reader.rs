@@ -231,7 +231,7 @@ impl<'a> Table<'_, '_, 'a> {
         _ = self.reader.expected::<()>(expected, value);
     }
 
-    /// Reads a nested table; a missing one counts as empty. If `name` is empty, its keys are in this table itself.
+    /// Reads a nested table; a missing one is treated as empty. If `name` is empty, its keys are in this table itself.
     pub(super) fn section<T: Default>(
         &mut self,
         name: &'static str,

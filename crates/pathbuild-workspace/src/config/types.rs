@@ -282,8 +282,8 @@ impl Tool {
         self.direction.or(self.spindle.map(|_| Turning::Clockwise))
     }
 
-    /// Returns the widths for the check of rapid moves. A tool without a flat tip fits into its own cut, so only the centre line of its moves counts,
-    /// both for removing material and for hitting it.
+    /// Returns the widths for the check of rapid moves. A tool without a flat tip fits into its own cut, so only the centre line of its moves is
+    /// considered, both for removing material and for hitting it.
     pub fn cutter(&self) -> Cutter {
         let flat = match self.shape {
             CutterShape::Other => 0.0,

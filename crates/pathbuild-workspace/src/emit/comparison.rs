@@ -72,7 +72,7 @@ pub fn compare_with_drawing(
 /// Finds the path that a program's title refers to.
 ///
 /// # Errors
-/// PB006 if reading the program's directory triggers a bug.
+/// PB001 if the program's directory cannot be listed, PB006 if this triggers a bug.
 fn find_titled_path(
     session: &Session<'_>,
     path: &str,

@@ -15,7 +15,7 @@ use crate::post_processor::PostProcessor;
 use crate::session::Session;
 
 /// Writes one rule per job: its output files depend on its drawings, the configuration, the post definition and the files that the post-processor
-/// inserted. Writes nothing if a name cannot be expressed.
+/// inserted. If a name cannot be expressed, writes nothing and returns an error.
 pub(super) fn write<'p>(
     session: &Session<'_>,
     file: &Utf8Path,

@@ -111,7 +111,7 @@ impl Request {
         Ok(emitter.conclude(session, &memo, run.map_err(Failure::Usage)?))
     }
 
-    /// Returns the reason why the request needs a post-processor, if it needs one and none is given.
+    /// Returns the reason why the request needs a post-processor; `None` if it does not need one.
     fn missing_post<'w>(&self, workspace: &'w Workspace) -> Option<&'w str> {
         if self.join.is_some() {
             return Some(workspace.choose(

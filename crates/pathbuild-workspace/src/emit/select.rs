@@ -26,8 +26,8 @@ pub(super) struct TargetSelection {
 }
 
 impl TargetSelection {
-    /// Resolves the arguments. Returns `None` if there are none and the configuration names no targets. Paths to be joined (`is_joined`) keep the
-    /// order of the arguments, which is the milling order.
+    /// Resolves the arguments. Returns `None` if there are none and the configuration names no targets or no library. Paths to be joined
+    /// (`is_joined`) keep the order of the arguments, which is the milling order.
     pub(super) fn new(
         session: &Session<'_>,
         memo: &Memo,

@@ -23,8 +23,8 @@ use crate::memo::hash_output;
 use crate::post_processor::PostProcessor;
 use crate::session::{OutputKind, Session, without_positions, without_values};
 
-/// Builds and settles the jobs that are not cached. If one file of a job cannot be written, none of its files is. Files are written on a separate
-/// thread, so that the other cores do not wait for the disk.
+/// Builds and settles the jobs that are not cached. If one file of a job cannot be generated, none of its files is written. Files are written on a
+/// separate thread, so that the other cores do not wait for the disk.
 pub(super) fn build_and_settle<'j>(
     session: &mut Session<'_>,
     jobs: impl Iterator<Item = &'j mut Job>,
@@ -194,7 +194,7 @@ fn text_on_disk(system: &dyn System, path: &Utf8Path) -> Option<String> {
 }
 
 /// Compares a file on disk with the generated one: byte for byte, or by its moves only, ignoring comments, formulas, line ends, tool and spindle.
-/// Also returns problems: the first move that differs, or errors that prevent reading the file. A file larger than `limit` counts as different.
+/// Also returns the [`difference`] between the moves. A file that cannot be read, or is larger than `limit`, is treated as different.
 fn compare(
     system: &dyn System,
     output: &Output,

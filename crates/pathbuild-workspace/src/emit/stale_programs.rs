@@ -176,7 +176,7 @@ impl<'a> EarlierPrograms<'a> {
         stale
     }
 
-    /// Finds the programs on disk of targets for which nothing was written or compared. Each becomes a separate outcome; a comparison counts it as
+    /// Finds the programs on disk of targets for which nothing was written or compared. Each becomes a separate outcome; a comparison reports it as
     /// out of date.
     fn earlier_outcomes(&self, diagnostics: &mut Vec<Diagnostic>) -> Vec<ProgramOutcome> {
         let targets = self.targets;

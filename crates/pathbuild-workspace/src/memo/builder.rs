@@ -402,7 +402,8 @@ pub(crate) fn read_drawings(
 }
 
 impl Session<'_> {
-    /// Returns the names of all paths in the library, or below the working directory if there is no library; sorted, without duplicates.
+    /// Returns the names of the paths in the library, or below the working directory if there is no library; sorted, without duplicates. At most
+    /// `MAX_READ_FOR_NAMES` drawings without a cached result are read.
     pub fn names_of_library(&self) -> Vec<PathName> {
         let paths = self.paths_of_library(MAX_READ_FOR_NAMES);
         let mut names: Vec<PathName> = paths.into_iter().map(|(name, _)| name).collect();

@@ -156,8 +156,8 @@ impl Session<'_> {
         if self.has_library() { found.name_problems.clone() } else { self.all_drawings().1 }
     }
 
-    /// Returns the distinct drawings in these directories that define a path. A directory is skipped if querying it triggers a bug: for arguments the
-    /// bug was already reported, and hints are not essential.
+    /// Returns the distinct drawings in these directories that define a path. Directories that cannot be queried are skipped: for arguments, the
+    /// reason was already reported, and hints are not essential.
     pub fn definitions(&self, name: &PathName, directories: &[Utf8PathBuf]) -> Vec<SourceFile> {
         let defining_files = |directory: &Utf8PathBuf| {
             self.query_directory(directory, |directory| defining_files(&self.db, directory, name))

@@ -45,8 +45,8 @@ impl ToolDiameters {
         first.or(self.header.map(|_| Origin::Program))
     }
 
-    /// Returns the widths according to the first source. If another source disagrees, the smaller diameter is used for removing material, and the
-    /// larger one for hitting material. Only the configuration and the header know the shape.
+    /// Returns the widths according to the first known source of these: command line, drawing, configuration, header. If another one disagrees, the
+    /// smaller diameter is used for removing material, and the larger one for hitting it. Only the configuration and the header know the shape.
     fn cutter(&self) -> Option<Cutter> {
         let table = self.table.filter(|_| self.is_numbered);
         let known = [self.given, self.drawn, table.map(|table| table.diameter)];
