@@ -90,7 +90,7 @@ fn check_and_the_library_have_the_same_findings() {
     assert!(library.check(&["mistakes"]).unwrap().findings.len() > 10);
 }
 
-/// Entries of the baseline have the same effect as in the program: they hold until their last day. The library knows no date but the one that it is
+/// Entries of the baseline have the same effect as in the program: they hold until their last day. The library uses no date but the one that it is
 /// given.
 #[test]
 fn accepted_findings_are_those_of_the_program() {

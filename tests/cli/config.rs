@@ -370,7 +370,7 @@ fn an_argument_under_another_configuration_is_wrong() {
     );
 }
 
-/// A configuration below that of the run is reported once, however many drawings lie beside it.
+/// A configuration below the run's own is reported once, however many drawings are beside it.
 #[test]
 fn configurations_below_that_of_the_run_are_warnings() {
     let place = Place::new().file("a/pathbuild.toml", "").file("a/b/pathbuild.toml", "").file("c/none", "");
@@ -387,7 +387,7 @@ fn configurations_below_that_of_the_run_are_warnings() {
     assert_eq!(found("a --config c/other.toml"), [""; 0]);
 }
 
-/// A program may lie outside of the tree whose configuration applies to it.
+/// A program may be outside of the tree whose configuration applies to it.
 #[test]
 fn a_program_without_a_configuration_of_its_own_takes_that_of_the_drawing() {
     let place = Place::new().file("a/pathbuild.toml", "feed = 3").file("c/x.nc", "");
@@ -514,7 +514,7 @@ fn names_of_paths_that_no_file_may_have_are_refused() {
         let told = said.lines().any(|line| line.contains("error[PB004]") && line.contains(&shown));
         assert!(told, "{name}: {run}");
     }
-    // CAD programs write a vertical bar between the name of an external reference and that of its layer: it is never part of a name.
+    // CAD programs write a vertical bar between the name of an external reference and the name of its layer: it is never part of a name.
     let run = emitted("x|y");
     assert!(
         run.status == Some(0) && run.stdout.contains("y_Milling.gcode: written")

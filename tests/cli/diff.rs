@@ -307,7 +307,7 @@ fn json_markdown_and_a_page() {
     assert_eq!(place.run("diff old new -o d.txt").status, Some(2));
 }
 
-/// Tests a deeper cut, an added cut, a removed cut and a hole: the picture of the changes, then those of the old and the new moves.
+/// Tests a deeper cut, an added cut, a removed cut and a hole: the picture of the changes, then the pictures of the old and the new moves.
 #[test]
 fn changes_are_seen() {
     let [old, new] = [
@@ -442,7 +442,8 @@ fn what_lies_above_temporary_files_does_not_hold() {
     }
 }
 
-/// A killed run leaves the drawings of its revision behind; the next one removes them, but neither those of a run that goes on nor other directories.
+/// A killed run leaves the drawings of its revision behind. The next run removes them, but not other directories, nor the drawings of a run that is
+/// still active.
 #[test]
 fn what_a_killed_run_left_of_a_revision_is_removed() {
     let place = committed(Place::new().file("1001.1P.dxf", dxf("1001.1P", "1", LINE)));

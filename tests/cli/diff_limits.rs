@@ -158,7 +158,7 @@ fn the_steps_of_a_program_that_is_read_are_counted() {
     }
 }
 
-/// Each line of eleven bytes stands for 76,000 moves.
+/// Each line of eleven bytes expands to 76,000 moves.
 #[test]
 fn repeated_cycles_do_not_fill_the_memory() {
     let lines = format!("G91 G81 X.001 Y.001 Z-1 R1 F100 L1\n{}G80\n", "X.001 L19000\n".repeat(5000));

@@ -735,7 +735,7 @@ fn joined_paths_cut_into_no_parts_of_each_other() {
     }
 }
 
-/// The rules of `emit` are those of `verify`, although `emit` knows coordinates with more than three decimals.
+/// `emit` and `verify` apply the same rules, although `emit` knows coordinates with more than three decimals.
 #[test]
 fn emit_and_verify_agree_on_the_limits_of_a_machine() {
     let drawing = dxf("layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 MX\"\nmill 0,0 20,0\nend 20,0");

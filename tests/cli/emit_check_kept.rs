@@ -732,7 +732,7 @@ fn a_program_of_this_version_takes_the_place_of_another_ones() {
     assert_eq!(place.run("emit --check").status, Some(1));
 }
 
-/// The language of comments is that of messages, unless a key sets another. The cache therefore depends on whether the key is set, not only on its
+/// Comments are in the language of messages, unless a key sets another. The cache therefore depends on whether the key is set, not only on its
 /// value.
 #[test]
 fn a_language_that_is_no_longer_set_is_noticed() {

@@ -131,7 +131,7 @@ fn a_directory_of_somebody_else_is_left_alone() {
     assert_eq!(left, ["1202.1P.dxf", "pathbuild.toml"]);
 }
 
-/// Modification times lie in the future, and then in the past. The cache compares file contents and does not rely on the clock.
+/// Modification times are in the future, and then in the past. The cache compares file contents and does not rely on the clock.
 #[test]
 fn a_clock_that_goes_back_hides_no_change() {
     let place = place();

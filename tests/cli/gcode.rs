@@ -180,7 +180,7 @@ fn a_rapid_move_is_compared_with_that_of_the_drawing() {
     assert!(foot.contains("; the drawing says X40.000 Y0.000 Z20.000"), "{foot}");
 }
 
-/// The configuration is the nearest one above the program, or else that of the working directory. The output names it if it is not obvious.
+/// The configuration is the nearest one above the program, or else the working directory's. The output names it if it is not obvious.
 #[test]
 fn the_configuration_of_a_program_is_told() {
     let configuration = |most: u32| format!("[machine]\nmaximum-feed = {most}\n");
@@ -335,7 +335,7 @@ fn a_tool_length_of_the_program_before_is_switched_off() {
     }
 }
 
-/// Without H at G43, Fanuc and Haas keep the H of the previous program, and LinuxCNC takes that of the tool. A tool length that the post for DIN
+/// Without H at G43, Fanuc and Haas keep the H of the previous program, and LinuxCNC takes the tool's H. A tool length that the post for DIN
 /// 66025 never switches on must not begin between two cuts either.
 #[test]
 fn a_tool_length_is_that_of_the_tool() {

@@ -91,7 +91,7 @@ fn without_a_cutter_only_what_no_cutter_can_have_cleared_is_doubtful() {
     assert_eq!(codes(&slots(head, "G0 Y35"), "--cutter 70"), [""; 0]);
 }
 
-/// The higher of the two surfaces, that of the header and that of `--surface`, counts.
+/// The surface is the higher of those in the header and in `--surface`.
 #[test]
 fn a_surface_that_the_program_contradicts_is_told() {
     let plunge = |z: &str| format!("G0 Z5\nG0 Y20\nG0 Z{z}");
@@ -102,7 +102,7 @@ fn a_surface_that_the_program_contradicts_is_told() {
     assert_eq!(codes(&slots(CARBIDE_CREATE, &plunge("0.5")), "--surface 0.5"), ["PB777"]);
 }
 
-/// The header of this native program names no T, because it mills a path with T2 and one with T4. The greater T counts.
+/// The header of this native program names no T, because it mills a path with T2 and one with T4. The greater T is used.
 #[test]
 fn a_surface_below_the_plunges_of_a_native_program_is_told() {
     let slot = |t: &str, y: &str| {

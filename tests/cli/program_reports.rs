@@ -197,7 +197,7 @@ fn a_program_of_a_drawing_that_is_gone_is_not_current() {
     assert!(run.stderr.ends_with("1 current, 1 not current\n"), "{run}");
     assert_eq!(test_cases(&place), cases([(first, ""), (second, "PB520")]));
     assert_reported(&place, &command, &run, &[("PB520", second)]);
-    // `emit` itself only warns, and an accepted program does not count.
+    // `emit` itself only warns, and `emit --check` ignores a program whose finding is accepted.
     assert_eq!(place.run("emit").status, Some(0));
     let accepted =
         format!("{}[[severity-in]]\nfiles = [\"{second}\"]\nPB520 = \"ignore\"\n", configuration());

@@ -335,7 +335,7 @@ fn answers_forbid_whatever_a_page_does_not_need() {
     assert!(!page.body.contains("http:") && !page.body.contains("<style"), "{}", page.body);
 }
 
-/// Rows equal those of `list`, statistics those of `stats`, pictures those of `view`.
+/// The rows are the same as in `list`, the statistics as in `stats`, and the pictures as in `view`.
 #[test]
 fn what_is_shown_is_what_commands_print() {
     let place = library();

@@ -410,7 +410,7 @@ fn emit_writes_sheets_and_keeps_them_current() {
     let sheet = place.path().join("1234.1P_Sheet.html");
     let first = emit("");
     assert!(first.stderr.contains("1234.1P_Sheet.html: written"), "{first}");
-    // The language is that of comments in programs, for every user.
+    // For every user, the sheet is in the language of comments in programs.
     let text = place.read("1234.1P_Sheet.html");
     assert!(text.contains("Vor dem Start"), "{text}");
     place.run("sheet 1234.1P -o own.html --lang de");

@@ -421,7 +421,7 @@ mod links {
         assert!(run.stderr.contains(ONE), "{run}");
     }
 
-    /// A `.git` that leads out of an untrusted tree is followed only if `git worktree` created it.
+    /// A `.git` that points out of an untrusted tree is followed only if `git worktree` created it.
     #[test]
     fn a_strangers_repository_lies_in_its_tree() {
         let place = library();

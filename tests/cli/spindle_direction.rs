@@ -1,4 +1,4 @@
-//! Tests the direction of the spindle against those of the tools in the table (PB783).
+//! Tests the direction of the spindle against the direction that the tool table gives for a tool (PB783).
 
 use crate::support::Place;
 

@@ -205,7 +205,7 @@ impl ExactStock {
         let mut exact = Exact { height: self.top, through: f64::NEG_INFINITY, is_hit: false };
         for movement in self.moves.iter().filter(|movement| movement.is_near(at, 0.0)) {
             for [from, to] in movement.heights_over(at) {
-                // On a sloping rapid move, the highest position counts.
+                // A sloping rapid move is taken at its highest position.
                 let rapid =
                     if movement.is_vertical() { from.min(to) } else { movement.from[2].max(movement.to[2]) };
                 if !movement.is_rapid && from.min(to) < exact.height {

@@ -180,7 +180,7 @@ fn a_strangers_configuration_that_is_a_link_leads_into_its_repository() {
     }
 }
 
-/// Programs are written only inside the repository: a parent directory may be a link that leads out.
+/// Programs are written only inside the repository: a parent directory may be a link that points outside.
 #[test]
 fn nothing_is_written_through_links_that_lead_out() {
     for (target, status) in [("../parts", 0), ("../../outside", 1)] {
@@ -203,7 +203,7 @@ fn nothing_is_written_through_links_that_lead_out() {
     }
 }
 
-/// Paths on the command line are chosen by the user, so they may lead anywhere.
+/// Paths on the command line are chosen by the user, so they may be anywhere.
 #[test]
 fn what_the_command_line_names_may_lie_anywhere() {
     let place = repository("").file("own.toml", CONFIGURATION);
@@ -282,7 +282,7 @@ fn trees_that_do_not_lie_below_a_trusted_root_are_strangers() {
     }
 }
 
-/// Messages are in the user's language, programs in that of the tree.
+/// Messages are in the user's language, programs in the tree's.
 #[test]
 fn a_persons_language_is_said_and_the_trees_is_written() {
     let place = repository("lang = \"en\"").users("lang = \"de\"\n");

@@ -138,7 +138,7 @@ fn an_example_is_not_written_out_of_a_strangers_tree() {
         assert_eq!(place.path().join("outside/2001.1P.dxf").exists(), is_written, "{run}");
         assert_eq!(place.path().join("tree/pathbuild.toml").exists(), is_written, "{run}");
     }
-    // Without the link, all files of the example lie within the tree.
+    // Without the link, all files of the example are within the tree.
     let place = Place::new().file("tree/.git/HEAD", "");
     let run = place.run_in("tree", &["init", "--example", "--untrusted"]);
     assert_eq!(run.status, Some(0), "{run}");

@@ -638,7 +638,7 @@ fn swept(svg: &str, color: &str) -> Vec<[f64; 3]> {
 /// The time for the pixels of a path grows with the square of its strokes.
 #[test]
 fn strokes_of_the_stock_are_painted_in_groups() {
-    // One stroke is that of the plunge.
+    // One of the strokes belongs to the plunge.
     for (lines, paths) in [(511, 1), (512, 2)] {
         let configuration = "feed = 150\nrapid = 900\nsweep-height = 9\n";
         let place =

@@ -16,7 +16,7 @@ pub struct ChipLoad {
     pub most: f64,
 }
 
-/// Relative difference within which a chip load counts as equal to its limit.
+/// Relative difference within which a chip load is considered equal to its limit.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
 
 impl ChipLoad {

@@ -157,8 +157,8 @@ pub struct Arc {
     pub extra_turns: u32,
 }
 
-/// Difference in radians up to which two directions count as equal. An arc with both ends in equal directions from its centre is a full circle, as in
-/// GRBL.
+/// Difference in radians up to which two directions are considered equal. An arc with both ends in equal directions from its centre is a full
+/// circle, as in GRBL.
 const DIRECTION_TOLERANCE: f64 = 5e-7;
 
 /// Maximum rounding error of an angle after a rotation, in radians.

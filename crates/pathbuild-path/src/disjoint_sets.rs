@@ -1,4 +1,4 @@
-//! Groups of connected things. Each member leads to an earlier member of its group, or to itself if it is the first.
+//! Groups of connected things. Each member points to an earlier member of its group, or to itself if it is the first.
 
 /// Unites the groups of two members. Returns whether they were different.
 pub(crate) fn unite(groups: &mut [usize], one: usize, other: usize) -> bool {

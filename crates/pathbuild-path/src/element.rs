@@ -200,7 +200,7 @@ impl ElementClass {
 /// Tolerance in mm within which a circle has the cutter's diameter and is a drilled hole: numbers with three decimals cannot distinguish the two.
 const DRILLED_DIAMETER_TOLERANCE: f64 = 0.001;
 
-/// Returns the class of a circle. One with the cutter's diameter is a drilled hole, whatever its line type.
+/// Returns the class of a circle. One with the cutter's diameter is drilled, whatever its line type.
 fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
     let Some(tool) = tool else { return ElementClass::UnknownCircle };
     if at_least(DRILLED_DIAMETER_TOLERANCE, (2.0 * radius - tool).abs()) {

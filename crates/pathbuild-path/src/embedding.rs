@@ -24,7 +24,7 @@ use crate::variables::{Bindings, Definition};
 pub struct PathHeader {
     /// Name of the path, in the spelling of its layer.
     pub name: CaseSensitiveName,
-    /// Whether the drawing of the path has no errors; errors in values do not count.
+    /// Whether the drawing of the path has no errors, regardless of errors in values.
     pub is_sound: bool,
     /// The definitions of the path's variables, in the order written.
     pub definitions: Vec<Definition>,

@@ -256,7 +256,7 @@ impl Curve {
     }
 }
 
-/// Distance in mm from a line up to which a point counts as lying on it. Rotating coordinates rounds them by less.
+/// Distance in mm from a line up to which a point is considered to be on the line. Rotating coordinates rounds them by less.
 const ON_LINE_DISTANCE: f64 = 1e-9;
 
 impl Line {

@@ -129,7 +129,7 @@ type IndexedPiece = GeomWithData<Rectangle<[f64; 2]>, OutlinePiece>;
 #[derive(Clone, Copy, Debug)]
 struct OutlinePiece {
     curve: Curve,
-    /// The range of Y in which the piece counts as a side of the outline. Consecutive pieces adjoin exactly, without the gap that rounding would
+    /// The range of Y in which the piece is a side of the outline. Consecutive pieces adjoin exactly, without the gap that rounding would
     /// leave.
     from: f64,
     to: f64,

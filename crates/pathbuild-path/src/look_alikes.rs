@@ -1,4 +1,4 @@
-//! Characters that are easily mistaken for those of parameter texts. They are used for hints only: no text is repaired.
+//! Characters that are easily mistaken for characters of parameter texts. They are used for hints only: no text is repaired.
 
 use pathbuild_diagnostic::messages::outputs;
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, nearest};

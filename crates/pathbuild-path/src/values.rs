@@ -128,7 +128,7 @@ impl<'t> Values<'t> {
         self.problems.push(problem.with_text(self.text.fault(piece)));
     }
 
-    /// Returns the number of a letter. A letter that is repeated, which is reported, counts as faulty.
+    /// Returns the number of a letter. A repeated letter is faulty, and reported elsewhere.
     pub(crate) fn number(&self, letter: Letter) -> GivenNumber {
         let Some(index) = self.text.index(letter) else {
             return if self.unread.contains(letter) { GivenNumber::Faulty } else { GivenNumber::Absent };

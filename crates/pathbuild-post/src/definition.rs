@@ -43,7 +43,7 @@ pub struct Output {
     pub text: Vec<u8>,
     /// Extension of the file, without the dot.
     pub extension: Box<str>,
-    /// Facts that the user should know but that are no defects.
+    /// Facts that the user should know but that are not defects.
     pub notes: Vec<Note>,
     /// Doubtful constructs in the definition or the text.
     pub warnings: Vec<Diagnostic>,

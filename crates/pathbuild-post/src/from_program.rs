@@ -290,7 +290,7 @@ impl ToolTable {
         self.position(path, diameter).map(|index| &self.entries[index])
     }
 
-    /// Returns the number of each entry. Entries without one get the free numbers in the order of the table and not in that of use, so
+    /// Returns the number of each entry. Entries without one get the free numbers in the order of the table, not of use, so
     /// that a cutter has the same number, and the same length in the control, in each program.
     fn numbers(&self) -> Vec<u32> {
         let stated: HashSet<u32> = self.entries.iter().filter_map(|entry| entry.index).collect();

@@ -121,7 +121,7 @@ struct Builder {
     names: Vec<Box<str>>,
     /// Whether the last operation has ended.
     has_ended: bool,
-    /// Whether the last move was a rapid move to a known height.
+    /// Whether the last move was a rapid move to a known height, or the retract from a hole.
     is_raised: bool,
     /// Whether the last move was a probing move, so that only the machine knows the position.
     has_probed: bool,
@@ -363,7 +363,7 @@ impl Builder {
         self.is_spindle_kept_off = true;
     }
 
-    /// Handles a tool change. Moves since the last cut are dropped, because they only led to the change.
+    /// Handles a tool change. Drops the rapid moves of an operation that has not cut yet, because they only led to the change.
     fn change_tool(&mut self, line: u32, tool: Option<u32>) {
         self.has_cut_with_tool &= self.has_layers;
         // At the start, M6 without T means the tool that is in the spindle; after a cut it means a manual change.

@@ -208,7 +208,7 @@ impl Operation {
         Self { name: name.into(), part: name.into(), tool, ..Self::default() }
     }
 
-    /// Returns the first position reached by the moves. Each coordinate is that of the first move that specifies it, or else that of the
+    /// Returns the first position reached by the moves. Each coordinate comes from the first move that specifies it, or else from the
     /// entry.
     pub fn first_point(&self) -> Position {
         let target = |step: &JobStep| match step {

@@ -1,7 +1,7 @@
 //! Post-processors, which write programs for other machines. (book: program/posts)
 //!
-//! A [`Job`] is the input of a post; it is made from finished programs or from a parsed one. A [`PostDefinition`] is written in one of two
-//! languages, that of CamBam or that of CAD6; [`PostDefinition::write`] produces the text. This crate does no IO.
+//! A [`Job`] is the input of a post; it is made from finished programs or from a parsed one. A [`PostDefinition`] is written in the language
+//! of CamBam or of CAD6; [`PostDefinition::write`] produces the text. This crate does no IO.
 
 /// Declares an enum whose variants have a description for the book, in both languages.
 macro_rules! words {

@@ -83,7 +83,7 @@ pub struct PostMacro {
 
 /// Access to the files below the directory of a definition.
 pub trait PostFiles: fmt::Debug + Sync {
-    /// Reads a file. The path is relative and never contains `..`. Implementations must refuse links that lead outside the directory.
+    /// Reads a file. The path is relative and never contains `..`. Implementations must refuse links that point outside the directory.
     ///
     /// # Errors
     /// The reason why the file cannot be read.

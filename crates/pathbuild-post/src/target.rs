@@ -304,7 +304,7 @@ pub(crate) struct TextInserter<'a> {
 }
 
 impl<'a> TextInserter<'a> {
-    /// Creates an inserter with the comment marks of the target; without a target, with those of the definition and the usual ones.
+    /// Creates an inserter with the comment marks of the target; without a target, with the definition's and the usual ones.
     pub(crate) fn new(target: Option<&'a Target>, marks: CommentMarks, charset: Charset) -> Self {
         Self { target, marks, charset }
     }

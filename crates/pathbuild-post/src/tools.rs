@@ -105,7 +105,7 @@ impl ToolWords {
     }
 }
 
-/// Returns for each step of a job that is a stop whether the spindle may turn there.
+/// Returns for each step of a job whether the spindle may turn there, if the step is a stop.
 fn stops(job: &Job) -> Vec<Option<bool>> {
     let mut is_on = job.operations.iter().all(|operation| operation.spindle.is_none());
     let mut stops = Vec::new();

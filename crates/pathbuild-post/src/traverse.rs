@@ -346,7 +346,7 @@ impl<'m> ExpectedTraverse<'m> {
             || !movement.from.known.has(Axes::XY) && !movement.to.known.has(Axes::XY);
         let lowest = match (height(&movement.from), height(&movement.to)) {
             (Some(from), Some(to)) => from.min(to),
-            // A move from an unknown height is free if it leads up to the clearance plane, or straight up or down.
+            // Of a move from an unknown height, only the end is compared.
             (None, Some(to)) => to,
             _ => return false,
         };

@@ -326,7 +326,7 @@ impl<'a> OpenEdges<'a> {
             Some((farthest, _)) if above(reach, *farthest) => {
                 found[..=last].iter().map(|(_, strand)| *strand).collect()
             }
-            // No distinguishable gap lies within the reach of the search: scan all edges.
+            // There is no distinguishable gap within reach of the search: scan all edges.
             _ => (0..self.strands.len()).filter(|index| self.is_open(*index)).collect(),
         };
         contenders.sort_unstable();

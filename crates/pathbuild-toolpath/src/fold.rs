@@ -130,7 +130,7 @@ pub(crate) struct Fold<'a, P: FoldPaths> {
     steps: Vec<ProgramStep>,
     names: Names,
     probes: Vec<ProbePoint>,
-    /// Curves on the layers that are left out of the program, by name of the path.
+    /// Curves on the layers of paths, but left out of the program, by name of the path.
     left_out: BTreeMap<Box<str>, OmittedCurves>,
     /// Index of the last sweep as long as only comments follow it. A further sweep replaces that one.
     mergeable: Option<usize>,

@@ -321,7 +321,7 @@ struct ProbedPoint {
     probes: Vec<usize>,
 }
 
-/// Distance outside a triangle, as a fraction of its size, up to which a point counts as inside.
+/// Distance outside a triangle, as a fraction of its size, up to which a point is considered inside.
 const ROUNDING: f64 = 1e-9;
 
 /// Difference of squared distances in mm² below which the tree may order edges wrongly, so that they are compared exactly.

@@ -1,4 +1,4 @@
-//! Compares the statistics of a program written without `--compatible` with the program's own moves. The recorded statistics are those of the
+//! Compares the statistics of a program written without `--compatible` with the program's own moves. The recorded statistics come from the
 //! reference, which counts planned lengths.
 
 use std::collections::BTreeMap;

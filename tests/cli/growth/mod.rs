@@ -177,7 +177,7 @@ fn drawn(settings: &str, drawing: &str) -> Place {
 /// Runs a command on one amount and on four times as much, and asserts that the second run does not take too long in comparison.
 #[track_caller]
 fn of_one_and_four(name: &str, count: usize, place: impl Fn(usize) -> Place, arguments: &str) -> [Run; 2] {
-    // The faster of two runs counts, because other processes slow the machine down.
+    // Take the faster of two runs, because other processes slow the machine down.
     let better = |count: usize| {
         let [one, other] = [(); 2].map(|()| place(count).run_timed(arguments));
         if one.1 < other.1 { one } else { other }

@@ -111,7 +111,7 @@ struct Chain {
     insertion: Option<Insertion>,
 }
 
-/// An insertion of a block that makes the block's origin coincide with that of the drawing.
+/// An insertion of a block that makes the block's origin coincide with the drawing's.
 struct Insertion {
     scale: [f64; 2],
     degrees: f64,

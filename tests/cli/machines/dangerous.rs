@@ -37,7 +37,7 @@ const AT_ONCE: usize = 100;
 /// Interval at which reported changes are also read by an independent reader.
 const SAMPLED: usize = 10;
 
-/// Distance in mm above which a move counts as going elsewhere. It exceeds the tolerance of any dialect that is written with arcs.
+/// Distance in mm above which a move is considered to go elsewhere. It exceeds the tolerance of any dialect that is written with arcs.
 const ELSEWHERE: f64 = 0.01;
 
 /// Tolerance in mm of chords that replace a helix: the post permits 0.01 mm, and the ends are rounded. A program may stay within this tolerance even

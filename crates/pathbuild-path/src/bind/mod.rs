@@ -377,7 +377,7 @@ impl<'a> Binder<'a> {
         self.report_repeated_probes(&path.probes);
     }
 
-    /// Reports probes that lie on an earlier one, or have the name of an earlier one.
+    /// Reports probes at the position of an earlier probe, or with its name.
     fn report_repeated_probes(&mut self, probes: &[Probe]) {
         let (mut places, mut labels) = (BTreeSet::new(), BTreeMap::new());
         for (marker, probe) in self.raw.probes.iter().zip(probes) {

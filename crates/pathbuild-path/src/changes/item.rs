@@ -25,7 +25,7 @@ pub(super) struct Item<'a> {
     /// Effective parameters that can change moves.
     parameters: Vec<&'a Parameter>,
     pub(super) handle: Option<Handle>,
-    /// Number among the elements of the path, in the order of the file.
+    /// Index of the element among the drawn elements of the path; 0 for markers.
     pub(super) number: usize,
 }
 

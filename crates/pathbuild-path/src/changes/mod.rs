@@ -127,7 +127,7 @@ fn element_changes(old: &Item<'_>, new: &Item<'_>, frame: &Frame) -> Vec<Element
     changes
 }
 
-/// Groups equal changes of elements of one kind. The position of a group is that of its first element, by X and then by Y.
+/// Groups equal changes of elements of one kind. A group has the position of its first element, by X and then by Y.
 fn group_changes(mut found: Vec<FoundChange<'_>>) -> Vec<DrawnChange> {
     found.sort_by(|(one, _), (other, _)| compare_positions(one.kind, one.at(), other.kind, other.at()));
     let mut groups: Vec<DrawnChange> = Vec::new();

@@ -17,7 +17,7 @@ pub(super) struct Frame {
     pub(super) shift: Vector2<f64>,
 }
 
-/// The paired elements, and those of either side that have no counterpart.
+/// The paired elements, and the elements of either side that have no counterpart.
 #[derive(Debug, Default)]
 pub(super) struct PairedElements<'i> {
     pub(super) both: Vec<(&'i Item<'i>, &'i Item<'i>)>,
@@ -107,7 +107,7 @@ struct Pairing<'i> {
 }
 
 impl<'i> Pairing<'i> {
-    /// Pairs elements with equal keys, in the order of the files.
+    /// Pairs elements with equal keys, each old one with the first new one that is left.
     fn pair_by_key<K: Eq + Hash>(&mut self, key: impl Fn(&'i Item<'i>, Place) -> Option<K>) {
         let mut known: HashMap<K, VecDeque<usize>> = HashMap::new();
         for (index, item) in self.new.iter().enumerate() {

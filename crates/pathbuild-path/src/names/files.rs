@@ -282,12 +282,12 @@ pub fn check_file_name(
     broken.chain(strays).collect()
 }
 
-/// Whether the name of a drawing, without `.dxf`, is that of a Q-project.
+/// Whether a drawing with this name, given without `.dxf`, is a Q-project.
 pub fn is_q_project(stem: &str) -> bool {
     tested_by_q_project(stem).is_some()
 }
 
-/// Returns the name of the drawing that a Q-project tests, both without `.dxf`; `None` if the name is not that of a Q-project.
+/// Returns the name of the drawing that a Q-project tests, both without `.dxf`; `None` for the name of another drawing.
 pub fn tested_by_q_project(stem: &str) -> Option<&str> {
     stem.strip_suffix("_Q").or_else(|| stem.strip_suffix("_q"))
 }

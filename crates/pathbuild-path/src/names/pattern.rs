@@ -75,7 +75,7 @@ impl Pattern {
         }
     }
 
-    /// Whether a name begins like a name that matches. Most names of layers do not.
+    /// Whether a name may match, judged by its first character. Most names of layers cannot.
     pub(crate) fn may_begin(&self, name: &str) -> bool {
         match self {
             Self::Default(_) => name.as_bytes().first().is_some_and(u8::is_ascii_digit),
@@ -145,7 +145,7 @@ impl Pattern {
 }
 
 impl RegexPattern {
-    /// Compiles the expressions immediately, to validate them.
+    /// Compiles all expressions except the one for ranges immediately, to validate them.
     fn new(source: &str) -> Result<Self, PatternError> {
         let pattern = Self {
             source: source.into(),

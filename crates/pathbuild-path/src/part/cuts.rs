@@ -75,7 +75,7 @@ pub struct StandingBar {
     pub top: f64,
 }
 
-/// Z in mm up to which a cut counts as going through the plate: a cut that ends at Z0.001 still does.
+/// Z in mm up to which a cut is considered to go through the plate: a cut that ends at Z0.001 still does.
 pub const THROUGH_HEIGHT: f64 = 0.001 + 1e-6;
 
 impl PathCuts {

@@ -34,7 +34,7 @@ pub(super) struct Gouge {
 }
 
 /// Determines the side of the part on which each cut lies, and where the cut goes into the part. `numbers` are the numbers of the cuts to examine. A
-/// cut that ends above the plate counts only at the lowest depth of its element, where it may shape the outline.
+/// cut that ends above the plate is included only at the lowest depth of its element, where it may shape the outline.
 pub(super) fn classify_cuts<'c>(
     part: &PreparedPart<'_>,
     index: &CutIndex<'c>,
@@ -104,7 +104,7 @@ pub fn gouging_moves<'w>(
 }
 
 impl Gouge {
-    /// Whether another place is deeper. Of places with the same depth, the leftmost counts, so that the order of the cuts does not matter.
+    /// Whether another place is deeper. Of places with the same depth, the leftmost wins, so that the order of the cuts does not matter.
     fn is_exceeded_by(&self, at: Xy, depth: f64) -> bool {
         let is_left = || (at.x, at.y) < (self.at.x, self.at.y);
         depth > self.depth + JOIN_GAP || (depth >= self.depth - JOIN_GAP && is_left())

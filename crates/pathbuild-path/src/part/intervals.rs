@@ -156,7 +156,8 @@ pub(crate) fn join_ends(mut stretches: Vec<Stretch>, whole: f64) -> Vec<Stretch>
     stretches
 }
 
-/// Returns a curve shifted to the right, out of the material, by `distance` mm. `None` for an inner arc with a radius below `distance`.
+/// Returns a curve shifted to the right, out of the material, by `distance` mm. `None` for an arc whose radius would vanish and for a line without
+/// length.
 pub(crate) fn offset_curve(curve: &Curve, distance: f64) -> Option<Curve> {
     match curve {
         Curve::Line(Line { start, end }) => {

@@ -48,7 +48,7 @@ pub struct LeftMaterial {
 }
 
 impl Leftover {
-    /// Whether another stretch is longer. Of stretches with the same length, the leftmost counts, as for cuts into the part.
+    /// Whether another stretch is longer. Of stretches with the same length, the leftmost wins, as for cuts into the part.
     pub(super) fn is_exceeded_by(&self, other: &Self) -> bool {
         let is_left = || (other.from.x, other.from.y) < (self.from.x, self.from.y);
         other.length > self.length + NEIGHBOUR_JOIN_GAP
@@ -123,7 +123,7 @@ impl<'s> LeftoverSearch<'s> {
         Self { part, cuts, judged, contours, tolerance, grooves, is_ringed: OnceCell::new() }
     }
 
-    /// Returns the material left at all rings. Of the rings of a nest, only the ring with the least leftover material counts.
+    /// Returns the material left at all rings. Of the rings of a nest, only the ring with the least leftover material is considered.
     pub(super) fn leftovers(&self) -> Leftovers {
         let mut nests: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (ring, drawn) in self.part.part.rings.iter().enumerate() {
@@ -248,8 +248,8 @@ impl<'s> LeftoverSearch<'s> {
         join_stretches(found, JOIN_GAP)
     }
 
-    /// Adds the material left in notches of the rim that the contour passes: long stretches that neither a cut nor a support bar comes near, if these
-    /// close a ring round the part.
+    /// Adds the material left in notches of the rim that the contour passes: long stretches that neither a cut nor a support bar comes near, if cuts
+    /// and bars close a ring round the part.
     fn add_notches(&self, all: &mut RingStretches, uncut: &mut Vec<Stretch>) {
         let Some(radius) = self.smallest_radius() else { return };
         let is_notch = |(from, to): &Stretch| to - from >= 2.0 * radius;
@@ -419,8 +419,8 @@ impl<'s> LeftoverSearch<'s> {
         nearest.unwrap_or_else(|| self.all_contour_cuts().map(distance).fold(f64::INFINITY, f64::min))
     }
 
-    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate only counts where it reaches the
-    /// ring.
+    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate is only considered where it reaches
+    /// the ring.
     fn nearest(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
         self.nearest_of(self.cuts.near(square(at, 0.0)).collect(), ring, at)
     }

@@ -120,7 +120,7 @@ fn is_ring_closed(centre: Xy, sweeps: &[SweptLine]) -> bool {
     false
 }
 
-/// Minimum overlap in mm for two sweeps to count as connected.
+/// Minimum overlap in mm of two sweeps that are considered connected.
 const MIN_OVERLAP: f64 = 1e-6;
 
 /// Returns the angle from one point to another as seen from `centre`, from -pi to pi.

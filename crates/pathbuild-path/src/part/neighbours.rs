@@ -52,7 +52,7 @@ pub struct NeighbourCuts {
     pub bars: Vec<LostBar>,
 }
 
-/// A part that the cuts of other paths separate from the material to which its support bars lead.
+/// A part that the cuts of other paths separate from the material that its support bars connect it to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeveredPart {
     /// Index of the part in [`PlacedCuts::parts`].
@@ -63,10 +63,10 @@ pub struct SeveredPart {
     pub element: u32,
 }
 
-/// Depth in mm below a plate's upper face from which a cut counts as a cut into the plate.
+/// Depth in mm below a plate's upper face from which a cut is considered a cut into the plate.
 const MIN_CUT_DEPTH: f64 = 0.01;
 
-/// Distance in mm up to which two outlines count as the same.
+/// Distance in mm up to which two outlines are considered the same.
 const SAME_PART_DISTANCE: f64 = 0.01;
 
 impl<'c> PlacedCuts<'c> {

@@ -138,7 +138,7 @@ impl<'p> PreparedPart<'p> {
         }
     }
 
-    /// Returns the side on which a whole curve lies; `None` if a cutter of this radius goes deeper than `tolerance` into a ring.
+    /// Returns the side on which a whole curve lies; `None` if the curve comes nearer to a ring than `radius - tolerance`.
     pub(crate) fn clear_side(&self, way: &Curve, radius: f64, tolerance: f64) -> Option<Side> {
         let reach = (radius - tolerance).max(JOIN_GAP);
         let mut near = self.curves_near(widened_box(way, radius));
@@ -207,8 +207,8 @@ const BOX_MARGIN: f64 = 1e-4;
 /// Upper bound in mm on distances: no part is larger.
 const MAX_DISTANCE: f64 = 1e7;
 
-/// Distance in mm between the samples of a stretch.
+/// Intended distance in mm between the samples of a stretch, of which there are 8 to 64.
 const SAMPLE_DISTANCE: f64 = 0.5;
 
-/// Number of steps of the search between two samples, which shrink the distance to less than a micrometre.
+/// Number of steps of the search beside the best sample, each of which reduces the range by a third.
 const REFINEMENT_STEPS: usize = 20;

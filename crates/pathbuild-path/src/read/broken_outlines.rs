@@ -18,11 +18,11 @@ use crate::read::rings::{
     nesting, self_crossing,
 };
 
-/// Largest gap that counts as a mistake, relative to the length of the outline. Arcs that represent threads, leaders and letters have
+/// Largest gap that is reported as a mistake, relative to the length of the outline. Arcs that represent threads, leaders and letters have
 /// larger gaps.
 const MAX_RELATIVE_GAP: f64 = 0.1;
 
-/// Minimum share of the length of crossing chains that must lie between their crossings, so that the chains count as an outline with overlong ends.
+/// Minimum share of the length of crossing chains that is between their crossings if they were meant as an outline, with overlong ends.
 const MIN_CHAIN_SHARE: f64 = 0.9;
 
 /// An outline that cannot be compared with cuts.

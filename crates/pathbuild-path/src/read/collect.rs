@@ -547,7 +547,7 @@ impl PathCollector<'_> {
         }
     }
 
-    /// Returns the first circle of unknown line type with the diameter of this marker.
+    /// Removes and returns the first circle without a meaning that was probably meant as this marker.
     fn take_unclear(&mut self, meant: IntendedMarker) -> Option<Marker> {
         let index = self.unclear.iter().position(|circle| circle.meant == meant)?;
         let marker = self.unclear.remove(index).marker;
@@ -555,7 +555,7 @@ impl PathCollector<'_> {
         Some(marker)
     }
 
-    /// Returns a circle that is not a start marker but has the text of one. Reports PB101 at the circle.
+    /// Returns a circle that is not a start marker but has the text of one, and is then no other marker. Reports PB101 at the circle.
     fn circle_with_path_text(&mut self, texts: &Texts<'_>) -> Option<Marker> {
         let unclear = self.unclear.iter();
         let unclear = unclear.map(|circle| (&circle.marker, circle.shape.radius().unwrap_or_default()));

@@ -117,7 +117,7 @@ impl Graph {
     }
 
     /// Whether a face without an area is one of the two sides of a ring in the shape of an eight, where the areas of both halves cancel out. Only one
-    /// of the two sides counts.
+    /// of the two sides is accepted.
     fn is_figure_of_eight(&self, face: &[usize]) -> bool {
         let curves: Vec<Curve> = face.iter().map(|half_edge| self.directed_curve(*half_edge)).collect();
         face[0].is_multiple_of(2) && self_crossing(&curves).is_some()
@@ -141,8 +141,8 @@ impl Graph {
         self.numbers.iter().copied().filter(|number| !self.dividing.contains(number))
     }
 
-    /// Returns the longest chain of each connected group of curves that belong to no ring. Ends that almost meet count as joined, except for the two
-    /// ends of a chain.
+    /// Returns the longest chain of each connected group of curves that belong to no ring. Ends that almost meet are treated as joined, except for
+    /// the two ends of a chain.
     pub(super) fn open_chains(&self) -> Vec<NumberedCurves> {
         if self.dividing.len() == self.numbers.len() {
             return Vec::new();
@@ -154,7 +154,7 @@ impl Graph {
         roots.into_iter().filter(|root| known.insert(*root)).map(|root| forest.longest_chain(root)).collect()
     }
 
-    /// Returns the longest chain from a ring in each connected group of curves that belong to no ring. Ends that almost meet count as joined.
+    /// Returns the longest chain from a ring in each connected group of curves that belong to no ring. Ends that almost meet are treated as joined.
     pub(super) fn hanging_chains(&self) -> Vec<NumberedCurves> {
         let mut forest = Forest::new(self);
         let ends = self.dividing.iter().flat_map(|number| [2 * number, 2 * number + 1]);

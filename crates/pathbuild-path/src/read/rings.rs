@@ -7,7 +7,7 @@ use crate::geometry::{Curve, Xy};
 use crate::keep_out::{Outline, widened_box};
 use crate::part::{BoxIndex, Stretch, add_stretches_within, at_along, join_stretches};
 
-/// Largest distance in mm between ends that count as joined.
+/// Largest distance in mm between ends that are treated as joined.
 pub(super) const JOIN_DISTANCE: f64 = 0.01;
 
 /// Maximum number of pairs that are compared to find a crossing, or a ring in an open outline: enough for outlines of a hundred thousand short lines.

@@ -24,7 +24,7 @@ const ESSENTIAL_LETTERS: Letters = Letters::of(&[Letter::B, Letter::D, Letter::F
 /// Maximum number of candidates examined for the stray texts of a drawing.
 const MAX_EXAMINED_CANDIDATES: usize = 1_000_000;
 
-/// Maximum number of characters after a path name that count as a typing error.
+/// Maximum number of characters after a path name that are taken for a typing error.
 const MAX_SLIP_CHARACTERS: usize = 2;
 
 /// Words that follow a path's name in the name of a layer with another version of the path, in English and German.
@@ -80,7 +80,7 @@ impl NearNames {
 
     /// Returns the path with a name that resembles the name of another layer: the layer has the path's name, followed by a tilde and any text, by at
     /// most two more characters, or by a word for another version. Spaces, points and other separators, and case are ignored; letters that look like
-    /// digits count as those digits.
+    /// digits are treated as those digits.
     pub fn path(&self, layer: &str) -> Option<&PathName> {
         let layer = case_folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));

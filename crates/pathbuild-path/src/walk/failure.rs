@@ -13,7 +13,7 @@ use crate::path::{Path, SegmentKind, SubpathName};
 use crate::read::TextCircle;
 use crate::walk::{MAX_SKIPPED_GAP, OpenEnds, Walker};
 
-/// Tolerance in mm within which a point counts as lying on a curve: the offset is invisible on screen.
+/// Tolerance in mm within which a point is considered to be on a curve: the offset is invisible on screen.
 const ON_CURVE_TOLERANCE: f64 = 0.001;
 
 impl Walker<'_> {
@@ -272,7 +272,7 @@ impl<'a> Curves<'a> {
         pair.iter().any(|segment| self.element(*segment).text.is_none())
     }
 
-    /// Returns PB121, reported at the first of two segments on top of each other.
+    /// Returns PB121 for two segments on top of each other, reported at the later one, which is the first of `pair`.
     fn problem(&self, pair: [usize; 2]) -> Option<Diagnostic> {
         let segment = &self.path.segments[pair[0]];
         let SegmentKind::Cut(cut) = &segment.kind else { return None };

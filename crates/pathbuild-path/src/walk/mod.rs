@@ -18,7 +18,7 @@ use crate::path::{Path, SegmentKind};
 use crate::walk::failure::{Curves, embedded_twice};
 use crate::walk::order::{Ends, Junctions, Turns, comes_before};
 
-/// Orders the segments of a path. Ends within `join_tolerance` mm are joined with a warning if no other ends coincide.
+/// Orders the segments of a path. Where no segment continues, the nearest end within `join_tolerance` mm is joined, with a warning.
 pub fn walk(path: &Path, join_tolerance: f64) -> WalkedPath {
     walk_watched(path, join_tolerance, &|| {})
 }

@@ -47,7 +47,7 @@ pub(super) struct Junction {
 
 /// Segments with the same order and preference and with similar lengths.
 struct Group {
-    /// The segments in file order.
+    /// The segments in ascending order.
     segments: Vec<usize>,
     /// Number of leading segments that are known to be traversed.
     traversed: usize,
@@ -148,7 +148,7 @@ impl Turns {
         Self { squares, first, has_acted: vec![false; path.turns.len()] }
     }
 
-    /// Marks the turn markers at a point as used and returns the first of them. Markers at the same point count as one.
+    /// Marks the turn markers at a point as used and returns the first of them. Markers at the same point are treated as one.
     pub(super) fn use_marker(&mut self, path: &Path, at: Xy) -> Option<usize> {
         let mut found: Option<usize> = None;
         for square in Squares::around(at).each() {

@@ -71,7 +71,7 @@ fn the_nearest_arc_or_line_is_that_of_the_least_distance() {
     assert_eq!(owners(&format!("{arcs}\n{}", text("0,11.6", "F100"))), ["arc -", "arc F100"]);
 }
 
-/// The distance counts, regardless of the lengths of the lines.
+/// Only the distance matters, not the lengths of the lines.
 #[test]
 fn long_lines_are_as_near_as_short_ones() {
     let lines = "mill 0,0 400,0\nmill 190,3 210,3";

@@ -149,7 +149,7 @@ fn each_outline_has_one_text_inside_or_overlapping_it() {
         &beside(10.0 - 2.25 - 2.58),
         &["neither inside an outline nor overlapping one", "no text gives the height"],
     );
-    // A text that is near two outlines counts for both.
+    // A text that is near two outlines applies to both.
     let neighbour = "line 20.5,0 30,0 30,10 20.5,10 20.5,0\n";
     let shared =
         right(&format!("layer clamps\nline 10,0 20,0 20,10 10,10 10,0\n{neighbour}text 18,4 \"Z25\"\n"));
@@ -205,7 +205,7 @@ fn a_hidden_layer_counts() {
     assert!(matches!(&problems[..], [problem] if problem.code() == Code::LayerNotVisible));
 }
 
-/// At each height below that of the clamp, the tool must clear the outline by half of O.
+/// At each height below the clamp's, the tool must clear the outline by half of O.
 #[test]
 fn the_tool_keeps_out_by_its_radius() {
     let clamps = right(SQUARE);

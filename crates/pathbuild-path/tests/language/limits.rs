@@ -16,7 +16,7 @@ fn on(statement: &str, parameters: &str) -> Vec<String> {
     errors.into_iter().filter(|found| !found.starts_with("PB210")).collect()
 }
 
-/// Numbers just above and just below the limit of 0.000000001, from which a number counts as positive.
+/// Numbers just above and just below the limit of 0.000000001, from which a number is considered positive.
 const INSIDE: &str = "0.0000000011";
 const OUTSIDE: &str = "0.0000000009";
 

@@ -159,7 +159,7 @@ fn a_joined_arc_stays_where_it_is() {
     assert_eq!([ends[4], ends[5]], [Xy::new(20.0, 0.0), Xy::new(0.0, 0.0)]);
 }
 
-/// The line that leads into an arc is not a separate segment: letters of the arc count as those of the chain's first segment.
+/// The line that leads into an arc is not a separate segment: the arc is the chain's first segment, which gives its letters.
 #[test]
 fn a_joined_arc_may_begin_a_chain() {
     let drawn = "sweep 0,0 20,0\nmill arc centre 25.01,0 r 5 from 90 to 180 \"I1\"\nend 25.01,5";

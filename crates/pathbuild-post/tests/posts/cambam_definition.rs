@@ -142,7 +142,7 @@ fn what_is_no_definition_is_refused() {
         refused[0].text(Lang::En),
         "the definition is not UTF-8 text: this line has a character in another encoding, such as ANSI"
     );
-    // The file's extension is that of CamBam, so its text is parsed as XML and not as TOML.
+    // The file has CamBam's extension, so its text is parsed as XML and not as TOML.
     assert_eq!(read("").unwrap_err()[0].code().to_string(), "PB750");
     assert_eq!(read("[post]\n").unwrap_err()[0].code().to_string(), "PB750");
 }

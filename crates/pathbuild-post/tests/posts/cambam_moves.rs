@@ -48,7 +48,7 @@ fn codes_are_modal_where_the_template_says_so() {
         ["FEED X1.0", "X2.0", "G0 X3.0", "FEED X4.0"],
         "however the word is spelt"
     );
-    // The text that is read back contains the motions for which the words stand.
+    // The text that is read back contains G words in place of the definition's own words.
     let whole = named.replace("{$_x}", "{$f} {$_x}");
     let written = read(&bare(&whole)).unwrap().write(&job(steps), &PostOptions::default());
     assert!(written.is_ok(), "{:?}", written.map_err(|errors| texts(&errors)));

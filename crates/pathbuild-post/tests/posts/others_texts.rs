@@ -103,7 +103,7 @@ fn no_text_ends_or_begins_a_comment_of_a_definition_s_own() {
     }
 }
 
-/// Number of places for a text, plus one that stands for all places together.
+/// Number of places for a text, plus one for all places together.
 const PLACES: usize = 8;
 
 fn written(post: &PostDefinition, place: usize, text: &str, is_own: bool) -> Option<String> {

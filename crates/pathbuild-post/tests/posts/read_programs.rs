@@ -341,7 +341,7 @@ fn words_that_posts_replace_are_told_once() {
     assert_eq!(lines.len(), 4, "{found}");
 }
 
-/// Returns a step that makes a move. The length stated for it has no effect, as long as it exceeds that of arcs that become lines.
+/// Returns a step that makes a move. The length stated for it has no effect, as long as it exceeds the length of arcs that become lines.
 fn go(to: PlannedMove) -> ProgramStep {
     ProgramStep::Move { to, count: Count { class: MoveClass::Milling, length: 99.0, feed: None } }
 }

@@ -23,7 +23,7 @@ fn the_first_depth_is_one_infeed_below_the_surface_and_the_last_is_the_bottom() 
     assert_eq!(depths("2", "0"), "3 1 0");
     assert_eq!(depths("9", "0"), "0");
     assert_eq!(depths("5", "0"), "0");
-    // A depth that is almost at the bottom counts as the bottom.
+    // A depth that is almost at the bottom is treated as the bottom.
     assert_eq!(depths("2.4999999999", "0"), "2.5 0");
     assert_eq!(depths("2.499", "0"), "2.501 0.002 0");
 }
