@@ -217,7 +217,7 @@ impl MoveKind {
         }
     }
 
-    /// Whether such moves remove material: milling, marking and plunging do, probing does not.
+    /// Whether moves of this kind remove material: milling, marking and plunging do, probing does not.
     pub fn cuts(self) -> bool {
         matches!(self, Self::Plunge | Self::Mill | Self::Mark)
     }

@@ -14,7 +14,7 @@ use crate::{BaselineOptions, Error, Finding, Lang, WrittenBaseline};
 /// Options for verifying programs.
 #[derive(Clone, Debug, Default)]
 pub struct VerifyOptions {
-    /// The options, without those that are given as names.
+    /// The options, except for the dialect and the required checks, which are given by their names.
     options: verify::VerifyOptions,
     dialect: Option<String>,
     required: Vec<String>,
@@ -72,7 +72,7 @@ impl VerifyOptions {
         self
     }
 
-    /// In programs for `XpertMILL`, reads G70 as millimetres and G71 as inches, the other way round than DIN 66025.
+    /// In programs for `XpertMILL`, reads G70 as millimetres and G71 as inches, which is the reverse of DIN 66025.
     pub fn table_unit_codes(mut self) -> Self {
         self.options.reading.unit_codes = UnitCodes::Table;
         self

@@ -17,7 +17,7 @@ use crate::Finding;
 pub struct WatchReport {
     /// Names of the files that changed. Empty in the first report.
     pub changed: Vec<String>,
-    /// Names of those changed files that no longer exist.
+    /// Names of the changed files that no longer exist.
     pub removed: Vec<String>,
     /// The earlier findings about the drawings that depend on the changed files.
     pub before: Vec<Finding>,

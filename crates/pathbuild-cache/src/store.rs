@@ -172,7 +172,7 @@ pub struct RemoveError {
 
 /// Age after which pruning removes results that have not been rewritten: 30 days.
 const UNUSED_AGE: Duration = Duration::from_hours(30 * 24);
-/// Age after which a temporary file counts as abandoned by a process that was killed: one hour.
+/// Age after which a temporary file is considered abandoned by a killed process: one hour.
 const ABANDONED_AGE: Duration = Duration::from_hours(1);
 
 impl TreeStore {
@@ -195,7 +195,7 @@ impl TreeStore {
     /// of removed files.
     ///
     /// # Errors
-    /// If one of them cannot be removed, or if the directory is not a cache; then nothing is removed.
+    /// If one of them cannot be removed. If the directory is not a cache, nothing is removed.
     pub fn prune(&self, build: &Key) -> Result<usize, RemoveError> {
         refuse_others(self.directory())?;
         let unused = self.entries(build).into_iter();
@@ -211,7 +211,7 @@ impl TreeStore {
     /// Removes the whole store. Returns whether it existed.
     ///
     /// # Errors
-    /// If the store cannot be removed, or if its directory is not a cache; then nothing is removed.
+    /// If the store cannot be removed. If its directory is not a cache, nothing is removed.
     pub fn clean(&self) -> Result<bool, RemoveError> {
         let is_there = fs::symlink_metadata(self.directory()).is_ok();
         if is_there {

@@ -310,7 +310,7 @@ impl Listing {
         }
     }
 
-    /// Lists a directory. A missing directory counts as empty. If the directory cannot be read, the listing is doubtful.
+    /// Lists a directory. The listing is empty for a missing directory, and doubtful for one that cannot be read.
     fn of(directory: &Utf8Path) -> Self {
         let mut listing = Self::default();
         let entries = match fs::read_dir(directory) {

@@ -12,7 +12,7 @@ words! {
     ENTITIES: "the number of entities", "die Zahl der Elemente";
     /// The quantity that the limit `text-length` bounds, for a text as drawn.
     TEXT_LENGTH: "the length of a text in bytes", "die Länge eines Textes in Bytes";
-    /// The quantity that the limit `text-length` bounds, for a text in which variables are replaced by their values.
+    /// The quantity that the limit `text-length` bounds, for a text with its variables replaced by their values.
     TEXT_WITH_VALUES: "the length of a text with the values of its variables", "die Länge eines Textes mit den Werten seiner Variablen";
     /// The quantity that the limit `seconds-per-path` bounds.
     TIME_OF_PATH: "the time that this path takes", "die Zeit, die dieser Pfad braucht";

@@ -55,8 +55,8 @@ pub fn is_slip(name: &str, other: &str) -> bool {
 struct Numbers(Vec<String>);
 
 impl Numbers {
-    /// Extracts the numbers from a name. A letter that looks like a digit counts as that digit if it is next to a digit: `31O1`
-    /// is read as 3101.
+    /// Extracts the numbers from a name. A letter that looks like a digit is read as that digit if it is next to a digit: `31O1`
+    /// gives 3101.
     fn of(name: &str) -> Self {
         let mut numbers = vec![String::new()];
         let mut letters = name.chars().peekable();

@@ -111,7 +111,7 @@ impl fmt::Display for TextError {
 
 impl std::error::Error for TextError {}
 
-/// Returns the reason of an IO error: a text in both languages if there is one, otherwise the system's text.
+/// Returns the reason for an IO error: a text in both languages if there is one, otherwise the system's text.
 pub fn reason(error: &Error) -> Value {
     match error.get_ref() {
         Some(inner) => match inner.downcast_ref::<TextError>() {

@@ -19,7 +19,7 @@ use crate::text_positions::{
 /// Distance in mm between the end of a segment and the start of the next.
 const SEGMENT_GAP: f64 = 20.0;
 
-/// Distance in mm between the ends of a path below which it counts as closed.
+/// Distance in mm between the ends of a path below which the path is considered closed.
 const CLOSED_TOLERANCE: f64 = 1e-3;
 
 /// Radius in mm of the circle that represents a closed path, since a line without length could not have a text.

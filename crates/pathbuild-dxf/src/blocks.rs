@@ -95,7 +95,7 @@ impl<'a> Blocks<'a> {
         Ok(blocks)
     }
 
-    /// Finds a block by name, ignoring case. An external reference without contents in the file does not count as a block.
+    /// Finds a block by name, ignoring case. An external reference without contents in the file is treated as missing.
     pub(crate) fn find(&self, name: &str) -> Option<BlockId> {
         self.by_name
             .get(&case_folded(name))

@@ -291,7 +291,7 @@ impl<'d> Collector<'d> {
         }
     }
 
-    /// Fills in the entity's place. If the diagnostic already has a line, which is that of the faulty value, the line stays.
+    /// Fills in the entity's place. A line that the diagnostic already has is kept: it is the line of the faulty value.
     fn located(&self, mut diagnostic: Diagnostic, placed: &PlacedEntity<'_>, layer: u32) -> Diagnostic {
         let place = &mut diagnostic.place;
         place.line = place.line.or(Some(placed.own.line));

@@ -88,7 +88,7 @@ pub struct Layer {
 pub struct Origin {
     /// 1-based line of the group code `0`. In binary files, twice the number of the pair minus one.
     pub line: u32,
-    /// The handle, if any. Parts of a polyline or block share that of the whole.
+    /// The handle, if any. Parts of a polyline or block have the handle of the whole.
     pub handle: Option<Handle>,
 }
 

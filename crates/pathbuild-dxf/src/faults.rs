@@ -32,7 +32,7 @@ pub(crate) fn bad_value_error(entity: &str, code: i32, value: &[u8], reason: Not
         .with_text(fault)
 }
 
-/// Returns PB002 for a section in which the file ends, or in which a line that should hold a group code holds something else.
+/// Returns PB002 for a section that the end of the file cuts off, or that has something else where a group code should be.
 pub(crate) fn stop_error(stop: Stop<'_>, section: &str) -> Fatal {
     Box::new(match stop {
         Stop::End { line } => Diagnostic::new(&TRUNCATED).quoting("section", section).at_line(line, None),

@@ -16,7 +16,7 @@ pub(crate) struct Value<'a> {
     pub(crate) bytes: &'a [u8],
     /// The line of the group code.
     pub(crate) line: u32,
-    /// The number of the entity; slots of earlier entities count as empty.
+    /// The number of the entity that has this value. If that is an earlier entity, the slot is empty.
     entity: u32,
 }
 
@@ -178,7 +178,7 @@ impl<'a> Fields<'a> {
         self.entity += 1;
     }
 
-    /// Returns the value of a code, if present. If the code occurs several times, the last value counts.
+    /// Returns the value of a code, if present. If the code occurs several times, the last value is returned.
     #[inline]
     pub(crate) fn get(&self, code: i32) -> Option<Value<'a>> {
         let value = self.slots.get(Role::of(code).slot()).filter(|value| value.entity == self.entity)?;

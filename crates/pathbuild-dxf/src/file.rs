@@ -72,7 +72,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Skips to ENTITIES, and remembers those sections before it that are needed.
+    /// Skips to ENTITIES, and remembers the needed sections before it.
     fn find_entities(&mut self) -> Result<PreambleEnd, Fatal> {
         let mut head = self.next_head().map_err(|_| not_dxf(self.bytes))?;
         if !head.is("SECTION") && !head.is("EOF") {

@@ -252,7 +252,7 @@ fn without_first(bits: u64) -> u64 {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Role(u8);
 
-/// The form in which lines with group codes usually end in this file.
+/// The usual form and end of lines with group codes in this file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CodeEnd {
     /// The byte that ends a line: LF or CR.

@@ -12,7 +12,7 @@ use crate::faults::{self, Fatal};
 use crate::number::whole_number;
 use crate::pairs::{Keyword, Pair, Pairs, Stop};
 
-/// The HEADER section. All of it may be missing, as in R10 files and those written by scripts.
+/// The HEADER section. All of it may be missing, as in R10 files and in files written by scripts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Header<'a> {
     version: Option<&'a [u8]>,

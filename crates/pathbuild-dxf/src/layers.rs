@@ -167,7 +167,7 @@ pub(crate) struct LayerTable<'a> {
     all: Option<KnownLayers<'a>>,
 }
 
-/// Layers by folded name. If several have the same name, the first one counts. Few are ever looked up, so their values are decoded on demand.
+/// Layers by folded name. If several have the same name, the first one is used. Few are ever looked up, so their values are decoded on demand.
 #[derive(Debug, Default)]
 struct KnownLayers<'a> {
     records: HashMap<SmolStr, LayerRecord<'a>>,

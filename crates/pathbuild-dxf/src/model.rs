@@ -234,7 +234,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         Ok(())
     }
 
-    /// Reports a faulty insertion on those of its layers that are wanted.
+    /// Reports a faulty insertion once for each wanted layer on which it draws.
     fn refuse_insertion(
         &mut self,
         traits: &CommonProperties,

@@ -132,7 +132,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-        /// The table finds what a plain hash table does, whatever the lengths and however many spellings there are.
+        /// The table finds the same values as a plain hash table, whatever the lengths and the number of the spellings.
         #[test]
         fn the_table_agrees_with_a_hash_table(spellings in prop::collection::vec("[AB]{0,3}|[0-9A-C. ]{0,20}", 0..60)) {
             let (mut table, mut plain) = (Spellings::default(), HashMap::new());

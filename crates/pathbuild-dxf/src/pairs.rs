@@ -1,7 +1,7 @@
 //! Parses pairs of group code and value carefully, one by one, and finds pairs without parsing those before them; `groups` is the
 //! fast path. (book: reference/dxf)
 //!
-//! A line ends with LF, CRLF, CRCRLF or, in files of old Macs, a lone CR; which of the two bytes counts is decided once per file. Codes may
+//! A line ends with LF, CRLF, CRCRLF or, in files of old Macs, a lone CR; whether LF or CR ends lines is decided once per file. Codes may
 //! be padded; values are returned unchanged.
 
 use std::ops::Range;
@@ -23,7 +23,7 @@ pub(crate) struct Pair<'a> {
 /// The reason why there is no further pair.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Stop<'a> {
-    /// The input ends. An incomplete pair and blank lines at the end do not count.
+    /// The input ends. An incomplete pair and blank lines at the end are ignored.
     End {
         /// The line after the last line of the input.
         line: u32,
@@ -116,7 +116,7 @@ impl<'a> Pairs<'a> {
         self.at = at;
     }
 
-    /// The line of the next pair, counted from the start of the file.
+    /// Returns the line of the next pair, counted from the start of the file.
     pub(crate) fn counted_line(&self) -> u32 {
         let mut pairs = Self { at: 0, line: 1, ..*self };
         pairs.jump_to(self.at);
@@ -151,7 +151,7 @@ impl<'a> Pairs<'a> {
     }
 }
 
-/// Largest number of trailing blanks, in bytes, that count as the end of the file.
+/// Maximum number of trailing blanks, in bytes, that are treated as the end of the file.
 const LONGEST_PADDING: usize = 1 << 16;
 
 /// Largest number of bytes of a faulty line shown in a message.

@@ -62,7 +62,7 @@ impl Placement {
 
     /// Returns a placement that scales x, y and z; `None` if x and y differ in more than sign.
     pub(crate) fn scaled_by(x: f64, y: f64, z: f64) -> Option<Self> {
-        /// Relative difference up to which computed scales count as equal.
+        /// Relative difference up to which computed scales are considered equal.
         const SCALE_TOLERANCE: f64 = 2e-7;
         let scale = x.abs();
         let is_uniform = scale > 0.0 && (scale - y.abs()).abs() <= SCALE_TOLERANCE * scale;

@@ -139,7 +139,7 @@ impl System for OsSystem {
 fn hard_link(data: &fs::Metadata) -> Option<FileLink> {
     use std::os::unix::fs::MetadataExt;
 
-    // Directories always have several hard links, so only files count.
+    // Directories always have several hard links, so only files are considered.
     (data.is_file() && data.nlink() > 1).then(|| FileLink::Hard([data.dev(), data.ino()]))
 }
 
@@ -230,7 +230,7 @@ fn file_contains(path: &Utf8Path, bytes: &[u8]) -> bool {
 }
 
 /// Temporary files that were found by the first listing of each directory. Each directory is searched at most once per run; a listing made for
-/// another purpose counts as that search.
+/// another purpose serves as that search.
 static LISTED_DEBRIS: LazyLock<Mutex<HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>>> = LazyLock::new(Mutex::default);
 
 /// Records the temporary files found while listing a directory.

@@ -62,7 +62,7 @@ impl Stamp {
 
     /// Whether the file's last change is old enough that a later one would alter the stamp.
     fn is_old_enough(self, Clock(begun): Clock) -> bool {
-        // Times before 1970 are not trusted: a file with such a time does not count as old enough.
+        // Times before 1970 are not trusted: a file with such a time is never considered old enough.
         let is_before = |seconds: u64| {
             let time = i64::try_from(seconds)
                 .ok()

@@ -48,8 +48,8 @@ pub(crate) fn finish(mut draft: Draft, seed: Option<u64>) -> Result<Sheet, Vec<D
     Ok(sheet.within(Arc::clone(template), HATCH_LINES - hatch_lines))
 }
 
-/// Returns the surroundings alone, with all hatch lines as the last entities. Entities are in the order in which a user draws: the frame first, then
-/// the path, then what was added to it.
+/// Returns the surroundings alone, with all hatch lines as the last entities. The first third of the other entities, mainly the frame, precedes the
+/// path, as when a user draws.
 fn template(variant: usize, version: Version) -> Template {
     let mut room = Surroundings::of(variant);
     hatch(&mut room);
@@ -386,7 +386,7 @@ const BLOCK_BYTES: usize = 500;
 /// Estimated size of a hatch line in bytes.
 const HATCH_LINE_BYTES: usize = 167;
 
-/// Estimated size of a drawing in bytes in R2000, precise to a few per cent.
+/// Estimates the size of a drawing in bytes in R2000, precise to a few per cent.
 fn estimate<'a>(layers: usize, blocks: usize, entities: impl Iterator<Item = &'a Entity>) -> usize {
     EMPTY_DRAWING_BYTES + LAYER_BYTES * layers + BLOCK_BYTES * blocks + entities.map(entity).sum::<usize>()
 }

@@ -18,7 +18,7 @@ use usvg::{FillRule, Group, LineCap, LineJoin, Node, Paint, PaintOrder, Path, St
 /// Points of PDF per px of SVG.
 const POINTS_PER_PX: f32 = 72.0 / 96.0;
 
-/// Distance in px up to which a glyph counts as continuing the previous run.
+/// Distance in px up to which a glyph is considered to continue the previous run.
 const GLYPH_TOLERANCE: f32 = 0.02;
 
 /// Resource name of the font within the document.

@@ -56,7 +56,7 @@ impl OpenedFiles {
             reporter: Arc::new(SilentReporter),
             is_date_decisive: Arc::default(),
         };
-        // Leaked because it lives as long as the instance: to open other files, the page starts a new instance.
+        // Leak the workspace, because it lives as long as the instance: to open other files, the page starts a new instance.
         let workspace: &'static Workspace = Box::leak(Box::new(workspace));
         let posts = BUILT_IN.iter().map(|post| json!({ "name": post.name, "for": post.description }));
         let posts: Value = posts.collect();

@@ -309,7 +309,7 @@ impl Context {
     }
 }
 
-/// Converts the findings of a request to the library, and those that are accepted, for rendering.
+/// Converts the reported and the accepted findings of a request to the library, for rendering.
 pub(crate) fn for_rendering(findings: Vec<Finding>, accepted: Vec<Finding>) -> Findings {
     let diagnostics = findings.into_iter().map(|finding| finding.into_parts().0);
     let waived = accepted.into_iter().map(|finding| {

@@ -169,7 +169,7 @@ struct ClosureWalk<'db> {
     is_full: bool,
 }
 
-/// The most serious error of a path and everything that it embeds. It decides whether a path that embeds it reports an error of its own.
+/// The most serious error of a path and everything that it embeds. It decides whether an embedding path reports an error of its own.
 #[derive(Clone, Copy, PartialEq)]
 enum PathErrors<'db> {
     /// Neither the path nor anything that it embeds has errors.
@@ -556,7 +556,7 @@ pub enum Destination<'db> {
 }
 
 impl<'db> Closure<'db> {
-    /// Returns all embeddings, path by path in the order in which paths are reached, segment by segment.
+    /// Returns all embeddings, ordered by path as first reached, then by segment.
     pub fn edges(&self, db: &'db dyn Db) -> Vec<Edge<'db>> {
         let of_path =
             |from: Instance<'db>| embeds(db, from).iter().map(move |embedding| edge(from, embedding));

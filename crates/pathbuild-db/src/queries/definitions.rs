@@ -67,7 +67,7 @@ fn ambiguous<'a>(
     directories.into_iter().filter_map(move |from| {
         let search = Settings::get(db).search(db);
         let is_searched = |at: &Utf8Path| at == from || search.iter().any(|searched| searched == at);
-        // A file that is reached under two names counts once.
+        // Keep a file that is reached under two names only once.
         let mut seen = FxHashSet::default();
         let mut found = files
             .iter()

@@ -222,7 +222,7 @@ impl FileIndex {
             }
         };
         let path = |(raw, _): (RawPath, _)| PathIndex::new(db, &raw, ends, &mut add_cuts);
-        // Pushed one by one: `collect` would keep the raw paths' allocation.
+        // Push the paths one by one: `collect` would keep the raw paths' allocation.
         let mut paths: Vec<PathIndex> = Vec::with_capacity(raw.paths.len());
         paths.extend(raw.paths.into_iter().map(path));
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
@@ -252,7 +252,7 @@ impl FileIndex {
         self
     }
 
-    /// Adds the clamps. Their faults count as faults of the drawing.
+    /// Adds the clamps, and their faults to the drawing's diagnostics.
     fn with_keep_outs(mut self, keep_outs: Option<KeepOuts>) -> Self {
         self.diagnostics.extend(keep_outs.iter().flat_map(|found| found.problems.iter().cloned()));
         self.keep_outs = keep_outs.map(Arc::new);
@@ -477,7 +477,7 @@ pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FileParts {
     pub(super) parts: Vec<Part>,
-    /// The cuts of the paths with example values, as far as they are known, in order of name. Without parts, only those of paths that embed
+    /// The known cuts of the paths with example values, in order of name. If the drawing has no parts, only the cuts of paths that embed
     /// others.
     pub(super) cuts: Vec<PathCuts>,
     /// Whether the cuts of all the drawing's paths are known.
@@ -485,7 +485,7 @@ pub(super) struct FileParts {
 }
 
 impl FileParts {
-    /// Index of a path in [`FileParts::cuts`].
+    /// Returns the index of a path in [`FileParts::cuts`].
     pub(super) fn index_of_path(&self, name: &PathName) -> Option<usize> {
         self.cuts.binary_search_by(|cuts| (*cuts.name).cmp(name)).ok()
     }

@@ -29,7 +29,7 @@ pub struct PlacedKeepOut {
     pub occurrence: u32,
 }
 
-/// Returns the clamps around the program of a target, from all its drawings. Duplicates at the same place count once. Empty without a program.
+/// Returns the clamps around the program of a target, from all its drawings. Duplicates at the same place are returned once. Empty without a program.
 pub fn placed_keep_outs(db: &dyn Db, target: Target) -> Vec<PlacedKeepOut> {
     program_with_keep_outs(db, target).map(|traced| compute_placed_keep_outs(db, traced)).unwrap_or_default()
 }

@@ -127,7 +127,7 @@ pub fn resolve_path<'db>(db: &'db dyn Db, directory: Directory, name: NameKey<'d
     let defines = |file: &&SourceFile| path_index(db, **file, name).is_some();
     let mut files: Vec<SourceFile> = searched.iter().filter(defines).copied().collect();
     if files.len() > 1 {
-        // A file that is reached under two names counts once.
+        // Keep a file that is reached under two names only once.
         let mut seen = FxHashSet::default();
         files.retain(|file| seen.insert(db.system().canonical(file.path(db))));
     }

@@ -78,7 +78,7 @@ struct PlacedPath<'db> {
     parent: Option<(usize, &'db Origin)>,
 }
 
-/// Distance in mm below which two placements of one drawing count as the same, because its paths were embedded together.
+/// Distance in mm below which two placements of one drawing are considered equal, because its paths were embedded together.
 const PLACEMENT_TOLERANCE: f64 = 0.01;
 
 /// Whether two placements of one drawing are the same.

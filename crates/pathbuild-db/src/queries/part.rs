@@ -83,8 +83,8 @@ pub(super) fn part_problems<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'
     if is_example(db, instance) { &findings.of_paths[place] } else { part_problems_with_values(db, instance) }
 }
 
-/// Returns the findings about a path with its values, and those about other paths of the drawing that its values cause: a part that they leave loose
-/// is reported in the first of the paths that cut it out.
+/// Returns the findings about a path with its values, and those about other paths of the drawing that its values cause: a part that becomes loose is
+/// reported in the first of the paths that cut it out.
 #[salsa::tracked]
 fn part_problems_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Diagnostic> {
     let (Some((findings, place)), Some(example)) =

@@ -94,7 +94,7 @@ pub fn drawn_path<'db>(db: &'db dyn Db, file: SourceFile, name: &PathName) -> Op
 }
 
 /// Returns the effective parameters of each element of a path for these variable values. S is the same as in [`traced_program`]: a path that has
-/// variables or lacks an option counts as embedded.
+/// variables or lacks an option is treated as embedded.
 pub fn effective_parameters(
     db: &dyn Db,
     file: SourceFile,
@@ -118,7 +118,7 @@ pub fn remaining_layers(db: &dyn Db, file: SourceFile) -> Arc<Drawing> {
     Arc::new(read_layers(db, file, &is_other))
 }
 
-/// The paths of a closure without errors, in the form in which the fold accesses them.
+/// The paths of a closure without errors, as the fold accesses them.
 pub(super) struct ClosurePaths<'db> {
     pub(super) db: &'db dyn Db,
 }

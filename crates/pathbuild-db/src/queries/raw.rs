@@ -56,7 +56,7 @@ pub struct FileContents {
 /// A raw path and the source map of its elements.
 #[derive(Clone, Debug)]
 pub(super) struct PathEntry {
-    /// Shared with the per-path query, so that either can be evicted alone.
+    /// The raw path, shared with the per-path query, so that either can be evicted alone.
     pub(super) raw: Arc<RawPath>,
     pub(super) map: SourceMap,
 }

@@ -7,8 +7,8 @@ use crate::world::{World, dxf};
 
 const FILE: &str = "lib/1111.1P.dxf";
 
-/// Returns the codes of the located findings, whether there is a program, and the number of rounds. Repeats the work as long as drawings have
-/// changed meanwhile.
+/// Returns the codes of the located findings, whether there is a program, and the number of rounds. Repeats the work until no drawing has
+/// changed in the meantime.
 fn settled(world: &mut World, role: &Role) -> (Vec<String>, bool, u32) {
     let mut rounds = 0;
     loop {

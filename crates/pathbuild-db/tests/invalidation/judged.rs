@@ -48,7 +48,7 @@ fn the_sweep_height_of_a_role_is_checked() {
     assert_eq!(checked("20", Role::Emitted), ["PB203"]);
 }
 
-/// If a path has an S, heights that H adds are checked in any role; otherwise only if S is given elsewhere.
+/// Heights that H adds are checked in any role if the path has an S, otherwise only if S is given elsewhere.
 #[test]
 fn what_h_raises_is_checked_where_a_path_embeds_nothing() {
     let checked = |s: &str, h: &str| {

@@ -76,7 +76,7 @@ fn a_notch_that_a_closed_contour_passes_is_left() {
     assert!((length - 4.0).abs() < 0.01, "{}", left[0].text(Lang::En));
 }
 
-/// Two cuts in line leave a bridge between them, whatever digits the rotation of the drawing gives them.
+/// Two cuts in line leave a bridge between them, even if the rotation of the drawing makes their coordinates inexact.
 #[test]
 fn a_bridge_holds_a_part_at_any_angle() {
     let turned = |degrees: f64, gap: f64| {
@@ -536,7 +536,7 @@ fn a_hole_that_the_part_lacks_is_a_gouge() {
     assert!((number(found, "depth") - 6.0).abs() < 1e-6, "{found:?}");
 }
 
-/// Of two circles inside each other, such as a hole and its thread, the path must cut only one, whichever it is.
+/// If one circle is inside another, as for a hole and its thread, the path must cut only one of them, whichever it is.
 #[test]
 fn of_rings_in_each_other_one_must_be_cut() {
     let drawing = plate("bars") + "circle 31,13 d 5\n";
@@ -752,7 +752,7 @@ fn a_part_is_loose_wherever_the_ring_runs() {
     assert!(!codes(&drawing("sweep")).contains(&"PB217".to_owned()));
 }
 
-/// Bars within a ring that is milled all round only hold the part to material that comes loose itself, however far away the ring is.
+/// Bars within a ring that is milled all round connect the part only to material that comes loose itself, however far away the ring is.
 #[test]
 fn bars_within_a_closed_ring_hold_nothing() {
     let drawing = |last: &str| {

@@ -10,7 +10,7 @@ messages! {
         help_en: "check the file's name, or write a new configuration with `pathbuild init`",
         help_de: "den Dateinamen prüfen oder mit `pathbuild init` eine neue Konfiguration schreiben",
     }
-    /// A configuration that is not valid TOML; the reason is that of the parser.
+    /// A configuration that is not valid TOML, with the parser's reason.
     TOML_SYNTAX: InvalidConfiguration {
         en: "this is not valid TOML: {reason}",
         de: "das ist kein gültiges TOML: {reason}",

@@ -50,7 +50,7 @@ messages! {
         help_en: "draw some segments of its outline with support bars (BORDER), or set part-held = \"otherwise\" if tape or vacuum holds it",
         help_de: "einige Segmente seines Umrisses mit Stützstegen (BORDER) zeichnen oder part-held = \"otherwise\" setzen, wenn Klebeband oder Vakuum es hält",
     }
-    /// A part that is held after the cuts of its own path, but not after those of another one.
+    /// A part that is held after the cuts of its own path, but loose after the cuts of another path.
     SEVERED_PART: LoosePart {
         en: "after this cut, nothing holds the part of path {other} whose outline begins at {place}: it meets the cuts between the support bars",
         de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {place} beginnt: er trifft auf die Schnitte zwischen den Stützstegen",

@@ -268,7 +268,7 @@ fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<Vec<Curv
 fn ray(curve: &impl Curve, parameter: f64, inwards: f64) -> Option<Ray> {
     /// Distance, as a fraction of the span, of the point inside the span that gives the direction.
     const STEP: f64 = 1e-3;
-    /// Derivatives shorter than this fraction of the difference quotient count as zero.
+    /// Derivatives shorter than this fraction of the difference quotient are treated as zero.
     const ZERO_DERIVATIVE: f64 = 1e-6;
     let (point, derivative) = curve.at(parameter);
     let way = curve.at(parameter + inwards * STEP).0.minus(point).times(1.0 / (inwards * STEP));

@@ -23,7 +23,7 @@ pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Polyline, EntityErr
     let z = fields.number(38)?.unwrap_or(0.0);
     let mut corners: Vec<Corner> = Vec::new();
     let mut has_y = true;
-    // The constant width only counts if no vertex has one.
+    // The constant width applies only if no vertex has a width of its own.
     let mut is_wide = None;
     for pair in &fields.repeated {
         let number = repeated_number(pair)?;
@@ -123,7 +123,7 @@ const POLYFACE_FLAG: i64 = 64;
 /// Flag of a VERTEX (group 70).
 const FRAME_POINT_FLAG: i64 = 16;
 
-/// Largest bulge that counts as straight: over a chord of one metre it is 5 nm high, and the radius would be too large to be accurate.
+/// Largest bulge that is treated as straight: over a chord of one metre it is 5 nm high, and the radius would be too large to be accurate.
 const MAX_LINE_BULGE: f64 = 1e-8;
 
 /// Height in mm over the chord up to which an arc may become a line if its centre is too far away: the difference is invisible in printed

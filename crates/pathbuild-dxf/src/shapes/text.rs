@@ -194,7 +194,7 @@ fn append_command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usiz
     };
     let short = 1 + letter.len_utf8();
     match letter {
-        // `\N` starts a new column, which counts as a new line.
+        // `\N` starts a new column, which is read as a new line.
         'P' | 'X' | 'N' => plain.push('\n'),
         '~' => plain.push('\u{a0}'),
         '\\' | '{' | '}' => plain.push(letter),

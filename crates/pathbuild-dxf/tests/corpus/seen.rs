@@ -22,7 +22,7 @@ pub(crate) struct Seen {
     pub(crate) numbers: Vec<f64>,
 }
 
-/// Maximum difference of numbers that count as equal. The oracle gives nine decimals.
+/// Maximum difference between numbers that are considered equal. The oracle gives nine decimals.
 const NEAR: f64 = 2e-9;
 
 impl Seen {

@@ -1,4 +1,4 @@
-//! Tests that only those LAYER records are read that may belong to a wanted layer; problems of all others are ignored. (book: reference/dxf)
+//! Tests that only LAYER records that may belong to a wanted layer are read; problems of all others are ignored. (book: reference/dxf)
 
 use std::time::{Duration, Instant};
 

@@ -529,7 +529,7 @@ pub struct MText {
     pub height: f64,
     /// The point of the text that lies at the anchor.
     pub attachment: Attachment,
-    /// The rotation, in the form in which it is written.
+    /// The rotation, as an angle or a vector.
     pub direction: Direction,
     /// Maximum length in characters of a chunk: longer texts are split, and all chunks but the last are in groups 3. `None` for 250, as in CAD
     /// programs.
@@ -553,7 +553,7 @@ pub enum Attachment {
     BottomRight,
 }
 
-/// The form in which the direction of an MTEXT is written.
+/// The direction of an MTEXT, as it is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction {
     /// A rotation in degrees (group 50).

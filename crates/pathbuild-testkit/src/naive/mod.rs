@@ -238,7 +238,7 @@ impl Finding {
     }
 
     /// Removes the names of the paths in a cycle: each embedding that leads into the cycle finds it again, starting with another path, but
-    /// it counts once.
+    /// it is reported once.
     fn without_chain(mut self) -> Self {
         if self.code == "PB509" {
             self.words.clear();

@@ -18,7 +18,7 @@ fn samples(shape: &Shape) -> Vec<(f64, f64)> {
                 .map(|(sin, cos)| (arc.centre.x + arc.radius * cos, arc.centre.y + arc.radius * sin))
                 .collect()
         }
-        // A text may also overlap a circle from inside, so the whole disc counts.
+        // A text may also overlap a circle from inside, so sample the whole disc.
         Shape::Circle(circle) => {
             let rings = (0..=20).map(|i| circle.radius * f64::from(i) / 20.0);
             let around = |r: f64| (0..72).map(move |i| (r, libm::sincos(f64::from(i * 5).to_radians())));

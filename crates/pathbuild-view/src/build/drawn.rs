@@ -74,7 +74,7 @@ impl ScenePath {
     }
 }
 
-/// An element in the form in which texts refer to it: its position in the file, and its shape as drawn.
+/// An element as texts refer to it: by its position in the file and its shape as drawn.
 type LocatedShape = (Option<Position>, DrawnShape);
 
 struct ElementBuilder<'a> {

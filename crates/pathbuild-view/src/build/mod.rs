@@ -68,7 +68,7 @@ impl Places<'_> {
     }
 }
 
-/// Distance in mm up to which two points count as the same.
+/// Distance in mm up to which two points are considered the same.
 const POINT_TOLERANCE: f64 = 1e-6;
 
 /// Whether findings with this code are about an element as a whole. Other findings about elements have a place of their own, such as the

@@ -241,7 +241,7 @@ pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
 // A post may write other rapid moves than the native program, cycles for holes, and several lines for a move. Therefore the moves of a
 // program are matched with lines of its text by the ends of moves.
 
-/// Distance in mm up to which two ends count as the same. It is larger than the rounding error of inches with four decimals.
+/// Distance in mm up to which two ends are considered the same. It is larger than the rounding error of inches with four decimals.
 const PLACE_TOLERANCE: f64 = 0.006;
 
 /// Maximum number of moves in the text that are searched for the end of one move.

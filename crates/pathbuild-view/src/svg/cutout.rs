@@ -22,7 +22,7 @@ const MIN_GAP_EXTENT: f64 = 4.0;
 /// Radius in px of the circle that marks the place.
 const CIRCLE_RADIUS: f64 = 17.0;
 
-/// Distance in mm from the circle of a text up to which a finding counts as one about the text, so that the circle is drawn.
+/// Distance in mm from a text's circle up to which a finding is considered to be about the text, so that the circle is drawn.
 const LABEL_DISTANCE: f64 = 1.0;
 
 /// Number of a drawing's first paths that are included even if they have no elements nearby. Including all of them would put thousands into

@@ -163,7 +163,7 @@ fn draw_rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, sho
     }
 }
 
-/// Draws a small triangle near the middle of a move, pointing in its direction. A short move gets none.
+/// Draws a small triangle at three fifths of a move, pointing in its direction. A short move gets none.
 fn draw_arrow(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, color: &str) {
     let (before, at) = (place.to_page(along(movement, 0.59)), place.to_page(along(movement, 0.61)));
     let [dx, dy] = [at[0] - before[0], at[1] - before[1]];

@@ -35,7 +35,7 @@ const EDGE_WIDTH: f64 = 0.7;
 /// Number of steps into which the deepest slope is divided. Each step has one colour.
 const SLOPE_STEPS: f64 = 64.0;
 
-/// Length of the pieces in which rapid moves are searched for material, in diameters of the cutter.
+/// Length, in cutter diameters, of the pieces of a rapid move that are checked for material.
 const SEARCH_PIECE: f64 = 0.25;
 
 /// Maximum number of pieces of a rapid move.
@@ -669,7 +669,7 @@ fn corner_reach([x, y]: Point, [next_x, next_y]: Point) -> Option<f64> {
         .then(|| (-across / (norm + along).max(SMOOTH_SINE * norm)).min(MAX_CORNER_REACH))
 }
 
-/// Sine of the largest turn at which an outline still counts as smooth.
+/// Sine of the largest turn at which an outline is still considered smooth.
 const SMOOTH_SINE: f64 = 0.01;
 
 /// Maximum extent of a corner, in radii of the cutter.

@@ -66,8 +66,8 @@ impl<'a> Facts<'a> {
         }
     }
 
-    /// Working time in whole minutes, computed as by PathDxf2GCode (book: program/gcode). If the rapid feed is unknown, only cutting moves
-    /// are included. `None` if a cutting move has no feed, or if the moves of a line are unknown.
+    /// Returns the working time in whole minutes, computed as by PathDxf2GCode (book: program/gcode). If the rapid feed is unknown, only cutting
+    /// moves are included. `None` if a cutting move has no feed, or if the moves of a line are unknown.
     fn minutes(&self) -> Option<f64> {
         let total = &self.summary.total;
         let minutes = self.rapid.map_or(total.cutting(), |rapid| total.sum(rapid)).minutes();

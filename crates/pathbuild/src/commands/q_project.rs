@@ -195,7 +195,7 @@ fn is_drawn_by_user(session: &Session<'_>, output: &Utf8Path, bytes: &[u8]) -> b
     is_there && !system.read(output, limit).is_ok_and(|old| is_unedited(&old, bytes))
 }
 
-/// Whether `old` is as q-project wrote it. `new` is what it writes now.
+/// Whether `old` is unchanged since q-project wrote it. `new` is the drawing that q-project writes now.
 fn is_unedited(old: &[u8], new: &[u8]) -> bool {
     let Some(rest) = old.strip_prefix(Q_PROJECT_MARK) else {
         // The first versions wrote no mark.

@@ -44,7 +44,7 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
     context.conclude(problems)
 }
 
-/// A text, or the parameters of an element, in the form in which it is printed.
+/// A text, or the parameters of an element, as printed.
 enum OutputItem {
     /// A row of the JSON document: its type and its values.
     Row(&'static str, Json),
@@ -73,7 +73,7 @@ fn texts(
         };
         let name = file.path(db).as_str();
         let of_whole = path.is_none().then(|| path_names(db, file)).into_iter().flatten();
-        // If texts are searched, the tables of parameters are not shown.
+        // With `--match`, the tables of parameters are not shown.
         let paths = of_whole.chain(path).filter(|_| pattern.is_none());
         shown.extend(assigned_texts(db, file).iter().filter(is_wanted).map(|text| match context.format {
             Format::Json => OutputItem::Row("text", object(&context.file(file.path(db)), text)),

@@ -64,7 +64,7 @@ pub(super) enum Subject {
     Program(DroppedProgram),
 }
 
-/// The form in which a drawing or path is returned.
+/// The form of an answer about a drawing or path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum AnswerForm {
     /// A scene as JSON.

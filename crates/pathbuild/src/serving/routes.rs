@@ -39,10 +39,10 @@ pub(super) struct Routes {
     pages: watch::Sender<usize>,
 }
 
-/// Time within which a page must reconnect, for example after it was reloaded, before it counts as closed.
+/// Time within which a page must reconnect, for example after it was reloaded, before it is considered closed.
 const RECONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
-/// Time that a browser may take to start before the page counts as closed.
+/// Time that a browser may take to start before the page is considered closed.
 const BROWSER_START_TIMEOUT: Duration = Duration::from_secs(90);
 
 impl Routes {
