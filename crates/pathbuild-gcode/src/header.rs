@@ -380,8 +380,8 @@ impl Collector {
         }
     }
 
-    /// Reports listed tools to which the program never changes; if it changes to none of them, only the first one. Nothing is reported for a program
-    /// without tool changes, which leaves the choice of the tool to the operator.
+    /// Reports each listed tool to which the program never changes, or only the first one if it changes to none of them. Nothing is reported for a
+    /// program without tool changes, which leaves the choice of the tool to the operator.
     fn report_unselected_tools(&mut self, changes: &[(u32, u32)]) {
         let is_used = |number: &u32| changes.iter().any(|(_, change)| change == number);
         let most = match changes {

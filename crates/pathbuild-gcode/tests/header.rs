@@ -54,7 +54,7 @@ fn free_text_states_nothing() {
         "18 FLAT CARBIDE ENDMILL",
         "1001 - 1/4\" Facing 6mm",
         "bracket_6mm_D=6.nc",
-        // These comments have another key, no diameter, or no value.
+        // These comments have an unknown key, no diameter, or no value.
         "T1 DIA=6 CR=0 - flat end mill",
         "T1 D=0 CR=0 - ZMIN=4 - laser cutter",
         "T1 D=6 - ZMIN=4 - flat end mill",

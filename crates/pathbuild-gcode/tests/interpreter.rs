@@ -1451,7 +1451,7 @@ fn calls_that_cannot_be_followed_are_reported() {
         assert_eq!(unfollowed(Mach3, program), 1, "{program}");
     }
     assert_eq!(unfollowed(Fanuc, "O7\nG0 X1.\nM98 P7\nM30"), 1, "the main program");
-    // A subprogram that is never called is text after the end of the program.
+    // A subprogram that is never called is treated as text after the end of the program.
     assert_eq!(wrong_of(Mach3, "M30\nO5\nG0 X1\nM99").len(), 1);
 }
 

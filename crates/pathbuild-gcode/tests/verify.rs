@@ -704,7 +704,7 @@ fn each_work_offset_of_unknown_place_fits_into_the_travel() {
     assert_eq!(run("G55\nG0 X390\nG54\nG0 X-200"), (true, vec![]));
     assert_eq!(run("G55\nG0 X390\nG0 X-11"), (true, vec!["6 outside-machine".to_owned()]));
     assert_eq!(run("G0 X390\nG0 X-11"), (false, vec!["5 outside-machine".to_owned()]));
-    // G10 states both places, so the moves are in the same coordinates.
+    // G10 sets both origins, so the moves are in the same coordinates.
     let stated = |program: &str| run_after("\nG10 L2 P1 X0 Y0 Z0\nG10 L2 P2 X350 Y0 Z0", program);
     assert_eq!(stated("G55\nG0 X50"), (false, vec![]));
     assert_eq!(stated("G55\nG0 X51"), (false, vec!["7 outside-machine".to_owned()]));

@@ -472,7 +472,8 @@ fn format_values(values: &Bindings) -> String {
 
 /// The state of files at an earlier time, such as a Git revision.
 pub trait EarlierFiles: Debug {
-    /// Returns, for each file, whether it has changed since that time or did not exist then. Files about which nothing is known count as changed.
+    /// Returns, for each file, whether it has changed since that time or did not exist then. Files about which nothing is known are reported as
+    /// changed.
     fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool>;
 
     /// Returns the file names of the drawings that the directory contained at that time.

@@ -25,7 +25,7 @@ pub struct ExtraInput {
     pub hash: Option<[u8; 32]>,
 }
 
-/// Whether this name exists and is not a directory. An unreadable file counts too; the attempt to read it reports the error.
+/// Whether this name exists and is not a directory. Also true for an unreadable file: the attempt to read it reports the error.
 pub fn is_file_name_taken(file: &Utf8Path) -> bool {
     file.as_std_path().metadata().is_ok_and(|data| !data.is_dir())
 }

@@ -137,7 +137,7 @@ impl Fingerprint {
         Self::with_places(diagnostics, &|file| file.file_name().unwrap_or_default().to_owned())
     }
 
-    /// Returns the fingerprints of findings, in the order of the findings. `place` returns the name of a file as it enters the fingerprint.
+    /// Returns the fingerprints of findings, in the order of the findings. `place` returns the name of a file to use in the fingerprint.
     pub(crate) fn with_places(diagnostics: &[Diagnostic], place: &dyn Fn(&Utf8Path) -> String) -> Vec<Self> {
         let mut met: BTreeMap<u128, u32> = BTreeMap::new();
         let mut fingerprint = |diagnostic: &Diagnostic| {

@@ -38,7 +38,7 @@ pub enum EntryKind {
     File,
     /// A symbolic link.
     Link,
-    /// A submodule, that is, another repository, of which only the commit is known.
+    /// A submodule: another repository, of which only the commit is known.
     Submodule,
 }
 
@@ -89,8 +89,8 @@ const OPTIONS: [&str; 10] = [
 ];
 
 impl<'a> Repository<'a> {
-    /// Returns the repository that contains a place: the nearest directory at or above it with a `.git`. If there is none, Git itself will
-    /// report the error.
+    /// Returns the repository that contains a file or directory: the nearest directory at or above it with a `.git`. If there is none, Git itself
+    /// will report the error.
     ///
     /// # Errors
     /// The repository is untrusted, and its `.git` refers to a directory outside.

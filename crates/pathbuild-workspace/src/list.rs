@@ -382,7 +382,7 @@ pub struct Stats {
     pub cutters: BTreeMap<Option<u64>, Total>,
 }
 
-/// Totals of some paths. Paths with errors count, but add no length.
+/// Totals of some paths. Paths with errors are counted, but add no length.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Total {
     /// Number of paths.

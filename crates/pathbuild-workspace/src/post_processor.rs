@@ -440,7 +440,7 @@ fn entry(tool: &types::Tool) -> ToolEntry {
 }
 
 /// Adds the table's data about tools to the operations of a job. The job's own spindle, speed and coolant take precedence; without them, the spindle
-/// stands still while probing and in a program that cuts nothing. Warns about unknown tool numbers.
+/// is stopped while probing and in a program that cuts nothing. Warns about unknown tool numbers.
 pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
     let (mut unknown, mut reported) = (Vec::new(), FxHashSet::default());
     let mut entries: FxHashMap<u32, &ToolEntry> = FxHashMap::default();

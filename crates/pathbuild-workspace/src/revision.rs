@@ -58,7 +58,7 @@ impl<'a> RevisionFiles<'a> {
             // Git for Windows checks symbolic links out as plain files.
             EntryKind::Link if cfg!(unix) => self.links.insert(file, id),
             EntryKind::File | EntryKind::Link => self.files.insert(file, id),
-            // The contents of a submodule are unknown: all its files count as new.
+            // The contents of a submodule are unknown: all its files are treated as new.
             EntryKind::Submodule => None,
         };
     }
@@ -73,7 +73,7 @@ impl<'a> RevisionFiles<'a> {
         Some(with_forward_slashes(real.strip_prefix(&self.repository.root).ok()?.to_owned()))
     }
 
-    /// Returns the real path of a file and its blob id in the revision; `None` if the file must count as changed.
+    /// Returns the real path of a file and its blob id in the revision; `None` if the file must be treated as changed.
     fn file_in_revision(&self, file: &Utf8Path) -> Option<(Utf8PathBuf, &str)> {
         let real = self.real(file);
         let id = self.files.get(&self.below_root(&real)?)?;
@@ -111,7 +111,7 @@ impl<'a> RevisionFiles<'a> {
 
     fn changed_link(&self) -> Option<Utf8PathBuf> {
         let ids: Vec<&str> = self.links.values().map(String::as_str).collect();
-        // A target that cannot be read counts as changed.
+        // A target that cannot be read is treated as changed.
         let targets = self.repository.targets(&ids).unwrap_or_else(|_| vec![None; ids.len()]);
         let mut links = self.links.keys().map(|link| self.repository.root.join(link)).zip(targets);
         let is_same = |link: &Utf8Path, target: Option<&str>| {
@@ -160,7 +160,7 @@ impl EarlierFiles for RevisionFiles<'_> {
     }
 }
 
-/// Returns the place that determines the repository: the root of an untrusted tree; otherwise the first file or directory among the
+/// Returns the file or directory that determines the repository: the root of an untrusted tree; otherwise the first file or directory among the
 /// arguments, the configuration's directory, or the working directory.
 fn repository_place(workspace: &Workspace, inputs: &Inputs) -> Utf8PathBuf {
     if let Some(confined) = &workspace.settings.confined {

@@ -198,8 +198,8 @@ struct LoggedHeight<'a> {
     place: [f64; 3],
 }
 
-/// Assigns the results of a log to the probes in the order of their numbers, in which the probing program probes: there must be one result per probe.
-/// A probe that has a value keeps it, and a different result is an error.
+/// Assigns the results of a log, which must contain one per probe, to the probes in the order of their numbers: the probing program probes in this
+/// order. A probe that already has a value keeps it, and a different result is an error.
 pub(super) fn fill_from_log<'a>(
     probes: &mut [ProbeLine<'a>],
     values: Source<'_>,

@@ -34,7 +34,7 @@ pub struct InertWord {
     pub values: &'static [u8],
     /// Harmless values of the first letter in `values`; empty if every value is harmless.
     pub harmless: &'static [f64],
-    /// Letters of which the word needs one; empty if it needs none.
+    /// Letters, at least one of which the word needs; empty if it needs none.
     pub needs: &'static [u8],
 }
 

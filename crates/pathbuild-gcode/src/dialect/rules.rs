@@ -115,7 +115,7 @@ pub enum UnitChange {
     Converts,
     /// The values keep their numbers, or the effect is not known.
     Unknown,
-    /// The control refuses any other unit than the one that it is set to.
+    /// The control refuses any unit other than the one that it is set to.
     Refused,
 }
 
@@ -497,7 +497,7 @@ const ISO: Rules = Rules {
 
 pub(super) static FANUC: Rules = Rules {
     dialect: Dialect::Fanuc,
-    // From memory of the operator's manual: `/1` to `/9` are optional block skips of their own; Custom Macro B.
+    // From memory of the operator's manual: `/1` to `/9` are optional block skips of their own; the control has Custom Macro B.
     spelling: Spelling { slash_numbers: true, macros: true, ..BASE_SPELLING },
     words: &codes::FANUC,
     dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"X", counts_turns: false },
@@ -719,7 +719,7 @@ pub struct Grammar {
     pub o_words: bool,
 }
 
-/// The precedence of operators, from those that bind tightest. All are left-associative.
+/// The precedence of operators, listed from those that bind tightest. All are left-associative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operators {
     /// `**`, then `* / MOD`, then `+ - AND OR XOR`.

@@ -39,7 +39,7 @@ pub(super) struct Runner<'r, 'i> {
     /// The start of each subprogram of the file; determined at the first call.
     definitions: Option<HashMap<SubprogramName, Definition>>,
     active: Vec<SubprogramName>,
-    /// The loops with a condition that the current subprogram is executing.
+    /// The `while` and `do` loops that the current subprogram is executing.
     loops: Vec<OpenLoop>,
     /// The name of the loop that `break` or `continue` leaves.
     left: Box<str>,
@@ -240,7 +240,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Runs the lines up to the end of a `while` loop as long as its condition holds. The condition is in the line after the place `condition`.
+    /// Runs the lines up to the end of a `while` loop as long as its condition holds. The condition is in the line that follows `condition`.
     fn repeat_while(
         &mut self,
         reader: &mut BlockReader<'_>,
@@ -306,7 +306,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         outcome
     }
 
-    /// Tests the condition in the line after the place `condition`. Returns true if another pass of the loop follows.
+    /// Tests the condition in the line that follows the place `condition`. Returns true if another pass of the loop follows.
     fn loop_continues(
         &mut self,
         reader: &BlockReader<'_>,

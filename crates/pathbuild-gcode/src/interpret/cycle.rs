@@ -80,7 +80,7 @@ impl Interpreter<'_> {
         self.rules.stores_cycles && repeats.is_some_and(|slot| slot.value == 0.0)
     }
 
-    /// Stores the values of the cycle, and moves to the place in the line without drilling there.
+    /// Stores the values of the cycle, and moves to the position in the line without drilling there.
     fn pass_over_hole(&mut self, block: &Block<'_>, coordinates: [Option<Slot>; 3]) {
         self.words.values.take(self.rules.repeats);
         let height = self.retract_height();

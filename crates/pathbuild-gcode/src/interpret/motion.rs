@@ -348,7 +348,7 @@ impl Interpreter<'_> {
             } else if system.is_none_or(|system| system == self.state.offsets.active)
                 && !self.state.position.known.has(Axes::of(axis))
             {
-                // After a probe, only the machine knows where the tool is; from here on the program counts from there.
+                // After a probe, only the machine knows where the tool is. From here on, coordinates are relative to that position.
                 self.set_origin(axis, coordinate);
             } else {
                 let here = self.state.position.at[axis];
@@ -453,7 +453,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Sets the coordinate of the current position. A position that was unknown becomes known, because the program counts from it.
+    /// Sets the coordinate of the current position. A position that was unknown becomes known, because coordinates are relative to it from here on.
     fn set_origin(&mut self, axis: usize, coordinate: f64) {
         self.mark_axis_stated(axis);
         let position = &mut self.state.position;

@@ -284,7 +284,7 @@ impl Offsets {
         }
     }
 
-    /// Returns the program's first system if the place of this system relative to it is known, otherwise this system.
+    /// Returns the program's first system if the position of this system relative to the first is known, otherwise this system.
     pub(super) fn frame(&self, system: WorkSystem) -> WorkSystem {
         self.first.filter(|_| self.is_placed(system)).unwrap_or(system)
     }
@@ -394,7 +394,7 @@ pub struct Options {
     pub absolute_arc_centres: bool,
     /// XpertMILL: whether F is ignored, so that the feeds of the layers apply.
     pub ignore_feed: bool,
-    /// Mach3: whether the machine counts P of G4 in milliseconds.
+    /// Mach3: whether P of G4 is in milliseconds.
     pub milliseconds: bool,
 }
 

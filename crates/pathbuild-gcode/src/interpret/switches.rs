@@ -73,7 +73,7 @@ impl Interpreter<'_> {
         let turning = self.words.m_code(SPINDLE).and_then(|(code, _)| match code {
             30 => Some(Turning::Clockwise),
             40 => Some(Turning::CounterClockwise),
-            // M19 stops the spindle at an angle, where it stands until M3 or M4.
+            // M19 stops the spindle at an angle, where it stays until M3 or M4.
             50 | 190 => Some(Turning::Off),
             _ => None,
         });
@@ -393,7 +393,7 @@ impl Interpreter<'_> {
         if slot.value < 0.0 {
             return self.report_out_of_range(block, "S", slot, &limits::NOT_NEGATIVE);
         }
-        // XpertMILL starts the spindle of a layer by the layer's S, and has no M5: S0 would cut with the spindle at rest.
+        // XpertMILL starts the spindle of a layer by the layer's S, and has no M5: with S0, the tool would cut with the spindle stopped.
         if self.rules.layers && slot.value == 0.0 {
             return self.report_out_of_range(block, "S", slot, &limits::POSITIVE);
         }
@@ -468,14 +468,14 @@ impl Interpreter<'_> {
         per_minute
     }
 
-    /// Reports the use of an F that was stated before the unit changed; once, until the next F.
+    /// Reports the use of an F that was stated before the unit changed, at most once until the next F.
     fn check_unit_of_feed(&mut self, block: &Block<'_>) {
         let Some(stated) = self.state.feed_stated.filter(|stated| self.may_misread(*stated)) else { return };
         self.state.feed_stated = None;
         self.report_other_unit(block, &say::FEED_IN_OTHER_UNIT, stated, |d| d);
     }
 
-    /// Reports a move that counts from an offset stated before the unit changed; once, until the next offset.
+    /// Reports a move that is affected by an offset stated before the unit changed, at most once until the next offset.
     pub(super) fn check_unit_of_shift(&mut self, block: &Block<'_>) {
         let Some(stated) = self.state.shift_stated.filter(|stated| self.may_misread(*stated)) else { return };
         self.state.shift_stated = None;

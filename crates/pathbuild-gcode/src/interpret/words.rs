@@ -266,7 +266,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Parameters in which a control of RS274 keeps the places of G28, G30, G92 and the coordinate systems.
+/// Parameters in which RS274 controls store the positions of G28, G30, G92 and the coordinate systems.
 const MACHINE_PLACES: std::ops::RangeInclusive<u32> = 5161..=5390;
 
 /// Converts a G or M number to ten times its value; `None` if it has more than one decimal. Controls disagree whether `G0.9999` is G0 or G1.
@@ -278,7 +278,7 @@ fn code_of(value: f64) -> Option<u16> {
     fits.then_some(nearest as u16)
 }
 
-/// Groups of M codes of which a line may contain only one.
+/// Groups of M codes; a line may contain only one code of each group.
 const M_GROUPS: [&[u16]; 4] = [STOPS, TOOL, SPINDLE, COOLANT];
 
 impl Interpreter<'_> {

@@ -57,7 +57,7 @@ impl Problems {
         self.push(message, || at.place(values(Diagnostic::new(message))));
     }
 
-    /// Adds a problem of which only the line is known.
+    /// Adds a problem for which only the line is known.
     pub fn add_at_line(
         &mut self,
         message: &'static Message,

@@ -73,7 +73,7 @@ fn displacement_in_plane(movement: &Move) -> [f64; 2] {
     [0, 1].map(|axis| movement.to.at[axis] - movement.from.at[axis])
 }
 
-/// Returns the two moves of such a control instead of a slanting rapid move.
+/// Returns the two moves that a control makes instead of a slanting rapid move if each axis moves at its own speed.
 fn legs(movement: &Move) -> Vec<Move> {
     let way = displacement_in_plane(movement);
     let shorter = libm::fabs(way[0]).min(libm::fabs(way[1]));

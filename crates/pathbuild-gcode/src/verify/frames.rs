@@ -1,4 +1,5 @@
-//! Looks for rapid moves that hit material, separately in each coordinate system whose place relative to the others is not known. (book: program/reading)
+//! Looks for rapid moves that hit material, separately in each coordinate system whose position relative to the others is not known. (book:
+//! program/reading)
 //!
 //! Two vises have two systems, G54 and G55. What has been cut in one is not cut in the other, although both have the same coordinates.
 
@@ -45,8 +46,8 @@ impl Frames {
         }
     }
 
-    /// Like [`check`](Self::check), for the rapid moves with these indices among all moves. `legs` replaces each of them by the moves to check. If there
-    /// are none, the program is not processed.
+    /// Like [`check`](Self::check), for the rapid moves with these indices among all moves. `legs` replaces each of them by the moves to check. If
+    /// there are none, the program is not processed.
     pub(super) fn check_rapids<P: Program + ?Sized>(
         self,
         rapids: &BTreeSet<usize>,

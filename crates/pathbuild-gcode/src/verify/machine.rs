@@ -78,8 +78,8 @@ impl<'m> MachineRules<'m> {
         }
     }
 
-    /// Whether the program moves in coordinate systems whose places relative to each other are not known, so that nothing is known about the
-    /// travel that they need together.
+    /// Whether the program moves in coordinate systems whose positions relative to each other are not known, so nothing is known about the travel
+    /// that they need together.
     pub fn has_several_frames(&self) -> bool {
         self.reach.frames.len() > 1
     }
@@ -173,7 +173,7 @@ impl Reach {
         }
     }
 
-    /// Checks a position in machine coordinates, whose place in the program's coordinates is not known.
+    /// Checks a position in machine coordinates that is unknown in the program's coordinates.
     fn check_machine_position(
         &mut self,
         line: u32,

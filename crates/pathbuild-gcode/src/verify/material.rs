@@ -20,7 +20,7 @@ const MAX_CELLS_IN_MEMORY: f64 = 16e6;
 /// Minimum number of cells across the cutter for a useful map.
 const MIN_CELLS_ACROSS_CUTTER: f64 = 4.0;
 
-/// Divisor of the side of a cell that gives the greatest distance of chords from their arc.
+/// Ratio of the side of a cell to the greatest distance of chords from their arc.
 const CELL_PER_SAGITTA: f64 = 4.0;
 
 /// Half the width of a centre line, as a share of the side of a cell: more than half the diagonal of a cell.
@@ -146,7 +146,7 @@ fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &m
 /// The extent of the material that a program cuts.
 #[derive(Default)]
 struct MaterialEstimate {
-    /// Upper bound of the area in mm² within O of cutting moves; areas that are cut repeatedly count each time.
+    /// Upper bound of the area in mm² within O of cutting moves; areas that are cut repeatedly are counted each time.
     area: f64,
     /// Upper bound of the area in mm² within O of rapid moves below the highest surface. `passes` is the number of these moves.
     passed: f64,

@@ -131,7 +131,7 @@ impl ToolState {
         self.dialect.rules().lengths.keeps_entry
     }
 
-    /// Whether the spindle is known to be in another state than expected. Speeds may differ by `slack` in 1/min.
+    /// Whether the spindle is known to be in a state other than the expected one. Speeds may differ by `slack` in 1/min.
     pub fn turns_otherwise(&self, turning: Option<Turning>, speed: Option<f64>, slack: f64) -> bool {
         // XpertMILL switches the spindle by events of its own, and the speed belongs to the layer.
         let is_tied = self.dialect.rules().layers;

@@ -85,7 +85,7 @@ G80
 (MSG,begins)
 ";
 
-/// Splits a program into its text and the lines that begin and end it, without their numbers.
+/// Splits a program into its text and the lines that begin and end it. Block numbers are removed from these lines.
 fn without_frame(text: &str) -> (String, Vec<&str>) {
     let is_frame = |line: &&str| matches!(without_number(line), "%" | "M30" | "M2" | "M02");
     let frame = text.lines().filter(is_frame).map(without_number).collect();

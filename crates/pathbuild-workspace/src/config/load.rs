@@ -1,4 +1,4 @@
-//! Finds, reads and combines configurations: that of the tree, and that of the user.
+//! Finds and reads the configurations of the tree and of the user, and applies the command line.
 
 use std::sync::Arc;
 

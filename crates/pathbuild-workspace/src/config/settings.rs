@@ -28,7 +28,8 @@ macro_rules! tables {
         pub struct Settings {
             /// The configuration that was read. If `None`, only options and defaults apply, and nothing is cached.
             pub file: Option<Utf8PathBuf>,
-            /// The working directory's configuration, if it is ignored because the arguments lie outside its tree and below no other configuration.
+            /// The working directory's configuration, if it is ignored because the arguments are outside its tree and no other configuration applies
+            /// to them.
             pub not_used: Option<Utf8PathBuf>,
             /// Whether `file` applies to a program unexpectedly: the working directory has another configuration, or the program lies outside the
             /// tree of this configuration.

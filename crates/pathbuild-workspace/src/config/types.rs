@@ -66,7 +66,7 @@ choice! {
     PartHolding {
         /// Support bars hold the part.
         Bars = "bars",
-        /// Something that no drawing shows holds the part, for example tape or vacuum.
+        /// The part is held by something that no drawing shows, for example tape or vacuum.
         Otherwise = "otherwise",
     }
 }
@@ -164,7 +164,7 @@ impl Level {
 pub struct LineTypeAlias {
     /// Name of the line type in drawings.
     pub name: Box<str>,
-    /// The line type for which the name stands.
+    /// The line type that the name stands for.
     pub line_type: LineType,
 }
 

@@ -1,4 +1,4 @@
-//! Reasons why the moves of a path changed: differences between its drawings, those of the paths that it embeds, and the settings that it uses.
+//! Reasons why the moves of a path changed: differences in its drawing, in the paths that it embeds, and in the settings that it uses.
 //! (book: program/comparing)
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};

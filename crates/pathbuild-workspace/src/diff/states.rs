@@ -44,7 +44,7 @@ impl StateKind {
         Self::Dwell,
     ];
 
-    /// Returns the name in messages.
+    /// Returns the name of the kind in messages.
     pub fn text(self) -> &'static Text {
         match self {
             Self::Tool => &Text { en: "tool", de: "Werkzeug" },
@@ -59,7 +59,7 @@ impl StateKind {
         }
     }
 
-    /// Returns the name in JSON.
+    /// Returns the name of the kind in JSON.
     pub fn name(self) -> &'static str {
         match self {
             Self::Tool => "tool",
@@ -169,7 +169,7 @@ impl MachineStates {
 /// The word for a probing move, whatever its kind.
 const PROBE: &str = "G38";
 
-/// The words in effect at a place of a program.
+/// The words in effect at a position in a program.
 #[derive(Debug)]
 struct CurrentState {
     selected: Option<u32>,
@@ -232,7 +232,7 @@ fn length_words(length: ToolLength) -> String {
     }
 }
 
-/// Returns the words for a state of the spindle. The speed of a spindle that stands still does not matter.
+/// Returns the words for a state of the spindle. The speed of a stopped spindle does not matter.
 fn spindle_words(spindle: Spindle) -> String {
     let speed = spindle.speed.map(|speed| format!("S{speed}"));
     let turning = match spindle.turning {

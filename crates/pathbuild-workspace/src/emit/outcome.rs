@@ -55,7 +55,7 @@ pub struct ProgramOutcome {
     pub(super) provenance: Option<Provenance>,
     /// Notes of the post-processor.
     pub notes: Vec<Note>,
-    /// The command that the post-processor wants to run, with its output file.
+    /// The command that the post-processor requests, with its output file.
     #[serde(skip)]
     pub post_build: Option<(Vec<String>, Utf8PathBuf)>,
     /// Files that the post-processor inserted or failed to insert.

@@ -231,7 +231,7 @@ impl<'a> EarlierPrograms<'a> {
     }
 }
 
-/// Whether a program on disk was adjusted from an earlier state of the job's program or with other heights than those measured now, or was edited
+/// Whether a program on disk was adjusted from an earlier state of the job's program or with heights other than those measured now, or was edited
 /// since. Such a program is the one that is milled.
 pub(super) fn has_stale_adjusted_program(
     session: &Session<'_>,

@@ -108,7 +108,7 @@ impl WrittenPrograms {
         Ok(plans)
     }
 
-    /// Whether a target in another drawing than these claims a file name of the job.
+    /// Whether a target in any drawing but these claims a file name of the job.
     fn is_claimed(&self, db: &Database, job: &Job, drawings: &[SourceFile]) -> bool {
         let owners = job.files.iter().filter_map(|(_, path)| self.owners.get(&path.as_str().to_lowercase()));
         owners.flatten().any(|owner| !drawings.contains(&owner.file(db)))
@@ -216,7 +216,7 @@ impl WrittenPrograms {
         problems
     }
 
-    /// Leaves out the jobs with a file that another job has as well, and returns PB514 for each clash.
+    /// Leaves out the jobs that share a file with another job, and returns PB514 for each clash.
     pub fn leave_out_clashes(&mut self, session: &Session<'_>) -> Vec<Diagnostic> {
         let jobs: Vec<&Job> = self.in_order().into_iter().filter_map(|(_, plan)| plan.job.as_ref()).collect();
         let (clashing, problems) = clashes(session, &jobs);

@@ -182,7 +182,7 @@ impl<'a> CatalogueBuilder<'a> {
     /// Adds an output file that was written or compared in this run, and returns its index.
     fn output(&mut self, GeneratedFile { path, hash, is_there }: &GeneratedFile) -> usize {
         let stamp = if *is_there { Stamp::of(path).for_storing(self.begun) } else { Stamp::UNKNOWN };
-        // If the file has vanished meanwhile, the stamp of a missing file must not be stored with the hash.
+        // If the file has been removed in the meantime, the stamp of a missing file must not be stored with the hash.
         let stamp = if stamp == Stamp::MISSING { Stamp::UNKNOWN } else { stamp };
         self.add_file(FileFact { path: path.clone(), stamp, hash: Some(*hash) })
     }

@@ -301,7 +301,7 @@ fn relative_working_directory(context: &Workspace) -> &str {
     base.and_then(|base| directory.strip_prefix(base).ok()).unwrap_or(directory).as_str()
 }
 
-/// The patterns of path and file names, which decide which drawings may contain which paths.
+/// The patterns of path names and of file names: they decide which drawings may contain which paths.
 #[derive(Clone, Debug)]
 pub struct Coverage {
     paths: PathPattern,

@@ -93,7 +93,7 @@ pub enum Reason {
     NoCutBelow,
     /// The program contains a word that pathbuild does not interpret, so its moves are not known.
     NotFollowed,
-    /// The program moves in coordinate systems whose places relative to each other are not known.
+    /// The program moves in coordinate systems whose positions relative to each other are not known.
     SeveralZeros,
     /// A limit of `[limits]` is exceeded.
     TooLarge,
@@ -108,7 +108,7 @@ pub(super) struct References {
     pub(super) has_keep_out: bool,
     /// Whether pathbuild interprets all words of the program that may move the tool.
     pub(super) are_moves_known: bool,
-    /// Whether the program moves in coordinate systems whose places relative to each other are not known.
+    /// Whether the program moves in coordinate systems whose positions relative to each other are not known.
     pub(super) has_several_zeros: bool,
 }
 

@@ -343,7 +343,7 @@ struct CheckEvidence {
     corners: CornerRules,
     /// The lowest height in mm that a cut reaches.
     lowest_cut: Option<f64>,
-    /// Whether the program moves in coordinate systems whose places relative to each other are not known.
+    /// Whether the program moves in coordinate systems whose positions relative to each other are not known.
     has_several_zeros: bool,
 }
 

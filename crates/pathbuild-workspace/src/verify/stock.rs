@@ -210,7 +210,7 @@ impl<'s> Sources<'s> {
                 .iter()
                 .any(|known| (known.is_error() || known.code() == code) && is_same_line(known, doubt)),
         });
-        // If a limit stops this check, the program is not wrong, because the check only raises doubts.
+        // This check only raises doubts, so a limit that stops it is not an error of the program.
         for doubt in &mut doubts {
             doubt.severity = Severity::Warning;
             if self.cutters().is_none() && doubt.code() == Code::RapidAtDepth {

@@ -23,7 +23,7 @@ pub(super) struct Watcher {
     bell: WakeHandle,
     source: Box<dyn notify::Watcher>,
     debounce: Duration,
-    /// The configuration and the files of the post-processor, with the paths that events report.
+    /// The files of the configuration and of the post-processor, as the paths that events report.
     configuration: BTreeSet<Utf8PathBuf>,
     directories: WatchedDirectories,
     /// Path of the working directory at the start; `None` if no watched path is relative.

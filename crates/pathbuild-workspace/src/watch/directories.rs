@@ -325,7 +325,7 @@ pub(super) struct Links {
 /// A path to watch for a linked drawing.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum LinkPlace {
-    /// A symbolic link that is followed, or the file to which the last one points.
+    /// A symbolic link that is followed, or the file to which the last link points.
     Name(Utf8PathBuf),
     /// A followed symbolic link to a directory.
     Directory(Utf8PathBuf),

@@ -42,7 +42,7 @@ pub(super) struct Library<'a> {
     names: NameSnapshots,
     /// Drawings yet to be checked, sorted by path.
     open: BTreeMap<Utf8PathBuf, SourceFile>,
-    /// The changed files because of which the drawings in `open` are yet to be checked.
+    /// The changed files that require checking the drawings in `open`.
     backlog_cause: BTreeSet<Utf8PathBuf>,
     /// Dependencies that have not yet been checked for links.
     unfollowed: BTreeSet<Utf8PathBuf>,

@@ -44,7 +44,7 @@ fn no_stamp_is_kept_of_what_has_not_rested() {
     let rested = place.kept();
     check(&place);
     assert_eq!(place.kept(), rested, "all has rested: there is nothing to write");
-    // Setting the modification time does not help: the system's own change time counts.
+    // Setting the modification time does not help: the system's own change time is compared.
     for modified in [SystemTime::now(), SystemTime::now() - Duration::from_hours(1)] {
         let drawing = place.path().join(PLACES[0]);
         File::options().write(true).open(drawing).unwrap().set_modified(modified).unwrap();

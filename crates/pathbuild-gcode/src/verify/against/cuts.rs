@@ -370,7 +370,7 @@ fn is_plunge_or_stands(movement: &Move) -> bool {
     matches!(movement.pace, Pace::Feed(_)) && (is_plunge(movement) || movement.is_standstill())
 }
 
-/// An expected plunge of which the program has made a part.
+/// An expected plunge that the program has partly made.
 #[derive(Clone, Copy, Debug)]
 struct Plunge {
     movement: Move,
