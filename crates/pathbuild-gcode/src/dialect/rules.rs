@@ -144,7 +144,7 @@ pub struct LengthRules {
 pub struct ReferenceRules {
     /// G codes (times ten) that move axes to their reference switches.
     pub g: &'static [u16],
-    /// Whether the control afterwards counts coordinates from the switches and no longer from the workpiece zero.
+    /// Whether the control afterwards measures coordinates from the switches and no longer from the workpiece zero.
     pub loses_zero: bool,
 }
 

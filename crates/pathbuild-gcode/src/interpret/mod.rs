@@ -55,7 +55,7 @@ pub fn interpret(text: &[u8], dialect: Dialect, options: &Options) -> Interpreta
     Interpretation { steps, problems }
 }
 
-/// Interprets a file of any size and passes each step to `take`.
+/// Interprets a file of any size and passes each step to `each`.
 pub fn interpret_each(
     text: &[u8],
     dialect: Dialect,
@@ -69,7 +69,7 @@ pub fn interpret_each(
     interpret_until(text, dialect, options, &mut all)
 }
 
-/// Like [`interpret_each`], but stops when `take` returns `Break`. Nothing is reported about the lines after that.
+/// Like [`interpret_each`], but stops when `each` returns `Break`. Nothing is reported about the lines after that.
 pub fn interpret_until(
     text: &[u8],
     dialect: Dialect,

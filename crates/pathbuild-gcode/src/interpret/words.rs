@@ -193,7 +193,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the number of a G or M word, times ten. Reports a number that is no code.
+    /// Returns the number of a G or M word, times ten. Reports a number that cannot be a code.
     fn code(&mut self, block: &Block<'_>, word: &Word, value: f64) -> Option<u16> {
         let code = code_of(value);
         if code.is_none() {

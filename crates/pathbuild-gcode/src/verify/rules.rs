@@ -365,7 +365,7 @@ struct ChangeByHand {
     spinning: Option<u32>,
 }
 
-/// Rule that finds arcs at both of whose ends the direction of travel is reversed, between straight cuts. The arc in the other direction would
+/// Rule that finds arcs at whose two ends the direction of travel reverses, between straight cuts. The arc in the other direction would
 /// continue both cuts, so G2 and G3 are probably exchanged.
 #[derive(Debug, Default)]
 struct ArcDirections {

@@ -198,7 +198,7 @@ impl Pattern {
         }
         let glob = GlobBuilder::new(text).literal_separator(true).case_insensitive(true).build();
         // Build a set because a single matcher would panic where a set returns an error: if the expression is too large or its braces are
-        // nested too deep.
+        // nested too deeply.
         let set = glob.and_then(|glob| GlobSet::builder().add(glob).build());
         set.map(|set| Self { text: text.into(), set }).map_err(|error| Value::foreign(error.kind()))
     }

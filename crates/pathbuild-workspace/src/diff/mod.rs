@@ -318,7 +318,7 @@ fn explain_change(
 /// Builds the scene of a path with its program.
 ///
 /// # Errors
-/// The errors that prevent its program from being built.
+/// The errors that prevent the program from being built.
 fn scene_path(session: &Session<'_>, known: &SidePath) -> Result<ScenePath, Vec<Diagnostic>> {
     let scene_path = session.scene(known.file, std::slice::from_ref(&known.name), ShownText::Native);
     let path = scene_path.scene.paths.into_iter().next().filter(|path| path.gcode.is_some());

@@ -22,7 +22,7 @@ use super::sheet;
 use crate::post_processor::PostProcessor;
 use crate::session::{OutputKind, WriteSettings};
 
-/// The outcome of building a program, and the generated files. There are no files if one of them cannot be written.
+/// The outcome of building a program, and the generated files. There are no files if one of them cannot be generated.
 #[derive(Default)]
 pub(super) struct BuiltProgram {
     /// The outcome of the program. Its `files` are filled in when they are written.

@@ -20,7 +20,7 @@ use crate::memo::{Memo, read_drawings};
 use crate::post_processor::PostProcessor;
 use crate::session::{Session, compare_paths};
 
-/// The programs that were written in a session, with what is wrong with them.
+/// The programs that were written in a session, with the diagnostics about them.
 #[derive(Debug, Default)]
 pub struct WrittenPrograms {
     by_drawing: BTreeMap<Utf8PathBuf, Vec<(Target, Plan)>>,

@@ -70,7 +70,7 @@ pub struct SearchedDirectory {
     pub drawings: Vec<Utf8PathBuf>,
     /// The directory itself and all below it.
     pub directories: Vec<Utf8PathBuf>,
-    /// Errors for directories that cannot be listed or contain too much.
+    /// Errors for directories that cannot be listed or contain too many entries.
     pub problems: Vec<Diagnostic>,
 }
 

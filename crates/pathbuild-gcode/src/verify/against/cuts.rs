@@ -380,7 +380,7 @@ struct Plunge {
 }
 
 impl Plunge {
-    /// Returns the fraction of the plunge at a height; `None` outside of it, or below what the program has cut so far.
+    /// Returns the fraction of the plunge at a height; `None` outside the plunge, or below what the program has cut so far.
     fn share_at(&self, z: f64) -> Option<f64> {
         let (top, bottom) = (self.movement.from.z(), self.movement.to.z());
         let share = (top - z) / (top - bottom);
