@@ -339,7 +339,7 @@ struct OpenSession<'w> {
 }
 
 impl<'w> OpenSession<'w> {
-    /// Returns the session. Opens another one if the present one does not trace inputs although that is needed.
+    /// Returns the session. If inputs are to be traced and the open session does not trace them, opens another one.
     fn session(&mut self, is_traced: bool) -> &mut Session<'w> {
         self.session.take_if(|session| is_traced && !session.is_traced());
         self.session.get_or_insert_with(|| Session::open(self.workspace, is_traced))

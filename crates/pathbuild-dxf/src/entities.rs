@@ -313,8 +313,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 }
 
-/// Decides whether to keep an entity: if its layer is wanted, if it is on layer 0 of a block, because its layer then depends on the insertion, or if
-/// it is an insertion, because its block may draw on a wanted layer.
+/// Keeps entities on wanted layers, entities on layer 0 of a block, because their layer depends on the insertion, and insertions, because their block
+/// may draw on a wanted layer.
 #[inline]
 fn fill_decision(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, space: Space) -> FillDecision {
     let may_be_wanted = layers.is_kept(layer)

@@ -119,8 +119,7 @@ fn unit(number: i64) -> Option<(&'static Text, f64)> {
 
 static UNKNOWN: Text = Text { en: "unknown", de: "unbekannt" };
 
-/// The units by their number in `$INSUNITS`. The factors are exact by definition; survey units are 1200/3937 of their metric counterparts,
-/// rounded to f64.
+/// The units by their number in `$INSUNITS`, with their lengths in mm: exact by definition, rounded to f64. A US survey foot is 1200/3937 m.
 static UNITS: [(Text, f64); 25] = [
     (word("none", "keine"), 1.0),
     (word("inches", "Zoll"), 25.4),

@@ -40,7 +40,7 @@ struct EntityContext {
     placement: Option<Placement>,
     insertion: Option<Insertion>,
     is_invisible: bool,
-    /// The frozen layer, if one of the insertions is on such a layer.
+    /// Frozen layer that one of the insertions is on, if any.
     frozen: Option<SmolStr>,
 }
 

@@ -71,7 +71,7 @@ struct SweptArea {
 
 /// A stroke to paint. Higher strokes are painted first, and an edge before the cuts at the same height.
 struct Stroke {
-    /// Index into [`MilledStock::areas`]: an edge and the cut inside it have the same area, which takes more memory than the stroke.
+    /// Index into [`MilledStock::areas`]: an edge and the cut inside it share an area, because areas take more memory than strokes.
     area: u32,
     z: f64,
     kind: StrokeKind,

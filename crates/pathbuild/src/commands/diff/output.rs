@@ -105,7 +105,7 @@ pub(super) fn place(path: &PathDiff) -> String {
 /// Describes the outcome of a path in a few words.
 pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &'static str {
     let (en, de) = match &path.outcome {
-        // `check` would not report this error if it is a limit that only programs exceed, because `check` builds no programs.
+        // The problems include this error, such as a limit that only programs exceed: `check` builds no programs and would not report it.
         Outcome::Broken if comparison.has_error_of(path) => ("has errors now", "hat jetzt Fehler"),
         Outcome::Added => ("new", "neu"),
         Outcome::Removed => ("gone", "weg"),
