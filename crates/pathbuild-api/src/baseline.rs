@@ -11,7 +11,8 @@ use pathbuild_workspace::waivers::{Coverage, Waiver};
 use crate::options::{date, utf8};
 use crate::{Error, Finding};
 
-/// The baseline of a check or a verification, and its use. By default, the findings in `pathbuild-baseline.txt` beside the configuration are accepted.
+/// The baseline of a check or a verification, and its use. By default, the findings in `pathbuild-baseline.txt` beside the configuration are
+/// accepted.
 #[derive(Clone, Debug, Default)]
 pub struct BaselineOptions {
     file: Option<PathBuf>,
@@ -58,8 +59,8 @@ impl BaselineOptions {
         self
     }
 
-    /// Writes the findings with this code, such as `PB203`, into the baseline instead of reporting them: with this reason and, if there is one, the last
-    /// day on which this holds, such as `2026-12-31`.
+    /// Writes the findings with this code, such as `PB203`, into the baseline instead of reporting them: with this reason and, if there is one, the
+    /// last day on which this holds, such as `2026-12-31`.
     pub fn accept(mut self, code: impl Into<String>, reason: impl Into<String>, until: Option<&str>) -> Self {
         let until = until.map(str::to_owned);
         self.task = Task::Accept { code: code.into(), reason: reason.into(), until };

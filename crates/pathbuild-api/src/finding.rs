@@ -119,7 +119,8 @@ impl Finding {
         self.waiver.as_ref()?.reason.as_deref()
     }
 
-    /// Returns the last day, such as `2026-12-31`, on which the finding is accepted; `None` if it is not accepted, or if it is accepted without an end.
+    /// Returns the last day, such as `2026-12-31`, on which the finding is accepted; `None` if it is not accepted, or if it is accepted without an
+    /// end.
     pub fn until(&self) -> Option<String> {
         Some(self.waiver.as_ref()?.until?.to_string())
     }

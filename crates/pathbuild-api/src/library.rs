@@ -180,8 +180,8 @@ impl Library {
     /// configuration names.
     ///
     /// # Errors
-    /// If the request is invalid, for example because a needed setting is missing, or if the post-processor does not exist or has errors. Errors in the
-    /// drawings are in the report.
+    /// If the request is invalid, for example because a needed setting is missing, or if the post-processor does not exist or has errors. Errors in
+    /// the drawings are in the report.
     pub fn emit(&self, inputs: &[&str], options: &EmitOptions) -> Result<EmitReport, Error> {
         let (inputs, options) = (to_inputs(inputs), options.clone());
         options.check_date(&self.workspace)?;
@@ -287,8 +287,8 @@ impl Library {
         })
     }
 
-    /// Opens the library of a workspace, and starts its thread. The session must stay in one thread, because it borrows its workspace, and its database
-    /// works for one thread at a time.
+    /// Opens the library of a workspace, and starts its thread. The session must stay in one thread, because it borrows its workspace, and its
+    /// database works for one thread at a time.
     ///
     /// # Errors
     /// If the system cannot start the thread.

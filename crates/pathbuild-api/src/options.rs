@@ -183,8 +183,8 @@ impl CheckOptions {
         Self::default()
     }
 
-    /// Reports only findings that depend on files changed since this Git revision. The inputs must be directories or the whole library, which must be on
-    /// disk.
+    /// Reports only findings that depend on files changed since this Git revision. The inputs must be directories or the whole library, which must be
+    /// on disk.
     pub fn changed_since(mut self, revision: impl Into<String>) -> Self {
         self.changed_since = Some(revision.into());
         self
@@ -222,8 +222,8 @@ impl ListOptions {
         Self::default()
     }
 
-    /// Compares the programs on disk with those of this post-processor: the name of a built-in one, the file of a definition, or `native`. Without it,
-    /// the configuration decides.
+    /// Compares the programs on disk with those of this post-processor: the name of a built-in one, the file of a definition, or `native`. Without
+    /// it, the configuration decides.
     pub fn post(mut self, post: impl Into<String>) -> Self {
         self.post = Some(post.into());
         self
@@ -304,8 +304,8 @@ impl EmitOptions {
         self
     }
 
-    /// Lets the post-processor request commands for its output. They are in [`EmitReport::post_builds`](crate::EmitReport::post_builds), and the caller
-    /// runs them.
+    /// Lets the post-processor request commands for its output. They are in [`EmitReport::post_builds`](crate::EmitReport::post_builds), and the
+    /// caller runs them.
     pub fn post_builds(mut self) -> Self {
         self.request.post_arguments.run_post_build = true;
         self

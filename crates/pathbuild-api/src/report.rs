@@ -278,7 +278,8 @@ impl PostBuild {
 }
 
 impl OutputFile {
-    /// Converts the outcomes of programs. Also returns the notes of their post-processors, each note once. Public for `watch` of pathbuild's command line.
+    /// Converts the outcomes of programs. Also returns the notes of their post-processors, each note once. Public for `watch` of pathbuild's command
+    /// line.
     #[doc(hidden)]
     pub fn of_programs(outcomes: Vec<ProgramOutcome>, lang: Lang) -> (Vec<Self>, Vec<String>) {
         let (mut all, mut notes) = (Vec::new(), Vec::new());

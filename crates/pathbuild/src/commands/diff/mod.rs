@@ -205,8 +205,8 @@ fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revisio
     Ok(Side::Drawings(Box::new(Drawings { workspace, inputs, root, revision })))
 }
 
-/// Refuses to compare with a revision that lacks drawings because they are in a submodule. `library` is the workspace whose library is compared; `None`
-/// for the directory itself.
+/// Refuses to compare with a revision that lacks drawings because they are in a submodule. `library` is the workspace whose library is compared;
+/// `None` for the directory itself.
 fn refuse_submodules(
     context: &Context,
     revision: &Revision,
