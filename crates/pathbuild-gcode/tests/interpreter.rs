@@ -595,7 +595,7 @@ fn g10_places_coordinate_systems() {
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L2 P2 X10\nG55 G0 X2")[2], "4 rapid to 12 1 1");
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L20 P2 X0\nG55 G0 X2")[2], "4 rapid to 3 1 1");
     assert_eq!(run(Native, "G0 X1 Y1 Z1\nG10 L2 P0 X10\nG0 X2")[1], "4 rapid to 12 1 1");
-    // G10 L2 counts from the machine's zero, and the position of G54 is not known.
+    // G10 L2 is relative to the machine's zero, and the position of G54 is not known.
     assert_eq!(wrong(Native, "G0 X1 Y1 Z1\nG10 L2 P2 X10\nG55 G0 X2"), ["4 unknown-offset"]);
     assert_eq!(wrong(Native, "G10 L2 P9 X10\nG10 L2 P10 X10"), ["3 value-out-of-range"]);
 }
@@ -645,7 +645,7 @@ fn named_places_are_known_from_the_configuration() {
 fn machine_coordinates_go_with_absolute_straight_moves() {
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG91 G53 G0 X0"), ["3 conflicting-words"]);
     assert_eq!(wrong(LinuxCnc, "G0 X1 Y1 Z1\nG53 G80\nG90"), ["3 conflicting-words"]);
-    // GRBL accepts G53 with G91 as well, and counts from the machine's zero.
+    // GRBL accepts G53 with G91 as well, and measures from the machine's zero.
     let moved = |words: &str| format!("G0 X1 Y1 Z1\n{words} G53 G0 Z-5\nG90 G0 Z1");
     assert_eq!(wrong(Grbl, &moved("G91")), FINE);
     assert_eq!(run(Grbl, &moved("G91")), run(Grbl, &moved("G90")));
@@ -972,7 +972,7 @@ fn additional_systems_are_places_of_their_own() {
     assert_eq!(wrong(Grbl, "G59 P7"), ["2 unused-word"]);
 }
 
-/// G10 L2 counts from the machine's zero, relative to which the earlier positions are not known.
+/// G10 L2 is relative to the machine's zero, and earlier positions are not known relative to that zero.
 #[test]
 fn g10_l2_after_the_first_move_is_doubtful() {
     let found = |words: &str| wrong(LinuxCnc, words);

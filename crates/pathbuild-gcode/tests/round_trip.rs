@@ -378,7 +378,7 @@ fn what_is_not_what_the_program_says_is_found_when_read_back() {
     for at in digits.filter(|at| *at < end) {
         let digit = if &text[at..=at] == "9" { "7" } else { "9" };
         let other = format!("{}{digit}{}", &text[..at], &text[at + 1..]);
-        // The last digit of a centre moves an arc by less than the rounding of its ends, and `G90 Z5` has the same effect as before.
+        // The last digit of a centre moves an arc by less than the rounding of its ends, and a changed G word may have the same effect.
         let may_be_the_same =
             text[..at].rsplit([' ', '\n']).next().is_some_and(|word| word.starts_with(['G', 'I', 'J']));
         if !may_be_the_same {

@@ -59,7 +59,7 @@ impl Findings {
 }
 
 impl Workspace {
-    /// Applies the configured severities and their waivers, sorts, and drops duplicates.
+    /// Applies the configured severities and their waivers to diagnostics, sorts them, and drops duplicates.
     pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
         let severities = self.severities();
         let mut waived: Vec<(Diagnostic, Waiver)> = Vec::new();

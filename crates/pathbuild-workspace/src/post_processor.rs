@@ -247,7 +247,7 @@ impl PostProcessor {
         self.is_read_by_definition().then(|| self.post.translate(text))
     }
 
-    /// Whether programs of this post are read back by means of its definition, because no dialect covers its words or its axes are not those of the
+    /// Whether programs of this post are read back with its definition, because no dialect covers its words or its axes are not those of the
     /// drawing.
     fn is_read_by_definition(&self) -> bool {
         self.reader().is_none() || self.post.has_own_axes()

@@ -205,7 +205,7 @@ impl Program {
         self.by_definition.iter().flat_map(|by| &by.translated.doubtful)
     }
 
-    /// Returns the name of the dialect, or of the definition by means of which the program was read.
+    /// Returns the name of the dialect or the definition with which the program was read.
     pub fn reading_name(&self) -> &str {
         self.by_definition.as_ref().map_or_else(|| self.dialect.name(), |by| &by.name)
     }

@@ -31,7 +31,7 @@ pub struct DroppedProgram {
 /// Values that a user assumes for a program, as text; missing ones are taken from the program.
 #[derive(Clone, Debug, Default, Deserialize)]
 pub struct Assumptions {
-    /// Name of the dialect; `None` guesses it.
+    /// Name of the dialect; if it is `None`, the dialect is guessed.
     pub dialect: Option<String>,
     /// Diameter of the cutter in mm.
     pub cutter: Option<String>,

@@ -32,7 +32,7 @@ pub struct Workspace {
     pub cache: Option<CacheLocation>,
     /// Receives messages about the progress of the run.
     pub reporter: Arc<dyn Reporter>,
-    /// Whether a waiver with an end date has accepted a finding, so that the result depends on the date of the run.
+    /// Whether a waiver with an end date has accepted a finding, so the result depends on the date of the run.
     pub is_date_decisive: Arc<AtomicBool>,
 }
 

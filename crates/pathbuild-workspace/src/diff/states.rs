@@ -111,7 +111,7 @@ impl MachineStates {
                 Action::Move(Move { pace: Pace::Probe { .. }, .. }) => {
                     states.add(StateKind::Probe, step.line, PROBE.to_owned());
                 }
-                // Positions after the word count from a zero that only the machine knows.
+                // Positions after the word are relative to a zero that only the machine knows.
                 Action::Change(Change::Offsets { code, is_followed: false, .. }) => {
                     states.add(StateKind::Zero, step.line, code_name('G', *code));
                 }

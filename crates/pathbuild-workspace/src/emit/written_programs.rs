@@ -94,7 +94,7 @@ impl WrittenPrograms {
             plan.leave_out_if_raised(context);
             // The errors of drawings are those that `check` reports.
             plan.diagnostics.clear();
-            // A job that is left out claims its names, too: whether another target may write them does not depend on which was saved last.
+            // A job that is left out claims its names, too: whether another target may write them does not depend on which drawing was saved last.
             if let Some(job) = plan.job.as_mut().filter(|job| self.is_claimed(session.db(), job, drawings)) {
                 job.leave_out();
             }

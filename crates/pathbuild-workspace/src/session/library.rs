@@ -297,8 +297,8 @@ fn too_many_entries(directory: &Utf8Path, limit: u64) -> Diagnostic {
 }
 
 impl Session<'_> {
-    /// Finds the programs that these arguments name, each once, and diagnostics of directories. A directory stands for the programs in and below
-    /// it. A pattern that the shell passed on unexpanded stands for the files and directories that match its last component.
+    /// Returns the programs that these arguments name, each once, and the diagnostics of directories. A directory stands for the programs in and
+    /// below it. A pattern that the shell passed on unexpanded stands for the files and directories that match its last component.
     pub fn match_programs(&self, arguments: &[Utf8PathBuf]) -> ProgramMatches {
         let mut found = ProgramMatches::default();
         for argument in arguments {

@@ -36,7 +36,7 @@ pub enum Outcome {
 pub enum Assumption {
     /// Only the program itself states the cutter or the material.
     Stock,
-    /// The program contains moves that depend on values which only the machine knows, such as that of a probe.
+    /// The program contains moves that depend on values which only the machine knows, such as the result of a probe.
     MachineValues,
 }
 

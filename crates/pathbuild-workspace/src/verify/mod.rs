@@ -94,7 +94,7 @@ pub struct MoveComparison {
     pub path: String,
     /// Path of the drawing's file.
     pub drawing: Utf8PathBuf,
-    /// Name of the dialect, or of the definition, by means of which the program was read.
+    /// Name of the dialect or the definition with which the program was read.
     pub dialect: String,
     /// Name of the dialect or of the definition, with the evidence for the dialect, in the language of messages.
     pub read_as: String,

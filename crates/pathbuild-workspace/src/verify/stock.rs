@@ -46,7 +46,7 @@ impl ToolDiameters {
     }
 
     /// Returns the widths according to the first known source of these: command line, drawing, configuration, header. If another one disagrees, the
-    /// smaller diameter is used for removing material, and the larger one for hitting it. Only the configuration and the header know the shape.
+    /// smaller diameter is used for removing material, and the larger one for collisions. Only the configuration and the header know the shape.
     fn cutter(&self) -> Option<Cutter> {
         let table = self.table.filter(|_| self.is_numbered);
         let known = [self.given, self.drawn, table.map(|table| table.diameter)];

@@ -253,7 +253,7 @@ impl Listener for Doubter {
     }
 }
 
-/// Between loading the configuration and watching it, it may change; polling does not notice a change within the second of its first look.
+/// The configuration may change between being loaded and being watched. Polling does not notice a change within a second after its first look.
 #[test]
 fn a_configuration_that_changed_before_it_was_watched_begins_anew() {
     for (polls, answers) in [(false, vec![]), (true, vec![true])] {
