@@ -627,8 +627,8 @@ fn as_warning(mut diagnostic: Diagnostic) -> Diagnostic {
 
 const MAX_NAMES_IN_NOTE: usize = 5;
 
-/// Adds a note to a finding about a path that none of the searched drawings defines. It lists the names that `name` may be a misspelling of, or else
-/// all names in these drawings.
+/// Adds a note to a finding about a path that none of the searched drawings defines. It lists some of the names that `name` may be a misspelling of,
+/// or else some of the names in these drawings.
 pub fn with_near_names(problem: Diagnostic, name: &PathName, mut known: Vec<PathName>) -> Diagnostic {
     known.sort();
     known.dedup();

@@ -157,7 +157,7 @@ pub struct ChainParameters {
     pub first_depth: Option<f64>,
 }
 
-/// Support bars with slopes of 45 degrees, spread along a segment. (book: program/gcode)
+/// Support bars with slopes at their ends, spread along a segment. (book: program/gcode)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bars {
     /// D: Z of the top.

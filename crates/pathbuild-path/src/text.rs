@@ -138,7 +138,7 @@ fn range(numbers: &Range<u32>) -> Range<usize> {
 }
 
 impl From<&str> for ParameterTexts {
-    /// Creates a single text with its `%%` codes already replaced.
+    /// Creates a single text from lines with their `%%` codes already replaced.
     fn from(text: &str) -> Self {
         let mut texts = Self::default();
         texts.push(&join_lines(text));
@@ -220,8 +220,8 @@ impl<'t> ParameterText<'t> {
         TextFault::new(self.string, 0..self.string.len())
     }
 
-    /// Returns the problems that do not depend on values: PB202, PB204 and PB206, and PB210 as a warning, without places. Texts that are ignored have
-    /// none.
+    /// Returns the problems that do not depend on variables: PB202, PB204 to PB206, and PB210 as a warning, without places. Texts that are ignored
+    /// have none.
     pub fn problems(self, class: ElementClass) -> Vec<Diagnostic> {
         if class == ElementClass::Unread {
             return Vec::new();

@@ -98,8 +98,8 @@ impl PostDefinition {
         }
     }
 
-    /// Returns the files that are inserted into every program, relative to the directory of the definition. A program may need further
-    /// files; [`PostOptions::files`] is asked for all of them.
+    /// Returns the files that the texts insert under fixed names, relative to the directory of the definition. A program may need further files;
+    /// [`PostOptions::files`] is asked for all of them.
     pub fn insertions(&self, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
         match &self.engine {
             Engine::CamBam(_) => BTreeSet::new(),
@@ -130,8 +130,8 @@ impl PostDefinition {
         }
     }
 
-    /// Returns the number, from 1, of the first line in which a program of this post differs from the expected one, and the expected line.
-    /// Lines that both programs treat as a mere comment are ignored.
+    /// Returns the number, from 1, of the first line in which a program of this post differs from the expected one, and the expected line. Empty
+    /// lines and comment lines are ignored, the latter only if the expected program has comments with the same mark.
     pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
         let marks = match &self.engine {
             Engine::CamBam(definition) => definition.comment_marks(),
@@ -148,7 +148,7 @@ impl PostDefinition {
     /// Writes a program.
     ///
     /// # Errors
-    /// All undefined macros, otherwise the first error that would make the text wrong.
+    /// All undefined macros; otherwise the error that prevents the text from being written, or the errors found when it is read back.
     pub fn write(&self, job: &Job, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
         job.check().map_err(|error| vec![*error])?;
         self.check_spindle(job, options).map_err(|error| vec![*error])?;
@@ -344,7 +344,7 @@ impl PostDefinition {
     }
 }
 
-/// Decodes a definition in UTF-8, or in UTF-16 with a byte order mark, as some editors save XML.
+/// Decodes a definition in UTF-8, or in UTF-16, as some editors save XML: with a byte order mark, or beginning with `<` or `[`.
 fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Box<Diagnostic>> {
     let wide = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
         let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
@@ -366,7 +366,7 @@ fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Box<Diagnostic>> {
     })
 }
 
-/// Checks that the speed does not change without a tool change, for definitions that write the speed only at tool changes.
+/// Checks that each tool has a single speed, for definitions that write the speed only at tool changes.
 fn check_one_speed_per_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
     let mut first_of = HashMap::new();
     for later in job.operations.iter().filter(|operation| operation.cuts()) {

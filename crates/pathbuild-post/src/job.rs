@@ -57,7 +57,7 @@ impl Job {
         self.check_changes()
     }
 
-    /// Checks that after a tool change the new tool does not descend to where the previous one stopped.
+    /// Checks that no tool has to begin within the material after it was inserted.
     fn check_changes(&self) -> Result<(), Box<Diagnostic>> {
         let mut before = None;
         for operation in &self.operations {
@@ -262,7 +262,7 @@ impl Operation {
 pub struct Tool {
     /// Number in T words.
     pub index: u32,
-    /// Whether the program names the tool. Otherwise no tool change is written.
+    /// Whether the program names the tool. Otherwise it has no number, and CamBam definitions write no tool change.
     pub is_named: bool,
     /// Cutter diameter (O) in mm.
     pub diameter: f64,
@@ -302,7 +302,8 @@ pub enum Entry {
     At([f64; 3]),
 }
 
-/// Derives the surface, the depth and other properties of an operation from its moves. An unspecified surface is set to `thickness`.
+/// Derives the feeds and depths of an operation from its steps, and its retract height from its surface. An unspecified surface is set to
+/// `thickness`.
 pub(super) fn describe(operation: &mut Operation, thickness: f64) {
     if operation.surface == f64::NEG_INFINITY {
         operation.surface = thickness;

@@ -11,9 +11,9 @@ pub(crate) struct Word {
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct LineWords {
     pub(crate) words: Vec<Word>,
-    /// Whether the line contains something that is neither a word nor a comment.
+    /// Whether the line contains something other than words, comments, blanks, `%`, `/` and `:`.
     pub(crate) has_more: bool,
-    /// Whether the line begins with `/`, so that a switch at the machine (block delete) can skip it.
+    /// Whether the line begins with `/`, possibly after its number, so that a switch at the machine (block delete) can skip it.
     pub(crate) is_optional: bool,
     /// Whether the line begins with `%`.
     pub(crate) is_percent: bool,
@@ -62,8 +62,8 @@ impl CommentMarks {
 
 /// Returns the number, from 1, of the first line in which a program differs from the expected one, and the expected line.
 ///
-/// Comment lines are ignored, but only if their opening mark also opens a comment line of the expected program, because another control
-/// may execute what looks like a comment.
+/// Empty lines are ignored. Comment lines are ignored too, but only if their opening mark also opens a comment line of the expected program, because
+/// another control may execute what looks like a comment.
 pub(crate) fn first_other_line(found: &[u8], expected: &[u8], marks: &CommentMarks) -> Option<(u32, String)> {
     let (found, expected) = (String::from_utf8_lossy(found), String::from_utf8_lossy(expected));
     let openings: Vec<&str> = expected.lines().filter_map(|line| opening(line, marks)).collect();

@@ -145,8 +145,8 @@ fn length_without_point(problems: &[Diagnostic]) -> Option<Diagnostic> {
         .map(as_finding_of_post)
 }
 
-/// Returns a finding about the first line that a switch at the machine (block delete) can skip although it moves, changes the tool or its
-/// length, or switches the spindle.
+/// Returns a finding about the first line that a switch at the machine (block delete) can skip although it moves, changes the tool, its
+/// length, or offsets, or switches the spindle.
 fn skippable_line(text: &[u8], steps: &[Step]) -> Option<Diagnostic> {
     let is_needed = |action: &Action| match action {
         Action::Move(_) | Action::SelectTool(_) | Action::ChangeTool(_) | Action::Spindle(_) => true,
@@ -249,7 +249,7 @@ fn disputed_words_warning(translated: &TranslatedText) -> Option<Diagnostic> {
     Some(doubt.at_line(*line, None))
 }
 
-/// Warns about words that select a work offset, because the job does not specify any.
+/// Warns about words that select a work offset or a tool length that the program specifies, because the job specifies neither.
 fn work_offset_warnings(steps: &[Step]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for step in steps {

@@ -47,7 +47,8 @@ impl<P: FoldPaths> Fold<'_, P> {
 
 // Support bars along a segment. (book: program/gcode)
 
-/// Returns the parts of a curve along which bars are left standing with a cutter of diameter `tool`; the whole curve if there is no room for gaps.
+/// Returns the parts of a curve along which a cutter of diameter `tool` stays at the height of the bars; the whole curve if there is no room for
+/// gaps.
 pub fn support_bars(bars: &Bars, bottom: f64, tool: f64, curve: &Curve) -> Vec<Curve> {
     let Some(plan) = BarPlan::new(bars, bottom, tool, curve.length()) else { return vec![*curve] };
     plan.bars().map(|(from, to)| curve.section(from, to)).collect()
@@ -77,7 +78,7 @@ impl BarPlan {
             return None;
         }
         let pitch = length / count;
-        // The slopes have 45 degrees if there is room for them, otherwise they are steeper.
+        // The slopes have 45 degrees, but they are steeper if they would not fit into the gap or would be longer than half a bar.
         let room = ((pitch - bars.length - tool) / 2.0).max(0.0);
         let slope = (bars.top - bottom).min(bars.length / 2.0).min(room);
         let edge = bars.length / 2.0 + tool / 2.0;
@@ -192,7 +193,8 @@ impl<P: FoldPaths> Fold<'_, P> {
         self.sweep(circle.centre, circle.radius);
     }
 
-    /// Mills half circles down to the bottom, the last two at the bottom. Returns the depth at which the last full circle began.
+    /// Mills half circles down to the bottom, the last two at the bottom. Returns the depth from which the last two were computed, which may be below
+    /// the bottom.
     fn mill_half_circles(&mut self, circle: &Circle, surface: f64, infeed: f64, bottom: f64) -> f64 {
         let mut depth = surface;
         if at_least(bottom, surface) {

@@ -101,7 +101,7 @@ fn place(at: Xy, z: f64) -> Position {
     Position::known(at.x, at.y, z)
 }
 
-/// Whether the radius of an arc is printed as zero. Controllers do not accept such an arc, so it is written as a line.
+/// Whether the centre of an arc, relative to its start, is printed as zero. Controllers do not accept such an arc, so it is written as a line.
 pub fn is_point(centre: Xy) -> bool {
     centre.coords.amax() < LAST_DIGIT / 2.0
 }
@@ -139,7 +139,7 @@ pub fn tip_move(movement: &Move) -> Option<TipMove> {
     let Some(course) = movement.course() else { return Some(TipMove { curve: straight, from_z, to_z }) };
     let (arc, radius) = (course.arc(), course.radius());
     if arc.plane != Plane::Xy {
-        // The arc is not in the plane XY, so it is a straight line as seen from above. Use its lowest point for all of it.
+        // An arc in another plane is treated as a straight line as seen from above, at a height that no point of the arc is below.
         let lowest = from_z.min(to_z).min(arc.centre[1] - radius).min(arc.centre[0] - radius);
         return Some(TipMove { curve: straight, from_z: lowest, to_z: lowest });
     }

@@ -73,7 +73,7 @@ impl Surface {
 /// reliably determine the slope across that direction.
 const COLLINEAR_RATIO: f64 = 0.01;
 
-/// Average distance of points from their mean in mm, below which they are treated as a single point.
+/// Root mean square of the distances of points from their mean, in mm, up to which they are treated as a single point.
 const SINGLE_POINT_SPREAD: f64 = 0.001;
 
 /// The distribution of points around their mean, as a matrix of second moments in mm².

@@ -419,8 +419,8 @@ impl<'s> LeftoverSearch<'s> {
         nearest.unwrap_or_else(|| self.all_contour_cuts().map(distance).fold(f64::INFINITY, f64::min))
     }
 
-    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate is only considered where it reaches
-    /// the ring.
+    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate is only considered where it
+    /// reaches the ring.
     fn nearest(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
         self.nearest_of(self.cuts.near(square(at, 0.0)).collect(), ring, at)
     }

@@ -30,7 +30,8 @@ pub(super) struct BrokenOutline {
     /// The number of a curve at the place of the problem.
     pub(super) curve: usize,
     pub(super) at: Xy,
-    /// The finding; `None` for ends that almost meet, which are reported in pairs.
+    /// The finding; `None` for ends that almost meet, which are reported in pairs, and for the closed half of an outline, which is reported at its
+    /// open half.
     pub(super) problem: Option<Diagnostic>,
     /// The ends of a chain that crosses itself.
     overlong: Option<(Point, Point)>,

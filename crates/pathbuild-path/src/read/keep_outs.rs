@@ -155,7 +155,7 @@ struct ClosedOutline {
 }
 
 impl ClampReader<'_> {
-    /// Returns the clamps on the layer, unless the layer has errors.
+    /// Returns the clamps on the layer; none if an entity of the layer could not be read.
     fn clamps(&mut self, entities: &[usize]) -> Vec<KeepOut> {
         if self.layer.hidden {
             self.report(on_layer(&self.layer.name, Diagnostic::new(&messages::CLAMPS_NOT_VISIBLE)));

@@ -353,8 +353,8 @@ impl<'a> Builder<'a> {
         self.ways.iter().map(|way| way[2]).fold(start, f64::max)
     }
 
-    /// Returns the height in mm at which the tool travels to the end of the pending rapids: their highest point if they lead there in a straight
-    /// line, otherwise the clearance plane.
+    /// Returns the height in mm at which the tool travels to the end of the pending rapids: their highest point or, if they do not lead there in a
+    /// straight line and it is higher, the clearance plane.
     fn height(&self) -> f64 {
         let (from, to) = (self.at, self.pending_end());
         let is_straight = |way: &Point| {
@@ -459,7 +459,7 @@ pub(super) enum CallContent<'a> {
     End { clearance: f64 },
     /// Drills a hole, from and to the height `clearance` in mm.
     Hole { hole: Hole, clearance: f64 },
-    /// A rapid move that does not lead to a contour.
+    /// A rapid move, for definitions with a text for rapid moves.
     Rapid { to: Point },
     /// A dwell, in seconds.
     Dwell(f64),

@@ -55,7 +55,7 @@ kinds! {
     Comment "comment" "extension of pathbuild: for each comment, `~CommentText~`" "Zusatz von pathbuild: bei jedem Kommentar, `~CommentText~`";
 }
 
-/// A control text, exactly as written in the file of its definition.
+/// A control text, before its variables and statements are replaced.
 #[derive(Clone, Debug)]
 pub(super) struct ControlText {
     /// The text without the line break before its closing quotes.

@@ -78,7 +78,8 @@ impl Definition {
         texts.into_iter().any(|text| names.iter().any(|name| text.text.contains(name)))
     }
 
-    /// Whether the definition writes the spindle speed only at tool changes, so that each tool must have a single speed throughout a job.
+    /// Whether the definition writes the spindle speed, but only at tool changes or at the start of the program, so that each tool must have a single
+    /// speed throughout a job.
     pub(crate) fn has_one_speed_per_tool(&self) -> bool {
         let mut with_speed =
             self.texts().filter(|(kind, _)| self.names(*kind, &["MillingSpindleRate"])).peekable();

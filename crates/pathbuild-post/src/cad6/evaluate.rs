@@ -24,7 +24,7 @@ pub(super) struct Environment<'a> {
 #[derive(Debug, Default)]
 pub(super) struct ResultLine {
     pub(super) text: String,
-    /// Whether the line contained a statement or a variable. Such a line is dropped if it is blank.
+    /// Whether the line contained a statement or a variable. Such a line is dropped if it is empty.
     pub(super) has_statement: bool,
     /// Whether part of the line comes from a file.
     pub(super) is_inserted: bool,

@@ -56,7 +56,7 @@ forms! {
     '#' Whole "whole", "ganze Zahl";
 }
 
-/// Maximum width of a C format in characters. Greater widths are taken for typing errors.
+/// Maximum width and precision of a C format in characters. Greater numbers are taken for typing errors.
 const MAX_WIDTH: usize = 64;
 
 impl Form {

@@ -74,7 +74,7 @@ pub(super) fn assign_macros(variables: &mut Variables, macros: &[PostMacro]) {
     }
 }
 
-/// Returns the files that control texts insert in every program. Their names contain only literal text and the user's macros.
+/// Returns the files that control texts insert under fixed names, which contain only literal text and the user's macros.
 pub(crate) fn inserted_files(definition: &Definition, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
     let mut variables = Variables::new(definition.aliases.iter().map(|(other, own)| (&**other, &**own)));
     assign_macros(&mut variables, macros);

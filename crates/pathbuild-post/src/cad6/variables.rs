@@ -1,6 +1,6 @@
 //! The variables available in control texts, and their values. During evaluation, texts contain placeholder characters: at the positions of
-//! variables, for bytes that are not valid UTF-8, and for texts that must not be evaluated. Placeholders are private-use characters, which
-//! definitions must not contain.
+//! variables, for bytes (from escape sequences and inserted files), and for texts that must not be evaluated. Placeholders are private-use
+//! characters, which definitions must not contain.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;

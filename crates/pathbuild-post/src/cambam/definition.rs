@@ -60,7 +60,7 @@ impl UserMacros {
     }
 }
 
-/// Maximum number of XML elements in a definition. Larger files are refused, because they can only be malicious.
+/// Maximum number of XML nodes in a definition. Larger files are refused, because they can only be malicious.
 const MAX_XML_ELEMENTS: u32 = 10_000;
 
 impl Definition {

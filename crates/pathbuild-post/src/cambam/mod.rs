@@ -68,7 +68,8 @@ pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText 
     shadow.finish()
 }
 
-/// Adds a note for each function that the job switches (coolant, spindle) but the definition has no macro for.
+/// Adds a note if the job switches the coolant but the definition has no macro for this, and one if the definition has no macro that waits for the
+/// spindle.
 fn note_switches(output: &mut EngineOutput, plan: &Plan<'_>) {
     let cools = plan.job.operations.iter().any(|operation| operation.coolant.is_some());
     let mut macros = plan.templates().flat_map(Template::macros);

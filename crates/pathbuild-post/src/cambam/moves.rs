@@ -88,7 +88,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Converts a time to the unit in which the control counts it.
+    /// Converts a time in seconds to milliseconds if a setting of the control requires this.
     pub(super) fn dwell(&self, seconds: f64) -> f64 {
         let has_choice =
             self.plan.target.is_some_and(|target| target.reader.rules().dwell.p == DwellUnit::BySetting);
@@ -217,7 +217,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Writes a move up to the clearance plane, unless the tool is already there.
+    /// Writes a move to the clearance plane, unless the tool is already there.
     pub(super) fn move_to_clearance(&mut self) -> WriteResult {
         let clearance = self.operation().clearance;
         if self.is_at(2, clearance) {
@@ -266,8 +266,8 @@ impl Writer<'_> {
 const CENTRE_REGISTERS: [Register; 3] = [Register::I, Register::J, Register::K];
 
 impl Writer<'_> {
-    /// Writes an arc in the form required by the options of the definition, or as lines if it would no longer be circular after rounding
-    /// and the definition permits lines.
+    /// Writes an arc in the form required by the options of the definition. An arc that is too short or too large for them, or that would be read as
+    /// a full circle after rounding, becomes a single line.
     pub(super) fn arc(&mut self, movement: &Move, course: &Course) -> WriteResult {
         let options = &self.plan.definition.options;
         if options.arcs_as_lines || options.rotary.wrap {
