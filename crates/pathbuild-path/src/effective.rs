@@ -69,7 +69,7 @@ pub(crate) struct Texts<'v, 't> {
 
 impl PathNumbers {
     /// Returns the sweep height (S) for a path that does not give it: the value of `--sweep-height`, or the default. `None` if the option is needed
-    /// but missing.
+    /// but missing, or if O or T, from which the default follows, is unknown.
     pub(crate) fn sweep_height(self, options: &PathOptions, role: PathRole) -> Option<f64> {
         fallback(Letter::S, ElementClass::PathStart, self, options, role).map(|(height, _)| height)
     }

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::messages::outputs;
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Value, nearest};
 
-/// Cyrillic and Greek letters, and the Latin ones that they look like.
+/// Cyrillic and Greek letters, and the Latin letters or digits that they look like.
 const LETTERS: [(&str, &str); 3] = [
     ("АВЕЅІЈКМНОРСТУХЗ", "ABESIJKMHOPCTYX3"),
     ("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "ABEZHIKMNOPTYX"),

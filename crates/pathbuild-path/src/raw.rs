@@ -38,7 +38,7 @@ pub struct RawPath {
     pub definitions: Vec<Definition>,
     /// Curves on the path's layers that do not belong to it, with their start points if known.
     pub left_out: Vec<(EntityKind, Option<Point>)>,
-    /// Findings about the drawing alone. An error ends the compilation of the path.
+    /// Findings about the drawing alone. A path with an error gives no program.
     pub diagnostics: Vec<Diagnostic>,
 }
 

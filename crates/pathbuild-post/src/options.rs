@@ -18,7 +18,7 @@ pub struct PostOptions<'a> {
     pub macros: Vec<PostMacro>,
     /// Whether holes become canned cycles, if the target supports them.
     pub cycles: bool,
-    /// Name of the output file, for the command that the definition asks to run.
+    /// Name of the output file, for the macro that writes it and for the command that the definition asks to run.
     pub output: Option<Box<str>>,
     /// Whether the caller will run the command of the definition. If so, the command is returned; otherwise a note says that it was
     /// skipped.

@@ -276,7 +276,7 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
         self.plunge(to.z, surface, feed);
     }
 
-    /// Moves up or down at the current point: rapidly above the material, drilling below its surface.
+    /// Moves up or down at the current point: rapidly upwards and above the material, drilling downwards below its surface.
     pub(crate) fn plunge(&mut self, to: f64, surface: f64, feed: f64) {
         let from = self.tip.z;
         if near(from, to) {

@@ -86,7 +86,7 @@ fn a_chain_that_begins_with_a_return_has_its_values() {
     assert_eq!(infeeds, [2.0, 3.0]);
 }
 
-/// The letter has no effect where the segment is milled, but takes effect in the chain that retraces the segment, so it is not reported.
+/// The letter has no effect where the segment is milled or where it is retraced, which is reported once.
 #[test]
 fn a_letter_without_effect_is_not_reported_for_a_return() {
     let statements = "mill 0,0 20,0\nmill 20,0 20,10 \"N1\"\nmill 20,0 40,0 \"N9999\"\nturn 20,10\nend 40,0";

@@ -139,7 +139,7 @@ fn a_helical_circle_is_no_larger_than_a() {
     assert_eq!(helix("A7", "8"), ["PB405"]);
 }
 
-/// The O of the path decides; O of a subpath does not affect the path's circles.
+/// O decides which circles are drilled, so it must not be a variable.
 #[test]
 fn holes_are_of_the_paths_o() {
     assert_eq!(wrong(&path("T5 O=X I1 B0 :X1~3", "sweep 0,0 20,0\ncircle 20,0 d 3\nend 20,0")), ["PB206 O"]);
@@ -166,7 +166,8 @@ fn the_axis_of_the_cutter_moves_inside_the_drawn_circle() {
     let compiled = compile(&path("T5 O3 I1 B0 Mx", "sweep 0,0 20,0\ncircle 20,0 d 10\nend 20,0"));
     let helix = &compiled.path.unwrap().helices[0];
     assert_eq!((helix.radius, helix.axis_radius(3.0)), (5.0, 3.5));
-    // The axis moves 22 mm, which is enough for two bars at a distance of 10 mm; 31.4 mm would be enough for three.
+    // The axis moves 22 mm, which is enough for two bars at a distance of 9.9 mm, but not of 10.1 mm. The drawn circle, 31.4 mm long, would be enough
+    // for both.
     let bars = |distance: f64| {
         let text = format!("circle CENTER 20,0 d 10 \"D2 P1 U{distance}\"");
         let compiled = compile(&path("T5 O3 I1 B0 Mx", &format!("sweep 0,0 20,0\n{text}\nend 20,0")));

@@ -438,7 +438,7 @@ fn doubtful_terms_are_warnings() {
     assert_eq!(warnings("{.~ZClearance~} ~PrgName~ {5-~Q1~}"), "");
 }
 
-/// A fault has the column of the opening brace or of the variable, wherever it is in its text.
+/// The column of a fault is that in the text as written, before variables are replaced.
 #[test]
 fn faults_of_texts_have_their_column() {
     let column = |text: &str| {

@@ -5,7 +5,7 @@ use pathbuild_post::{Entry, Hole, HoleKind, Job, JobStep, Operation, PostOptions
 
 use crate::support::{self, DIN, feed, job, operation, rapid, read_toml, texts};
 
-/// Returns the output of the manual's definition for a job, read back in a dialect.
+/// Returns the output of a definition for a job, read back in a dialect.
 #[track_caller]
 fn written(definition: &str, job: &Job) -> Vec<String> {
     let options = PostOptions { dialect: Some("rs274".into()), ..PostOptions::default() };
@@ -46,7 +46,7 @@ fn a_way_round_something_goes_over_it_or_point_for_point() {
     let lines = written(DIN, &high(steps));
     let over = lines.iter().position(|line| line == "G00 X+60 Y+0").expect("the second contour");
     assert_eq!(lines[over - 1], "G00 Z+30", "{lines:?}");
-    // The tool is also retracted if the rapid moves lead beyond the end of the path or before its beginning, in X or in Y.
+    // The tool is also retracted if the rapid moves lead beyond their end or back behind their beginning, in X or in Y.
     for (beyond, end) in [
         ([70.0, 0.0], [60.0, 0.0]),
         ([5.0, 0.0], [60.0, 0.0]),

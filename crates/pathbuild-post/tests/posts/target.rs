@@ -355,7 +355,7 @@ fn texts_for_moves_must_move() {
     assert_eq!(read_back("<Rapid>{$g0} {$_x} {$_y} {$_z}</Rapid>", steps), Ok(()));
 }
 
-/// Writes a cut to X10 at the speed of a tool, with these texts before and after it, for LinuxCNC on a machine.
+/// Writes a cut to X10, with these texts before and after it, for LinuxCNC on a machine.
 fn run_on(machine: Machine, before: &str, behind: &str) -> Result<(), Vec<String>> {
     let text = format!(
         "<PostFile>{{$mops}}{behind}</PostFile><MOP>{before}\n{{$blocks}}</MOP><Dialect>linuxcnc</Dialect>"

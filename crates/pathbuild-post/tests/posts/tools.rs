@@ -64,7 +64,7 @@ fn each_cut_has_its_own_tool() {
         changed("T{$tool.index} M6", "M6")[0],
         "the output has not changed to T1, with which the program makes this cut"
     );
-    // Without M6, T alone changes the tool.
+    // Without M6, the program must also stop for the operator, because T alone does not change the tool.
     assert_eq!(changed("T{$tool.index} M6", "T{$tool.index}\nM0\n{$set(z,NaN)}"), FINE);
     let alone = changed("T{$tool.index} M6", "T{$tool.index}");
     assert!(alone[0].starts_with("T alone does not change the tool"), "{alone:?}");

@@ -51,8 +51,8 @@ fn the_nearest_edge_is_next() {
     assert_eq!(moves(&path("T5 O3 I1 B3", "mill 0,0 40,0 40,30\nend 40,30")), expected);
 }
 
-/// At the end of the short line, descending by 1 mm is nearer than the next line at the same depth. It is permitted only after the upper edge there
-/// is milled.
+/// The next line at the same depth begins where the tool is, and a lower edge is milled only after the edge above it: the tool mills the whole ring
+/// before it descends.
 #[test]
 fn an_edge_waits_for_the_one_above_it() {
     let closed = moves(&path("T5 O3 I1 B3", "mill 0,0 40,0 40,30 0,0\nend 0,0"));
@@ -62,7 +62,7 @@ fn an_edge_waits_for_the_one_above_it() {
     );
 }
 
-/// Distances are measured in space: 3 mm down is farther than 2 mm along.
+/// Distances are measured in space: 4 mm down is nearer than 2 mm along and 4 mm down.
 #[test]
 fn distances_are_in_space() {
     let order =
@@ -79,7 +79,7 @@ fn ties_go_to_the_first_segment_and_to_its_end() {
     // A full circle begins and ends at the same point. The walk reverses it, and milling reverses it again: it begins at the end of the walked curve.
     let circle = "arc CONTINUOUS centre 10,0 r 10 from 180 to 180\nend 0,0";
     assert_eq!(moves(&path("T5 O3 I5 B0", circle)), ["L 5", "D 0", "A 0,0 0", "L 10"]);
-    // The tool is in the middle of a line that is milled there and back, so both ends of the next edge are equally near.
+    // Both lines have an end where the tool is, so the first one is chosen.
     let both = "mill 0,0 0,20\nmill 0,20 0,0\nend 0,0";
     assert_eq!(moves(&path("T5 O3 I5 B0", both))[..4], ["L 5", "D 0", "M 0,20 0", "M 0,0 0"]);
 }
@@ -95,7 +95,7 @@ fn at_last_the_tool_is_at_the_end_of_the_last_segment_at_sweep_height() {
 /// Between edges that do not meet, the tool goes up to the sweep height, across, and down again.
 #[test]
 fn the_tool_travels_over_the_material() {
-    // The second line is deeper, so its lower edges remain after everything else is done.
+    // The second line is shallower, so the lower edges of the first and the third do not meet.
     let lines = "mill 0,0 40,0\nmill 40,0 80,0 \"B4\"\nmill 80,0 120,0\nend 120,0";
     assert_eq!(
         moves(&path("T5 O3 I1 B3", lines)),

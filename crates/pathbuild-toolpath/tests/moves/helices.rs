@@ -172,7 +172,7 @@ fn circles_with_bars_go_down_by_infeeds() {
     assert_eq!(of_default("T5 O3 I5 B1 D2 P2 U21"), "1");
     // A remainder that is only a rounding error is not a separate pass.
     assert_eq!(of_default("T5 O3 I0.3333333333 B1 D2 P2 U21"), "1.667 1.333 1");
-    // PathDxf2GCode continues the infeeds of the spiral, 4.3 to 1.5, although the spiral stops at D.
+    // PathDxf2GCode continues the infeeds of the spiral (with I0.7: 4.3 to 1.5), although the spiral stops at D.
     let of_original = |parameters: &str| lowest(parameters, COMPATIBLE);
     assert_eq!(of_original("T5 O3 I0.5 B1 D2 P2 U21"), "1.5 1");
     assert_eq!(of_original("T5 O3 I0.4 B1 D2 P2 U21"), "1.4 1");

@@ -16,7 +16,7 @@ struct Edge {
     is_done: bool,
 }
 
-/// Returns reproducible random points, mostly on a grid to get many ties.
+/// Returns the points of a reproducible random walk on a grid, which gives many ties.
 fn wander(steps: usize, scale: f64) -> Vec<Point> {
     let mut state = 0x9e37_79b9_u32;
     let mut random = |below: u32| {

@@ -10,7 +10,7 @@ fn an_open_chain_is_run_to_and_fro_at_each_depth_but_the_last() {
     );
 }
 
-/// With a single pass, there is no sweep, and no retract at the end.
+/// The last pass goes there only, without a sweep or a retract at the end.
 #[test]
 fn one_run_goes_there_only() {
     assert_eq!(

@@ -61,7 +61,7 @@ fn heights_that_are_near_are_the_same() {
     assert_eq!(holes("0.9999"), ["L 5", "D 1", "D 1", "L 10", "S 40,0"]);
 }
 
-/// A plunge is counted with the distance in space, including the height difference before the sweep.
+/// A plunge is counted with its difference in height: as a sweep down to the surface, and as drilling below it.
 #[test]
 fn what_a_plunge_counts() {
     assert_eq!(
