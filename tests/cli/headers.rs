@@ -5,7 +5,7 @@
 use crate::support::{Place, Run, runs};
 use insta::assert_snapshot;
 
-/// Returns a program with two slots, 20 mm apart, and the given move between them.
+/// Returns a program with two slots of 20 mm, and the given moves between them.
 fn slots(head: &str, between: &str) -> String {
     format!(
         "{head}S12000 M3\nG54\nG0 Z15\nG0 X0 Y0\nG0 Z5\nG1 Z-2 F200\nG1 X20 F600\n{between}\nG1 Z-2 F200\nG1 X0 F600\nG0 Z5\nM5\nM30\n"

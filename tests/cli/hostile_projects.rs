@@ -66,7 +66,7 @@ fn cuts(program: &str) -> usize {
     program.lines().filter(|line| line.starts_with("G01 F") && line.contains(" X")).count()
 }
 
-/// Ten embeddings at each of ten levels give a thousand million components.
+/// Ten embeddings at each of ten levels give ten thousand million components.
 #[test]
 fn ten_levels_of_ten_embeddings_exceed_the_limit_of_moves() {
     let levels = (1..=10).map(|it| (it, project(it, "", &times(10, &embedded(it - 1)))));

@@ -1,5 +1,5 @@
 //! Tests the example library: its drawings, including frames and title blocks, are generated from their text form, and the README's first command
-//! works on them. `PATHBUILD_UPDATE=1 cargo test --locked --test library` regenerates them.
+//! works on them. `PATHBUILD_UPDATE=1 cargo test --locked --test cli library::` regenerates them.
 
 use std::fs;
 use std::path::{Path, PathBuf};

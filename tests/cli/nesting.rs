@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::support::Place;
 use pathbuild_testkit::{Point, sheet};
 
-/// A component from (0, 0) to (10, 0): a ring of two half circles, and a bar.
+/// A component from (0, 0) to (10, 0): a ring of two half circles, with sweeps to it and back.
 const COMPONENT: &str = "layer 1000.1P
 start 0,0 \"T5 O2 I1 B3 MX\"
 sweep 0,0 20,0

@@ -204,7 +204,7 @@ impl Program {
         })
     }
 
-    /// Returns the lines of plunges that go deeper than all earlier moves, so that there is material below.
+    /// Returns the lines of plunges that go deeper than all earlier cuts, so that there is material below.
     fn plunges(&self) -> impl Iterator<Item = usize> + '_ {
         let mut deepest = self.surface - 0.02;
         let moves = self.moves.iter().filter(|(_, movement)| matches!(movement.pace, Pace::Feed(_)));
@@ -287,7 +287,7 @@ impl Program {
         (!changes.is_empty()).then_some(changes)
     }
 
-    /// Scales the last value of a letter before a line.
+    /// Scales the last value of a letter up to and including a line.
     fn scaled(&self, letter: char, by: f64, end: usize) -> Option<Changes> {
         let scaled = |line: &String| with_value(line, letter, |value| Some((number(value) * by).to_string()));
         let lines = self.lines[..=end].iter().enumerate().rev();
