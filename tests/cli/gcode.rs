@@ -565,6 +565,23 @@ fn verify_against_finds_what_moves_the_machine_and_not_the_program() {
 }
 
 #[test]
+fn a_joined_program_is_not_compared_with_one_of_its_paths() {
+    for post in ["linuxcnc", "grbl", "din", "xpertmill"] {
+        let place = Place::of(LIBRARY);
+        let emitted = place.run(&format!("emit 1234.1P 1234.1P --join both --post {post} --out-dir out"));
+        assert_eq!(emitted.status, Some(0), "{post}: {emitted}");
+        let compared = place.run("verify out --against 1234.1P --format concise");
+        assert!(
+            compared.stderr.contains("error[PB739] the program joins several paths"),
+            "{post}: {compared}"
+        );
+        assert!(compared.stderr.contains("errors: 1, warnings: 0"), "{post}: {compared}");
+        let alone = place.run("verify out --format concise");
+        assert!(alone.stderr.contains("errors: 0"), "{post}: {alone}");
+    }
+}
+
+#[test]
 fn a_header_weakens_no_check() {
     let place = Place::of(LIBRARY);
     assert_eq!(place.run("emit 1234.1P --post grbl --out-dir out").status, Some(0));

@@ -78,6 +78,13 @@ messages! {
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
+    /// `verify --against`: a program that joins several paths.
+    JOINED_PROGRAM: MovesDiffer {
+        en: "the program joins several paths, and --against compares a program with one path",
+        de: "das Programm verbindet mehrere Pfade, und --against vergleicht ein Programm mit einem Pfad",
+        help_en: "verify it without --against, and compare it with `pathbuild emit PATHS --join NAME --check`",
+        help_de: "es ohne --against prüfen und mit `pathbuild emit PFADE --join NAME --check` vergleichen",
+    }
     /// `verify --against`: another tool than the drawing needs.
     TOOLS_DIFFER: MovesDiffer {
         en: "the tool is T{found}, but the drawing needs T{expected}",

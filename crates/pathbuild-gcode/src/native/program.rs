@@ -86,6 +86,20 @@ pub fn is_title_of(found: &str, drawing: &str) -> bool {
     drawing_of_title(found).is_some_and(|titled| plain_title(titled) == plain_title(drawing))
 }
 
+/// Returns the title of a program that joins paths. It contains neither a comma nor a drawing's name, so that the program is not mistaken for a stale
+/// program of a single drawing.
+pub fn joined_title<'a>(name: &str, paths: impl Iterator<Item = &'a str>) -> String {
+    format!("{PATHS}{}{JOINED_AS}{name}", paths.collect::<Vec<_>>().join(" + ")).replace(',', " ")
+}
+
+/// Whether a title found in a program is a [`joined_title`].
+pub fn is_joined_title(found: &str) -> bool {
+    let found = plain_title(found);
+    found.starts_with(&plain_title(PATHS)) && found.contains(JOINED_AS)
+}
+
+const PATHS: &str = "Paths ";
+const JOINED_AS: &str = " joined as ";
 const PATH: &str = "Path ";
 const OF_DRAWING: &str = ", drawing ";
 

@@ -273,7 +273,7 @@ impl JobBuilder<'_> {
         let db = self.session.db();
         let directory = output_directory(self.session.out_dir().as_deref(), first.target.file(db).path(db));
         let stem = join_file_name(name, name, &directory).map_err(|problem| vec![*problem])?;
-        let title = joined_title(name, checked);
+        let title = native::joined_title(name, right().map(|(_, emitted)| &*emitted.path));
         Ok(Some(Job { title, ..self.with_files(stem, name, checked, &[OutputKind::Milling]) }))
     }
 
@@ -336,13 +336,6 @@ fn sources(db: &Database, checked: &[CheckedTarget]) -> Vec<SourceFile> {
     let mut seen = HashSet::new();
     let read = checked.iter().flat_map(|checked| &trace(db, checked.target).files).copied();
     read.filter(|file| seen.insert(*file)).collect()
-}
-
-/// Returns the title of a joined program. It contains neither a comma nor a drawing's name, so that the program is not mistaken for a stale program
-/// of a single drawing.
-fn joined_title(name: &str, checked: &[CheckedTarget]) -> String {
-    let paths = checked.iter().filter_map(|checked| checked.emitted.as_ref()).map(|emitted| &*emitted.path);
-    format!("Paths {} joined as {name}", paths.collect::<Vec<_>>().join(" + ")).replace(',', " ")
 }
 
 pub(super) fn program_name(stem: &str, post_processor: &PostProcessor) -> String {

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use against::{ReferenceProgram, RewrittenProgram};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_diagnostic::messages::gcode::{FEED_IGNORED, NO_DECIMAL_POINT};
+use pathbuild_diagnostic::messages::gcode::{self as say, FEED_IGNORED, NO_DECIMAL_POINT};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{Header, HeaderReader};
@@ -401,6 +401,7 @@ impl<'v> Examination<'v> {
     /// # Errors
     /// The problem that prevents the verification.
     fn run(&self, written: WrittenFindings) -> Result<VerifiedProgram, Vec<Diagnostic>> {
+        self.refuse_joined_paths()?;
         let rewritten = self.rewritten_program()?;
         let mut evidence = CheckEvidence {
             blind: self.sources.stock().and_then(BlindRapidRules::new),
@@ -423,6 +424,17 @@ impl<'v> Examination<'v> {
         let mut diagnostics = self.doubts(rewritten.as_ref(), &mut found);
         diagnostics.append(&mut found);
         Ok(VerifiedProgram { diagnostics, checks, comparison })
+    }
+
+    /// Refuses to compare a program that joins several paths with one of them: each difference would be reported as a fault of the program.
+    fn refuse_joined_paths(&self) -> Result<(), Vec<Diagnostic>> {
+        let title = Provenance::of_head(&self.program.text).map(|(_, title)| title);
+        if self.verifier.against.is_none() || !title.is_some_and(|title| native::is_joined_title(&title)) {
+            return Ok(());
+        }
+        let mut problems = vec![Diagnostic::new(&say::JOINED_PROGRAM)];
+        self.program.place(&mut problems);
+        Err(problems)
     }
 
     /// Returns the drawing's program as the post-processor's definition writes it.
