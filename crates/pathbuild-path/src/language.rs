@@ -92,7 +92,7 @@ pub struct DoubtThresholds {
     pub infeed: f64,
     /// Depth of a mark beyond which D is doubtful, as a fraction of T.
     pub mark_depth: f64,
-    /// The machine's largest feed in mm/min.
+    /// The machine's maximum feed in mm/min.
     pub maximum_feed: Option<f64>,
     /// Whether the target may write drilled holes as canned cycles. Without canned cycles, C has no effect.
     pub has_cycles: bool,

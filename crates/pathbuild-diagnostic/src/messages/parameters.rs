@@ -263,7 +263,7 @@ messages! {
     /// A feed that exceeds the limit of the machine.
     FEED_ABOVE_MACHINE: DoubtfulValue {
         en: "F is {value}, but the machine's maximum feed is {limit}",
-        de: "F ist {value}, der größte Vorschub der Maschine ist aber {limit}",
+        de: "F ist {value}, der maximale Vorschub der Maschine ist aber {limit}",
         help_en: "correct F, or `maximum-feed` under [machine]",
         help_de: "F berichtigen oder `maximum-feed` unter [machine]",
     }

@@ -278,7 +278,7 @@ pub mod machine {
         y: Option<NumberRange> = "y", NUMBER_RANGE, None, "[0, 200]", Emit;
         /// mm: the same for the Z axis
         z: Option<NumberRange> = "z", NUMBER_RANGE, None, "[0, 60]", Emit;
-        /// mm/min: largest feed
+        /// mm/min: maximum feed
         max_feed: Option<f64> = "maximum-feed", POSITIVE, None, "1500", Check;
         /// mm: travel of X, Y and Z, wherever the part is clamped; x, y and z are more specific
         travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]", Emit;

@@ -339,7 +339,7 @@ fn requirement_name(requirement: Requirement) -> Text {
     match requirement {
         Requirement::Rapids | Requirement::AssumedRapids => Text { en: "rapid moves", de: "Eilgänge" },
         Requirement::Envelope => Text { en: "travel", de: "Verfahrwege" },
-        Requirement::Feeds => Text { en: "largest feed", de: "größter Vorschub" },
+        Requirement::Feeds => Text { en: "maximum feed", de: "maximaler Vorschub" },
         Requirement::Spindle => Text { en: "spindle speeds", de: "Drehzahlen" },
         Requirement::Drawing => Text { en: "moves of the drawing", de: "Bewegungen der Zeichnung" },
         Requirement::Clamps => Text { en: "clamps", de: "Spannmittel" },
