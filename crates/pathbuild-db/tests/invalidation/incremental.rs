@@ -19,7 +19,7 @@ const PATHS: usize = 6;
 #[derive(Clone, Debug)]
 enum Step {
     /// Raises B of a path by 0.1 mm.
-    Deepen(usize),
+    RaiseBottom(usize),
     /// Inserts a remark before a path.
     Remark(usize),
     /// Draws a path in a second file as well, in its own directory or in the search directory.
@@ -37,7 +37,7 @@ enum Step {
 
 fn step() -> impl Strategy<Value = Step> {
     prop_oneof![
-        4 => (0..PATHS).prop_map(Step::Deepen),
+        4 => (0..PATHS).prop_map(Step::RaiseBottom),
         2 => (0..PATHS).prop_map(Step::Remark),
         2 => (0..PATHS, 0..2_usize).prop_map(|(path, directory)| Step::Double(path, directory)),
         1 => (0..PATHS).prop_map(Step::Remove),
@@ -51,7 +51,7 @@ fn step() -> impl Strategy<Value = Step> {
 impl Step {
     fn apply(&self, library: &mut Library) {
         match *self {
-            Self::Deepen(path) => each(library, path, |drawing| drawing.bottom += 1),
+            Self::RaiseBottom(path) => each(library, path, |drawing| drawing.bottom += 1),
             Self::Remark(path) => each(library, path, |drawing| drawing.remarks += 1),
             Self::Unembed(path) => each(library, path, |drawing| _ = drawing.embeds.pop()),
             Self::Double(path, directory) => {
