@@ -47,7 +47,7 @@ pub(super) struct Watcher {
 }
 
 /// The outcome of waiting for changes.
-pub(super) enum Batch {
+pub(super) enum WaitOutcome {
     Changes(Changes),
     Restart(Restart),
     /// A change of the configuration may not have been reported.
@@ -134,32 +134,32 @@ impl Watcher {
     }
 
     /// Waits for changes. Due changes take precedence over wake-ups, which a page may request without end.
-    pub(super) fn next(&mut self, library: &Library<'_>) -> Batch {
+    pub(super) fn next(&mut self, library: &Library<'_>) -> WaitOutcome {
         loop {
             self.poll_signals(library.session());
             if self.is_over {
-                return Batch::Over;
+                return WaitOutcome::Over;
             }
             if self.has_moved() {
-                return Batch::Restart(Restart::Directories);
+                return WaitOutcome::Restart(Restart::Directories);
             }
             if self.next_poll.is_some_and(|due| due <= Instant::now()) {
                 self.next_poll = Some(Instant::now() + POLL_RESOLUTION);
                 self.poll_files(library);
-                return Batch::ConfigurationInDoubt;
+                return WaitOutcome::ConfigurationInDoubt;
             }
             let patience = self.time_to_deadline(library);
             if patience.is_zero()
-                && let Some(batch) = self.take_due_changes(library)
+                && let Some(outcome) = self.take_due_changes(library)
             {
-                return batch;
+                return outcome;
             }
             if self.take_wake_up() {
-                return Batch::WokenUp;
+                return WaitOutcome::WokenUp;
             }
             match self.wait(self.time_to_deadline(library)) {
                 Ok(signal) => self.add(signal, library.session()),
-                Err(RecvTimeoutError::Disconnected) => return Batch::Over,
+                Err(RecvTimeoutError::Disconnected) => return WaitOutcome::Over,
                 Err(RecvTimeoutError::Timeout) => {}
             }
         }
@@ -174,14 +174,14 @@ impl Watcher {
     }
 
     /// Takes the changes that are due, except for incomplete drawings, which are checked again soon.
-    fn take_due_changes(&mut self, library: &Library<'_>) -> Option<Batch> {
+    fn take_due_changes(&mut self, library: &Library<'_>) -> Option<WaitOutcome> {
         let mut changes = std::mem::take(&mut self.pending);
         if let Some(restart) = changes.restart {
-            return Some(Batch::Restart(restart));
+            return Some(WaitOutcome::Restart(restart));
         }
         self.hold_back(&mut changes);
         self.due = Instant::now() + INCOMPLETE_DRAWING_INTERVAL;
-        (!changes.is_empty() || library.has_backlog()).then_some(Batch::Changes(changes))
+        (!changes.is_empty() || library.has_backlog()).then_some(WaitOutcome::Changes(changes))
     }
 
     /// Whether drawings have changed since the last batch, or the end of watching was requested.

@@ -73,20 +73,22 @@ pub struct FirstCheck {
 }
 
 /// The result of a batch of changes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Update {
     /// Number of the batch, counted from 1.
     pub revision: u64,
-    /// Files that changed.
+    /// The changed files that caused the batch.
     pub changed: BTreeSet<Utf8PathBuf>,
-    /// The changed files that no longer exist.
+    /// Those of the changed files that no longer exist.
     pub removed: BTreeSet<Utf8PathBuf>,
-    /// Diagnostics that belong to no single drawing, if they have changed; they are part of `now` as well.
-    pub problems: Option<Vec<Diagnostic>>,
+    /// Whether diagnostics that belong to no single drawing have changed.
+    pub has_other_problems: bool,
+    /// All diagnostics that belong to no single drawing, if they have changed; they are part of `now` as well.
+    pub problems: Vec<Diagnostic>,
     /// Unchanged drawings that were checked again because of transient diagnostics, and directories that can be listed again.
     pub tried_again: BTreeSet<Utf8PathBuf>,
-    /// Number of drawings that were checked.
-    pub checked: usize,
+    /// The drawings that were checked.
+    pub checked_files: Vec<SourceFile>,
     /// Number of drawings still to be checked, because more changes arrived.
     pub open: usize,
     /// Previous diagnostics of the checked drawings.
@@ -101,6 +103,13 @@ pub struct Update {
     pub counts: FindingCounts,
     /// Time that the batch took.
     pub time: Duration,
+}
+
+impl Update {
+    /// Whether there is anything to report besides the drawings still to be checked.
+    pub(super) fn has_news(&self) -> bool {
+        !self.removed.is_empty() || self.has_other_problems
+    }
 }
 
 /// The numbers of all current findings.

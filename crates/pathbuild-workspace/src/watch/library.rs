@@ -9,15 +9,14 @@ use pathbuild_db::{Db, SecondDefinition, SourceFile, Trace, drawing_names, secon
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
-use super::events::Changes;
-use crate::Inputs;
+use super::events::{Changes, Update};
 use crate::check::{self, CheckedFile, check_drawings};
 use crate::common_findings::{globs_without_file, patterns_without_layer, unused_configurations};
 use crate::emit::Scope;
 use crate::files::FILE_NAME;
 use crate::memo::{Coverage, DrawingResult, is_transient};
 use crate::session::{IGNORE_FILES, Pair, Selection, Session, is_ignore_file, q_project_pairs};
-use crate::waivers;
+use crate::{Inputs, waivers};
 
 /// The watched drawings with their results.
 pub(super) struct Library<'a> {
@@ -46,33 +45,6 @@ pub(super) struct Library<'a> {
     backlog_cause: BTreeSet<Utf8PathBuf>,
     /// Dependencies that have not yet been checked for links.
     unfollowed: BTreeSet<Utf8PathBuf>,
-}
-
-/// The outcome of a batch of changes.
-#[derive(Debug, Default)]
-pub(super) struct Batch {
-    /// The changed files that caused the batch.
-    pub(super) changed: BTreeSet<Utf8PathBuf>,
-    pub(super) checked_files: Vec<SourceFile>,
-    /// Number of drawings that are yet to be checked because more changes arrived.
-    pub(super) open: usize,
-    /// Drawings that no longer exist.
-    pub(super) removed: BTreeSet<Utf8PathBuf>,
-    /// Unchanged drawings that are checked again, and directories that can be listed again.
-    pub(super) tried_again: BTreeSet<Utf8PathBuf>,
-    /// Previous diagnostics of the drawings in this batch.
-    pub(super) before: Vec<Diagnostic>,
-    /// Current diagnostics of the drawings in this batch.
-    pub(super) now: Vec<Diagnostic>,
-    /// Whether diagnostics that belong to no single drawing have changed.
-    pub(super) has_other_problems: bool,
-}
-
-impl Batch {
-    /// Whether there is anything to report besides the drawings still to be checked.
-    pub(super) fn has_news(&self) -> bool {
-        !self.removed.is_empty() || self.has_other_problems
-    }
 }
 
 impl<'a> Library<'a> {
@@ -112,7 +84,7 @@ impl<'a> Library<'a> {
     }
 
     /// Finds and reads the drawings, and marks all of them to be checked. Returns diagnostics of arguments and directories.
-    pub(super) fn find(&mut self) -> Batch {
+    pub(super) fn find(&mut self) -> Update {
         let selection = self.session.select(self.inputs);
         let mut drawings = selection.whole(&self.session);
         drawings.extend(selection.paths.iter().map(|path| path.file));
@@ -121,7 +93,7 @@ impl<'a> Library<'a> {
         self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
         self.unfollowed.extend(self.open.keys().cloned().chain(ignore_files(&selection)));
         self.problems = self.take_selection(selection);
-        Batch { now: self.problems.clone(), ..Batch::default() }
+        Update { now: self.problems.clone(), ..Update::default() }
     }
 
     /// Stores the selection, and returns the diagnostics of arguments and directories.
@@ -154,8 +126,8 @@ impl<'a> Library<'a> {
     }
 
     /// Applies changes to the database and marks the affected drawings to be checked.
-    pub(super) fn apply(&mut self, changes: &Changes) -> Batch {
-        let mut update = Batch::default();
+    pub(super) fn apply(&mut self, changes: &Changes) -> Update {
+        let mut update = Update::default();
         let mut concerned: HashSet<SourceFile> = HashSet::new();
         let files = self.changed_files(changes);
         let mut is_other_library = self.apply_names(changes, &files, &mut concerned) || changes.is_incomplete;
@@ -188,8 +160,8 @@ impl<'a> Library<'a> {
         &mut self,
         further: &BTreeSet<Utf8PathBuf>,
         checked_files: &[SourceFile],
-    ) -> Batch {
-        let (mut update, mut concerned) = (Batch::default(), HashSet::new());
+    ) -> Update {
+        let (mut update, mut concerned) = (Update::default(), HashSet::new());
         let is_passed = |result: &DrawingResult| result.diagnostics.iter().any(is_transient);
         let system = &*self.session.workspace().system;
         let is_missing = |path: &Utf8PathBuf| system.kind(path) == FileKind::Missing;
@@ -250,7 +222,7 @@ impl<'a> Library<'a> {
     }
 
     /// Checks up to `most` of the drawings still to be checked, and returns them.
-    pub(super) fn check_portion(&mut self, most: usize, update: &mut Batch) -> Vec<SourceFile> {
+    pub(super) fn check_portion(&mut self, most: usize, update: &mut Update) -> Vec<SourceFile> {
         let portion: Vec<SourceFile> =
             std::iter::from_fn(|| self.open.pop_first()).map(|(_, file)| file).take(most).collect();
         self.check_and_record(portion.clone(), update);
@@ -258,7 +230,7 @@ impl<'a> Library<'a> {
     }
 
     /// Leaves the remaining drawings to the next batch.
-    pub(super) fn postpone_rest(&mut self, update: &mut Batch) {
+    pub(super) fn postpone_rest(&mut self, update: &mut Update) {
         update.open = self.open.len();
         if self.has_backlog() {
             self.backlog_cause.clone_from(&update.changed);
@@ -339,7 +311,7 @@ impl<'a> Library<'a> {
     }
 
     /// Searches for drawings again: marks new ones to be checked, and drops missing ones.
-    fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Batch) {
+    fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Update) {
         let selection = self.session.select(self.inputs);
         self.unfollowed.extend(ignore_files(&selection));
         let db = self.session.db();
@@ -385,7 +357,7 @@ impl<'a> Library<'a> {
     }
 
     /// Determines the diagnostics that follow from all drawings together, once all are checked.
-    pub(super) fn check_common(&mut self, update: &mut Batch) {
+    pub(super) fn check_common(&mut self, update: &mut Update) {
         if self.has_backlog() || !std::mem::take(&mut self.has_other_content) {
             return;
         }
@@ -403,7 +375,7 @@ impl<'a> Library<'a> {
         }
     }
 
-    fn check_and_record(&mut self, checked_files: Vec<SourceFile>, update: &mut Batch) {
+    fn check_and_record(&mut self, checked_files: Vec<SourceFile>, update: &mut Update) {
         let results =
             self.session.with_stable_files(|session| check_drawings(session, &checked_files, false));
         for (file, (result, traces)) in checked_files.iter().zip(results) {
@@ -431,7 +403,7 @@ impl<'a> Library<'a> {
     }
 
     /// Compares drawings with their Q-projects, if either was checked.
-    fn compare_q_projects(&mut self, checked_files: &[SourceFile], update: &mut Batch) {
+    fn compare_q_projects(&mut self, checked_files: &[SourceFile], update: &mut Update) {
         if self.pairs.is_none() {
             self.find_pairs(update);
         }
@@ -449,7 +421,7 @@ impl<'a> Library<'a> {
     }
 
     /// Finds the drawings that have a Q-project. Among ten thousand drawings, this takes as long as processing an edit.
-    fn find_pairs(&mut self, update: &mut Batch) {
+    fn find_pairs(&mut self, update: &mut Update) {
         let pairs = q_project_pairs(self.drawings.keys()).into_iter();
         let pairs: BTreeSet<[Utf8PathBuf; 2]> = pairs.map(|pair| pair.map(Utf8PathBuf::clone)).collect();
         let gone: Vec<_> = self.q_projects.extract_if(.., |pair, _| !pairs.contains(pair)).collect();

@@ -24,7 +24,7 @@ use crate::findings::Findings;
 use crate::session::Session;
 use crate::workspace::Workspace;
 
-use changes::{Batch, Watcher};
+use changes::{WaitOutcome, Watcher};
 use events::{Changes, Restart};
 pub use events::{FindingCounts, FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
 use finding_tally::{FindingTally, without};
@@ -88,15 +88,15 @@ impl WatchLoop<'_> {
         self.begin();
         loop {
             match self.watcher.next(&self.library) {
-                Batch::Restart(Restart::Configuration) => return WatchEnd::ConfigurationChanged,
-                Batch::Restart(Restart::Directories) => return WatchEnd::DirectoriesChanged,
-                Batch::ConfigurationInDoubt if !self.listener.is_configuration_current() => {
+                WaitOutcome::Restart(Restart::Configuration) => return WatchEnd::ConfigurationChanged,
+                WaitOutcome::Restart(Restart::Directories) => return WatchEnd::DirectoriesChanged,
+                WaitOutcome::ConfigurationInDoubt if !self.listener.is_configuration_current() => {
                     return WatchEnd::ConfigurationChanged;
                 }
-                Batch::ConfigurationInDoubt => {}
-                Batch::Over => return WatchEnd::Over,
-                Batch::WokenUp => self.listener.woken(self.library.session_mut()),
-                Batch::Changes(changes) => self.update(&changes),
+                WaitOutcome::ConfigurationInDoubt => {}
+                WaitOutcome::Over => return WatchEnd::Over,
+                WaitOutcome::WokenUp => self.listener.woken(self.library.session_mut()),
+                WaitOutcome::Changes(changes) => self.update(&changes),
             }
         }
     }
@@ -153,7 +153,7 @@ impl WatchLoop<'_> {
     }
 
     /// Checks the remaining drawings, writes their programs, and reports the outcome. Returns the checked drawings.
-    fn work_on(&mut self, mut found: library::Batch) -> Vec<SourceFile> {
+    fn work_on(&mut self, mut found: Update) -> Vec<SourceFile> {
         let begun = Instant::now();
         let rivals = self.writer.forget(self.library.session(), &found.removed);
         self.library.check_again(rivals);
@@ -173,32 +173,22 @@ impl WatchLoop<'_> {
         self.library.postpone_rest(&mut found);
         let scope = (!self.library.has_backlog()).then(|| self.library.scope());
         self.writer.update_problems(self.library.session(), scope.as_ref(), &mut found);
-        let time = begun.elapsed();
-        let problems = found.has_other_problems.then(|| self.common_problems());
-        let library::Batch { changed, checked_files, open, removed, tried_again, before, now, .. } = found;
-        let session = self.library.session();
-        let (before, now) = (session.with_hints(before), session.with_hints(now));
-        self.tally.replace(&before, &now);
+        found.time = begun.elapsed();
+        if found.has_other_problems {
+            found.problems = self.common_problems();
+        }
+        for diagnostics in [&mut found.before, &mut found.now] {
+            *diagnostics = self.library.session().with_hints(std::mem::take(diagnostics));
+        }
+        self.tally.replace(&found.before, &found.now);
         let earlier = std::mem::take(&mut self.reported);
         self.reported = self.findings();
-        let new = without(&self.reported.diagnostics, &earlier.diagnostics);
-        let fixed = without(&earlier.diagnostics, &self.reported.diagnostics);
-        self.listener.batch_done(&Update {
-            revision: self.revision,
-            changed,
-            removed,
-            problems,
-            tried_again,
-            checked: checked_files.len(),
-            open,
-            before,
-            now,
-            new,
-            fixed,
-            counts: FindingCounts::of(&self.reported),
-            time,
-        });
-        checked_files
+        found.new = without(&self.reported.diagnostics, &earlier.diagnostics);
+        found.fixed = without(&earlier.diagnostics, &self.reported.diagnostics);
+        found.counts = FindingCounts::of(&self.reported);
+        found.revision = self.revision;
+        self.listener.batch_done(&found);
+        found.checked_files
     }
 
     /// Returns all findings as `check` reports them.

@@ -8,8 +8,8 @@ use pathbuild_db::system::MemorySystem;
 use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_testkit::sheet;
 
-use super::events::Changes;
-use super::library::{Batch, Library};
+use super::events::{Changes, Update};
+use super::library::Library;
 use crate::config::{self, Overrides};
 use crate::session::Session;
 use crate::{Inputs, SilentReporter, Workspace};
@@ -72,7 +72,7 @@ impl Place {
     }
 }
 
-fn check_all(library: &mut Library<'_>, found: &mut Batch) {
+fn check_all(library: &mut Library<'_>, found: &mut Update) {
     while library.has_backlog() {
         library.check_portion(64, found);
     }

@@ -6,8 +6,7 @@ use camino::Utf8PathBuf;
 use pathbuild_db::{Role, SourceFile, Target, path_names};
 use pathbuild_diagnostic::{Code, Diagnostic};
 
-use super::events::{Listener, Request};
-use super::library::Batch;
+use super::events::{Listener, Request, Update};
 use crate::emit::{Scope, TargetPatterns, WrittenPrograms};
 use crate::memo::is_transient;
 use crate::post_processor::{PostArguments, PostProcessor};
@@ -117,17 +116,17 @@ impl<'a> Writer<'a> {
         &mut self,
         session: &Session<'_>,
         scope: Option<&Scope<'_>>,
-        batch: &mut Batch,
+        update: &mut Update,
     ) {
         if !self.is_on {
             return;
         }
         if let Some(scope) = scope {
             let common = self.programs.common_problems(session, self.post_processor.as_ref(), scope);
-            batch.has_other_problems |= replace(&mut self.common_problems, common, batch);
+            update.has_other_problems |= replace(&mut self.common_problems, common, update);
         }
         let problems = self.programs.problems(session);
-        replace(&mut self.problems, problems, batch);
+        replace(&mut self.problems, problems, update);
     }
 
     /// Returns the diagnostics of all programs together.
@@ -136,12 +135,12 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Replaces diagnostics, and adds them to the batch if they differ. Returns whether they do.
-fn replace(before: &mut Vec<Diagnostic>, now: Vec<Diagnostic>, batch: &mut Batch) -> bool {
+/// Replaces diagnostics, and adds them to the update if they differ. Returns whether they do.
+fn replace(before: &mut Vec<Diagnostic>, now: Vec<Diagnostic>, update: &mut Update) -> bool {
     let is_other = *before != now;
     if is_other {
-        batch.now.extend_from_slice(&now);
-        batch.before.extend(std::mem::replace(before, now));
+        update.now.extend_from_slice(&now);
+        update.before.extend(std::mem::replace(before, now));
     }
     is_other
 }

@@ -183,12 +183,12 @@ impl Listener for WatchPrinter<'_> {
         let change = json!({
             "changed": names(&update.changed),
             "removed": names(&update.removed),
-            "checked": update.checked,
+            "checked": update.checked_files.len(),
             "open": update.open,
             "fixed": gone,
         });
         self.count(update.revision, change, update.counts, new.len());
-        let (count, revision) = (update.checked, update.revision);
+        let (count, revision) = (update.checked_files.len(), update.revision);
         let milliseconds = update.time.as_secs_f64() * 1000.0;
         let phrase = |en, de| context.choose(en, de);
         let open = match update.open {

@@ -125,11 +125,11 @@ impl Listener for Page<'_> {
         });
     }
 
-    fn batch_done(&self, Update { removed, problems, .. }: &Update) {
-        if removed.is_empty() && problems.is_none() {
+    fn batch_done(&self, Update { removed, has_other_problems, problems, .. }: &Update) {
+        if removed.is_empty() && !has_other_problems {
             return;
         }
-        let problems = problems.as_ref().map(|problems| self.context.findings(problems.clone()));
+        let problems = has_other_problems.then(|| self.context.findings(problems.clone()));
         let mut library = self.library.borrow_mut();
         self.hub.publish(|state, revision| {
             if let Some(problems) = &problems {
