@@ -6,7 +6,7 @@ mod states;
 use std::collections::HashMap;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{SourceFile, Target, check_file};
+use pathbuild_db::check_file;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::PathName;
 use pathbuild_view::{
@@ -15,7 +15,7 @@ use pathbuild_view::{
 
 use crate::emit::ShownText;
 use crate::inputs::Inputs;
-use crate::session::{Session, compare_names};
+use crate::session::{HashedPath, Session, compare_names};
 
 pub use reasons::{Reason, ValueChange};
 use reasons::{Side, reasons};
@@ -161,20 +161,9 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
     Comparison { paths, path_count, problems }
 }
 
-#[derive(Clone, Debug)]
-struct SidePath {
-    file: SourceFile,
-    /// Path of the drawing's file, relative to the root.
-    place: Utf8PathBuf,
-    name: PathName,
-    target: Target,
-    /// Hash of the moves of the path's program; `None` if the path has errors, or if its program could not be built.
-    moves: Option<Box<str>>,
-}
-
 impl Tree<'_, '_> {
     /// Returns the paths of this side, and the diagnostics of the drawings themselves.
-    fn paths(&mut self) -> (Vec<SidePath>, Vec<Diagnostic>) {
+    fn paths(&mut self) -> (Vec<HashedPath>, Vec<Diagnostic>) {
         let selection = self.session.select(self.inputs);
         let files = selection.whole(self.session);
         let mut problems = selection.problems;
@@ -183,37 +172,22 @@ impl Tree<'_, '_> {
             session.parse_ahead(files);
             let broken = files.iter().flat_map(|file| check_file(session.db(), *file));
             problems.extend(broken.filter(|problem| problem.is_error()).cloned());
-            known_paths(session, files, &root, &mut problems)
+            let mut paths = session.move_hashes(files, &root);
+            problems.extend(paths.iter_mut().flat_map(|path| std::mem::take(&mut path.problems)));
+            paths
         });
         (found, problems)
     }
 }
 
-fn known_paths(
-    session: &Session<'_>,
-    files: &[SourceFile],
-    root: &Utf8Path,
-    problems: &mut Vec<Diagnostic>,
-) -> Vec<SidePath> {
-    let db = session.db();
-    let programs = session.move_hashes(files);
-    let known = programs.into_iter().map(|hashed| {
-        problems.extend(hashed.problems);
-        let path = hashed.file.path(db);
-        let place = path.strip_prefix(root).unwrap_or(path).to_owned();
-        SidePath { file: hashed.file, place, name: hashed.name, target: hashed.target, moves: hashed.moves }
-    });
-    known.collect()
-}
-
 struct PathPair {
-    old: Option<SidePath>,
-    new: Option<SidePath>,
+    old: Option<HashedPath>,
+    new: Option<HashedPath>,
 }
 
 /// Pairs the paths of both sides: first those with the same name in the same drawing, then those with a name that remains exactly once on each side.
-fn pair_up(old: Vec<SidePath>, new: Vec<SidePath>) -> Vec<PathPair> {
-    let mut by_file: HashMap<(Utf8PathBuf, PathName), SidePath> =
+fn pair_up(old: Vec<HashedPath>, new: Vec<HashedPath>) -> Vec<PathPair> {
+    let mut by_file: HashMap<(Utf8PathBuf, PathName), HashedPath> =
         old.into_iter().map(|known| ((known.place.clone(), known.name.clone()), known)).collect();
     let mut pair_up = Vec::new();
     let mut alone = Vec::new();
@@ -223,7 +197,7 @@ fn pair_up(old: Vec<SidePath>, new: Vec<SidePath>) -> Vec<PathPair> {
             None => alone.push(known),
         }
     }
-    let mut by_name: HashMap<PathName, Vec<SidePath>> = HashMap::new();
+    let mut by_name: HashMap<PathName, Vec<HashedPath>> = HashMap::new();
     for known in by_file.into_values() {
         by_name.entry(known.name.clone()).or_default().push(known);
     }
@@ -273,7 +247,7 @@ impl PathPair {
 /// side from being built, there are no moves to compare, and the diagnostics say why.
 fn compare_programs(
     sessions: [&Session<'_>; 2],
-    paths: [&SidePath; 2],
+    paths: [&HashedPath; 2],
     pictures: Option<Lang>,
     problems: &mut [Vec<Diagnostic>; 2],
 ) -> Option<Outcome> {
@@ -301,7 +275,7 @@ fn compare_programs(
 /// Returns the reasons why the moves of a path changed; `None`, with diagnostics, if the drawings could not be compared.
 fn explain_change(
     [before, after]: [&Session<'_>; 2],
-    [old, new]: [&SidePath; 2],
+    [old, new]: [&HashedPath; 2],
     problems: &mut [Vec<Diagnostic>; 2],
 ) -> Option<Vec<Reason>> {
     let reasons = before.query_target(old.target, |old_db| {
@@ -319,7 +293,7 @@ fn explain_change(
 ///
 /// # Errors
 /// The errors that prevent the program from being built.
-fn scene_path(session: &Session<'_>, known: &SidePath) -> Result<ScenePath, Vec<Diagnostic>> {
+fn scene_path(session: &Session<'_>, known: &HashedPath) -> Result<ScenePath, Vec<Diagnostic>> {
     let scene_path = session.scene(known.file, std::slice::from_ref(&known.name), ShownText::Native);
     let path = scene_path.scene.paths.into_iter().next().filter(|path| path.gcode.is_some());
     // Errors of the drawing as a whole have been reported already.

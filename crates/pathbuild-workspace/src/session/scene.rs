@@ -1,6 +1,6 @@
 //! Scenes of paths for display, computed by the same queries as their programs.
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
     Database, Db, DrawnPath, Settings, SourceFile, Target, TracedProgram, assigned_texts, drawn_path,
     effective_parameters, keep_outs, path_names, placed_parts, program, remaining_layers, uncut_rings,
@@ -22,6 +22,8 @@ use super::{CheckedTarget, Session, WriteSettings};
 pub struct HashedPath {
     /// The drawing that defines the path.
     pub file: SourceFile,
+    /// Path of that drawing, relative to the root of the tree.
+    pub place: Utf8PathBuf,
     /// Name of the path.
     pub name: PathName,
     /// The target for which the hashed program was built.
@@ -40,8 +42,8 @@ impl Session<'_> {
         scenes.into_iter().map(Result::ok).collect()
     }
 
-    /// Hashes the moves of each path in some drawings. The programs are those that [`scene`](Self::scene) shows.
-    pub fn move_hashes(&self, files: &[SourceFile]) -> Vec<HashedPath> {
+    /// Hashes the moves of each path in some drawings of the tree below `root`. The programs are those that [`scene`](Self::scene) shows.
+    pub fn move_hashes(&self, files: &[SourceFile], root: &Utf8Path) -> Vec<HashedPath> {
         let names = files.iter().map(|file| (*file, path_names(&self.db, *file)));
         let paths: Vec<(SourceFile, PathName)> =
             names.flat_map(|(file, names)| names.iter().map(move |name| (file, name.clone()))).collect();
@@ -53,18 +55,21 @@ impl Session<'_> {
                 .map(|program| Provenance::of_programs(&[program], &[], None).moves)
         };
         let hashes = self.map_guarded(&checked, hash);
-        let hashed = |(((file, name), checked), hash): ((_, CheckedTarget), Result<_, Box<Diagnostic>>)| {
-            let target = checked.target;
-            let mut problems: Vec<Diagnostic> =
-                checked.diagnostics.into_iter().filter(prevents_program).collect();
-            let moves = hash.unwrap_or_else(|problem| {
-                let problem = with_file_and_path(&self.db, target, *problem);
-                // The check may have reported the same timeout already.
-                problems.extend((!problems.contains(&problem)).then_some(problem));
-                None
-            });
-            HashedPath { file, name, target, moves, problems }
-        };
+        let hashed =
+            |(((file, name), checked), hash): (((SourceFile, _), CheckedTarget), Result<_, Box<_>>)| {
+                let target = checked.target;
+                let mut problems: Vec<Diagnostic> =
+                    checked.diagnostics.into_iter().filter(prevents_program).collect();
+                let moves = hash.unwrap_or_else(|problem| {
+                    let problem = with_file_and_path(&self.db, target, *problem);
+                    // The check may have reported the same timeout already.
+                    problems.extend((!problems.contains(&problem)).then_some(problem));
+                    None
+                });
+                let drawing = file.path(&self.db);
+                let place = drawing.strip_prefix(root).unwrap_or(drawing).to_owned();
+                HashedPath { file, place, name, target, moves, problems }
+            };
         paths.into_iter().zip(checked).zip(hashes).map(hashed).collect()
     }
 }
