@@ -217,20 +217,47 @@ impl CheckRecord {
     /// Returns the option that would make the check possible.
     pub fn option(&self, reason: Reason) -> &'static Text {
         match (reason, self.requirement) {
-            (Reason::NoDrawing, _) => &AGAINST_OPTION,
-            (Reason::OtherMoves, _) => &SAME_MOVES,
-            (Reason::NoKeepOut, _) => &KEEP_OUT_OPTION,
-            (Reason::NoCutter, _) => &CUTTER_OPTIONS,
-            (Reason::NoSurface | Reason::NoCutBelow, _) => &SURFACE_OPTIONS,
-            (Reason::SeveralSurfaces, _) => &NATIVE_PROGRAM,
-            (Reason::NotFollowed, _) => &KNOWN_WORDS,
-            (Reason::SeveralZeros, _) => &STATED_ZEROS,
-            (Reason::TooLarge, _) => &LIMITS,
-            (Reason::NoSpeed, _) => &START_OPTIONS,
-            (Reason::NoCornerLimit, _) => &CORNER_LIMIT,
-            (Reason::NoLimit, Requirement::Feeds) => &FEED_OPTION,
-            (Reason::NoLimit, Requirement::Spindle) => &SPEEDS_OPTION,
-            (Reason::NoLimit, _) => &TRAVEL_OPTION,
+            (Reason::NoDrawing, _) => &Text { en: "--against PATH", de: "--against PFAD" },
+            (Reason::OtherMoves, _) => &Text {
+                en: "a program with the moves of the drawing",
+                de: "ein Programm mit den Bewegungen der Zeichnung",
+            },
+            (Reason::NoKeepOut, _) => {
+                &Text { en: "keep-out in pathbuild.toml", de: "keep-out in pathbuild.toml" }
+            }
+            (Reason::NoCutter, _) => {
+                &Text { en: "--cutter or --against PATH", de: "--cutter oder --against PFAD" }
+            }
+            (Reason::NoSurface | Reason::NoCutBelow, _) => {
+                &Text { en: "--surface or --against PATH", de: "--surface oder --against PFAD" }
+            }
+            (Reason::SeveralSurfaces, _) => &Text {
+                en: "the native program, which shows where each of them counts",
+                de: "das native Programm, das zeigt, wo welche Höhe gilt",
+            },
+            (Reason::NotFollowed, _) => &Text {
+                en: "a program without words that are unknown or not interpreted (PB720, PB721)",
+                de: "ein Programm ohne unbekannte und nicht ausgewertete Wörter (PB720, PB721)",
+            },
+            (Reason::SeveralZeros, _) => &Text {
+                en: "one work offset, or G10 L2 for each",
+                de: "ein einziger Nullpunkt, oder G10 L2 für jeden",
+            },
+            (Reason::TooLarge, _) => &Text {
+                en: "higher verify-cells and verify-pieces under [limits]",
+                de: "höhere verify-cells und verify-pieces unter [limits]",
+            },
+            (Reason::NoSpeed, _) => &Text { en: "M3 and S in the program", de: "M3 und S im Programm" },
+            (Reason::NoCornerLimit, _) => {
+                &Text { en: "G64 P or G61 in the program", de: "G64 P oder G61 im Programm" }
+            }
+            (Reason::NoLimit, Requirement::Feeds) => {
+                &Text { en: "[machine] maximum-feed", de: "[machine] maximum-feed" }
+            }
+            (Reason::NoLimit, Requirement::Spindle) => {
+                &Text { en: "[machine] spindle-speeds", de: "[machine] spindle-speeds" }
+            }
+            (Reason::NoLimit, _) => &Text { en: "[machine] travel", de: "[machine] travel" },
         }
     }
 
@@ -250,8 +277,26 @@ impl CheckRecord {
                 return Some(problem.with("count", blind.count).with("line", line).at_line(blind.line, None));
             }
             Outcome::Assumed(..) if may_be_assumed => return None,
-            Outcome::Assumed(_, Assumption::Stock) => (&ONLY_COMMENTS, &STOCK_OPTIONS),
-            Outcome::Assumed(_, Assumption::MachineValues) => (&MACHINE_VALUES, &NUMBERS),
+            Outcome::Assumed(_, Assumption::Stock) => (
+                &Text {
+                    en: "only the program itself states cutter or material",
+                    de: "nur das Programm selbst nennt Fräser oder Material",
+                },
+                &Text {
+                    en: "--cutter and --surface, --against PATH, or rapids=assumed",
+                    de: "--cutter und --surface, --against PFAD oder rapids=assumed",
+                },
+            ),
+            Outcome::Assumed(_, Assumption::MachineValues) => (
+                &Text {
+                    en: "the program moves by values that only the machine knows",
+                    de: "das Programm fährt nach Werten, die nur die Maschine kennt",
+                },
+                &Text {
+                    en: "numbers in place of these values, or rapids=assumed",
+                    de: "Zahlen an Stelle dieser Werte, oder rapids=assumed",
+                },
+            ),
             Outcome::NotMade(reason) => (reason.text(), self.option(*reason)),
         };
         let problem = Diagnostic::new(&say::CHECK_NOT_MADE).quoting("check", self.requirement.name());
@@ -286,19 +331,52 @@ impl Reason {
     /// Returns the reason as a phrase.
     pub fn text(self) -> &'static Text {
         match self {
-            Self::NoLimit => &NO_LIMIT,
-            Self::NoDrawing => &NO_DRAWING,
-            Self::OtherMoves => &OTHER_MOVES,
-            Self::NoKeepOut => &NO_KEEP_OUT,
-            Self::NoCutter => &NO_CUTTER,
-            Self::NoSurface => &NO_SURFACE,
-            Self::SeveralSurfaces => &SEVERAL_SURFACES,
-            Self::TooLarge => &TOO_LARGE,
-            Self::NoSpeed => &NO_SPEED,
-            Self::NoCornerLimit => &NO_CORNER_LIMIT,
-            Self::NoCutBelow => &NO_CUT_BELOW,
-            Self::NotFollowed => &NOT_FOLLOWED,
-            Self::SeveralZeros => &SEVERAL_ZEROS,
+            Self::NoLimit => &Text {
+                en: "the machine's limits are not known",
+                de: "die Grenzen der Maschine sind nicht bekannt",
+            },
+            Self::NoDrawing => &Text {
+                en: "there is no drawing to compare with",
+                de: "es fehlt die Zeichnung zum Vergleich",
+            },
+            Self::OtherMoves => &Text {
+                en: "the moves differ; moves after the first difference were not compared",
+                de: "die Bewegungen weichen ab; nach der ersten Abweichung wurden sie nicht mehr verglichen",
+            },
+            Self::NoKeepOut => &Text {
+                en: "the configuration names no layers with clamps",
+                de: "die Konfiguration nennt keine Layer mit Spannmitteln",
+            },
+            Self::NoCutter => &Text { en: "the cutter is not known", de: "der Fräser ist nicht bekannt" },
+            Self::NoSurface => &Text {
+                en: "the height of the material is not known, so only rapid moves at cutting depth were examined",
+                de: "die Höhe des Materials ist nicht bekannt, daher wurden nur Eilgänge in Frästiefe untersucht",
+            },
+            Self::SeveralSurfaces => &Text {
+                en: "the material of the drawing has several heights (H), so rapid moves were only compared with those of the drawing",
+                de: "das Material der Zeichnung ist verschieden hoch (H), daher wurden Eilgänge nur mit denen der Zeichnung verglichen",
+            },
+            Self::TooLarge => &Text { en: "the program is too large", de: "das Programm ist zu groß" },
+            Self::NoSpeed => &Text {
+                en: "the program cuts before it has set a spindle speed",
+                de: "das Programm fräst, bevor es eine Drehzahl gesetzt hat",
+            },
+            Self::NoCornerLimit => &Text {
+                en: "the program does not limit how far the control rounds corners",
+                de: "das Programm begrenzt nicht, wie weit die Steuerung Ecken verrundet",
+            },
+            Self::NoCutBelow => &Text {
+                en: "all cuts end above the material of --surface",
+                de: "alle Schnitte enden über dem Material von --surface",
+            },
+            Self::NotFollowed => &Text {
+                en: "the program has a word that pathbuild does not interpret, so its moves are not known",
+                de: "das Programm hat ein Wort, das pathbuild nicht auswertet; seine Bewegungen sind daher nicht bekannt",
+            },
+            Self::SeveralZeros => &Text {
+                en: "only the machine knows where the work offsets of the program lie",
+                de: "nur die Maschine weiß, wo die Nullpunkte des Programms liegen",
+            },
         }
     }
 }
@@ -347,93 +425,7 @@ fn requirement_name(requirement: Requirement) -> Text {
     }
 }
 
-static NO_LIMIT: Text =
-    Text { en: "the machine's limits are not known", de: "die Grenzen der Maschine sind nicht bekannt" };
-static NO_DRAWING: Text =
-    Text { en: "there is no drawing to compare with", de: "es fehlt die Zeichnung zum Vergleich" };
-static OTHER_MOVES: Text = Text {
-    en: "the moves differ; moves after the first difference were not compared",
-    de: "die Bewegungen weichen ab; nach der ersten Abweichung wurden sie nicht mehr verglichen",
-};
-static NO_KEEP_OUT: Text = Text {
-    en: "the configuration names no layers with clamps",
-    de: "die Konfiguration nennt keine Layer mit Spannmitteln",
-};
-static NO_CUTTER: Text = Text { en: "the cutter is not known", de: "der Fräser ist nicht bekannt" };
-static NO_SURFACE: Text = Text {
-    en: "the height of the material is not known, so only rapid moves at cutting depth were examined",
-    de: "die Höhe des Materials ist nicht bekannt, daher wurden nur Eilgänge in Frästiefe untersucht",
-};
-static SEVERAL_SURFACES: Text = Text {
-    en: "the material of the drawing has several heights (H), so rapid moves were only compared with those of the drawing",
-    de: "das Material der Zeichnung ist verschieden hoch (H), daher wurden Eilgänge nur mit denen der Zeichnung verglichen",
-};
-static NATIVE_PROGRAM: Text = Text {
-    en: "the native program, which shows where each of them counts",
-    de: "das native Programm, das zeigt, wo welche Höhe gilt",
-};
-static TOO_LARGE: Text = Text { en: "the program is too large", de: "das Programm ist zu groß" };
-static NO_SPEED: Text = Text {
-    en: "the program cuts before it has set a spindle speed",
-    de: "das Programm fräst, bevor es eine Drehzahl gesetzt hat",
-};
-static NO_CORNER_LIMIT: Text = Text {
-    en: "the program does not limit how far the control rounds corners",
-    de: "das Programm begrenzt nicht, wie weit die Steuerung Ecken verrundet",
-};
-static NO_CUT_BELOW: Text = Text {
-    en: "all cuts end above the material of --surface",
-    de: "alle Schnitte enden über dem Material von --surface",
-};
-static NOT_FOLLOWED: Text = Text {
-    en: "the program has a word that pathbuild does not interpret, so its moves are not known",
-    de: "das Programm hat ein Wort, das pathbuild nicht auswertet; seine Bewegungen sind daher nicht bekannt",
-};
-static SEVERAL_ZEROS: Text = Text {
-    en: "only the machine knows where the work offsets of the program lie",
-    de: "nur die Maschine weiß, wo die Nullpunkte des Programms liegen",
-};
-static STATED_ZEROS: Text =
-    Text { en: "one work offset, or G10 L2 for each", de: "ein einziger Nullpunkt, oder G10 L2 für jeden" };
-static KNOWN_WORDS: Text = Text {
-    en: "a program without words that are unknown or not interpreted (PB720, PB721)",
-    de: "ein Programm ohne unbekannte und nicht ausgewertete Wörter (PB720, PB721)",
-};
-static CORNER_LIMIT: Text = Text { en: "G64 P or G61 in the program", de: "G64 P oder G61 im Programm" };
-static START_OPTIONS: Text = Text { en: "M3 and S in the program", de: "M3 und S im Programm" };
-static ONLY_COMMENTS: Text = Text {
-    en: "only the program itself states cutter or material",
-    de: "nur das Programm selbst nennt Fräser oder Material",
-};
-static MACHINE_VALUES: Text = Text {
-    en: "the program moves by values that only the machine knows",
-    de: "das Programm fährt nach Werten, die nur die Maschine kennt",
-};
 static MACHINE_VALUES_ASSUMED: Text = Text {
     en: "values that only the machine knows are assumed",
     de: "Werte, die nur die Maschine kennt, sind angenommen",
-};
-static NUMBERS: Text = Text {
-    en: "numbers in place of these values, or rapids=assumed",
-    de: "Zahlen an Stelle dieser Werte, oder rapids=assumed",
-};
-static TRAVEL_OPTION: Text = Text { en: "[machine] travel", de: "[machine] travel" };
-static FEED_OPTION: Text = Text { en: "[machine] maximum-feed", de: "[machine] maximum-feed" };
-static SPEEDS_OPTION: Text = Text { en: "[machine] spindle-speeds", de: "[machine] spindle-speeds" };
-static AGAINST_OPTION: Text = Text { en: "--against PATH", de: "--against PFAD" };
-static SAME_MOVES: Text = Text {
-    en: "a program with the moves of the drawing",
-    de: "ein Programm mit den Bewegungen der Zeichnung",
-};
-static KEEP_OUT_OPTION: Text = Text { en: "keep-out in pathbuild.toml", de: "keep-out in pathbuild.toml" };
-static CUTTER_OPTIONS: Text = Text { en: "--cutter or --against PATH", de: "--cutter oder --against PFAD" };
-static SURFACE_OPTIONS: Text =
-    Text { en: "--surface or --against PATH", de: "--surface oder --against PFAD" };
-static LIMITS: Text = Text {
-    en: "higher verify-cells and verify-pieces under [limits]",
-    de: "höhere verify-cells und verify-pieces unter [limits]",
-};
-static STOCK_OPTIONS: Text = Text {
-    en: "--cutter and --surface, --against PATH, or rapids=assumed",
-    de: "--cutter und --surface, --against PFAD oder rapids=assumed",
 };
