@@ -1,36 +1,33 @@
 //! The content of a setup sheet: checklist, facts and tables.
 
-use super::data::{Sheet, SheetTool, Words, distinct};
+use super::data::{Sheet, SheetTool, distance_of_zero, distinct, localized_mm};
 use super::flow::Block;
 use super::{operations, shims};
-use pathbuild_diagnostic::with_decimal_separator;
+use pathbuild_diagnostic::{Lang, with_decimal_separator};
 
 use crate::scene::{BilingualText, MoveKind, Point};
 use crate::svg::canvas::mm;
-use crate::svg::sheet::data::clamp_box;
-use crate::svg::sheet::data::feeds;
-use crate::svg::sheet::data::rapid_heights;
-use crate::svg::sheet::data::removed_box;
+use crate::svg::sheet::data::{clamp_box, feeds, rapid_heights, removed_box};
 
 /// Returns the steps before running the program, in the order in which the operator carries them out.
-pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
-    let mut checks = vec![program(sheet, words), material(sheet, words)];
-    checks.extend(shims::checks(sheet, words));
+pub(super) fn checklist(sheet: &Sheet, lang: Lang) -> Vec<Block> {
+    let mut checks = vec![program(sheet, lang), material(sheet, lang)];
+    checks.extend(shims::checks(sheet, lang));
     if let Some((deepest, _)) = sheet.cutting_box[2].filter(|(deepest, _)| *deepest < 0.0) {
-        let depth = words.mm(-deepest);
-        checks.push(words.choose(
+        let depth = localized_mm(-deepest, lang);
+        checks.push(lang.choose(
             format!("Sacrificial plate lies under it: it is cut {depth} mm deep"),
             format!("Opferplatte liegt darunter: sie wird {depth} mm tief angefräst"),
         ));
     }
-    checks.push(clamped_text(sheet, words));
-    checks.extend(cutters(sheet, words));
+    checks.push(clamped_text(sheet, lang));
+    checks.extend(cutters(sheet, lang));
     if !sheet.starts_spindle {
-        checks.push(words.choose("Spindle is started by hand", "Spindel wird von Hand eingeschaltet").into());
+        checks.push(lang.choose("Spindle is started by hand", "Spindel wird von Hand eingeschaltet").into());
     }
-    checks.extend(zero(sheet, words));
+    checks.extend(zero(sheet, lang));
     if let Some(values) = &sheet.values {
-        checks.push(words.choose(
+        checks.push(lang.choose(
             format!(
                 "Probing program has run, the heights are in {values}, pathbuild adjust has run without errors"
             ),
@@ -40,61 +37,60 @@ pub(super) fn checklist(sheet: &Sheet, words: Words) -> Vec<Block> {
         ));
     }
     checks.push(
-        words
-            .choose(
-                "Air run is done, with Z0 set higher",
-                "Probelauf in der Luft ist gemacht, mit höher gesetztem Z0",
-            )
-            .into(),
+        lang.choose(
+            "Air run is done, with Z0 set higher",
+            "Probelauf in der Luft ist gemacht, mit höher gesetztem Z0",
+        )
+        .into(),
     );
     checks.extend(sheet.left_out.iter().map(|BilingualText { en, de }| {
-        words.choose(format!("{en}: that is intended"), format!("{de}: das ist so gewollt"))
+        lang.choose(format!("{en}: that is intended"), format!("{de}: das ist so gewollt"))
     }));
-    let heading = Block::Heading(words.choose("Before the start", "Vor dem Start").into());
+    let heading = Block::Heading(lang.choose("Before the start", "Vor dem Start").into());
     std::iter::once(heading).chain(checks.into_iter().map(Block::Check)).collect()
 }
 
-fn program(sheet: &Sheet, words: Words) -> String {
+fn program(sheet: &Sheet, lang: Lang) -> String {
     let (programs, hashes) = (sheet.programs.join(", "), &sheet.hashes);
-    words.choose(
+    lang.choose(
         format!("Program {programs} is loaded; its first lines say {hashes}"),
         format!("Programm {programs} ist geladen; in seinen ersten Zeilen steht {hashes}"),
     )
 }
 
-fn material(sheet: &Sheet, words: Words) -> String {
+fn material(sheet: &Sheet, lang: Lang) -> String {
     let facts: Vec<String> =
         materials(sheet)
             .into_iter()
-            .chain(thicknesses(sheet).map(|thickness| with_decimal_separator(thickness, words.0)).map(
-                |thickness| words.choose(format!("{thickness} mm thick"), format!("{thickness} mm dick")),
+            .chain(thicknesses(sheet).map(|thickness| with_decimal_separator(thickness, lang)).map(
+                |thickness| lang.choose(format!("{thickness} mm thick"), format!("{thickness} mm dick")),
             ))
-            .chain(size(sheet, words).map(|size| pieces(sheet, &size, words)))
+            .chain(size(sheet, lang).map(|size| pieces(sheet, &size, lang)))
             .collect();
     let facts = facts.join(", ");
-    words.choose(format!("Material is ready: {facts}"), format!("Material liegt bereit: {facts}"))
+    lang.choose(format!("Material is ready: {facts}"), format!("Material liegt bereit: {facts}"))
 }
 
 /// Describes how much material is needed. Material at different heights is not one plate.
-fn pieces(sheet: &Sheet, size: &str, words: Words) -> String {
+fn pieces(sheet: &Sheet, size: &str, lang: Lang) -> String {
     match shims::height_count(sheet) {
-        0 | 1 => words.choose(format!("at least {size}"), format!("mindestens {size}")),
-        heights => words.choose(
+        0 | 1 => lang.choose(format!("at least {size}"), format!("mindestens {size}")),
+        heights => lang.choose(
             format!("in separate pieces for {heights} heights, which cover {size} together"),
             format!("in getrennten Stücken für {heights} Höhen, die zusammen {size} bedecken"),
         ),
     }
 }
 
-fn clamped_text(sheet: &Sheet, words: Words) -> String {
+fn clamped_text(sheet: &Sheet, lang: Lang) -> String {
     let clamps = sheet.scene.keep_outs.len();
     let highest = sheet.scene.keep_outs.iter().map(|clamp| clamp.height).reduce(f64::max);
     match highest {
-        Some(highest) => words.choose(
+        Some(highest) => lang.choose(
             format!("Clamps ({clamps}) stand as in the picture, none higher than Z {}", mm(highest)),
             format!("Spannpratzen ({clamps}) sitzen wie im Bild, keine höher als Z {}", mm(highest)),
         ),
-        None => words
+        None => lang
             .choose(
                 "Material is clamped; no clamp is in the way of a cut or a rapid move",
                 "Material ist gespannt; keine Spannpratze steht einem Schnitt oder Eilgang im Weg",
@@ -103,28 +99,28 @@ fn clamped_text(sheet: &Sheet, words: Words) -> String {
     }
 }
 
-fn cutters(sheet: &Sheet, words: Words) -> Vec<String> {
+fn cutters(sheet: &Sheet, lang: Lang) -> Vec<String> {
     let mut order = sheet.path_tools.clone();
     order.dedup();
     match (sheet.tools.as_slice(), order.as_slice()) {
         ([tool], _) => {
-            let tool = tool_text(tool, words).join(", ");
-            vec![words.choose(
+            let tool = tool_text(tool, lang).join(", ");
+            vec![lang.choose(
                 format!("Cutter is in and sharp: {tool}"),
                 format!("Fräser sitzt und ist scharf: {tool}"),
             )]
         }
         (tools, [first, changes @ ..]) if sheet.has_manual_changes => {
-            let first = tool_text(&tools[*first], words).join(", ");
-            let first = words.choose(
+            let first = tool_text(&tools[*first], lang).join(", ");
+            let first = lang.choose(
                 format!("First cutter is in and sharp: {first}"),
                 format!("Der erste Fräser sitzt und ist scharf: {first}"),
             );
-            vec![first, manual_changes(tools, changes, words)]
+            vec![first, manual_changes(tools, changes, lang)]
         }
         (tools, _) => {
             let count = tools.len();
-            vec![words.choose(
+            vec![lang.choose(
                 format!("Cutters ({count}) are in the places of the table, their lengths are set"),
                 format!("Fräser ({count}) sitzen an den Plätzen der Tabelle, ihre Längen sind gesetzt"),
             )]
@@ -133,42 +129,42 @@ fn cutters(sheet: &Sheet, words: Words) -> Vec<String> {
 }
 
 /// Describes the stops at which the operator changes the cutter.
-fn manual_changes(tools: &[SheetTool], changes: &[usize], words: Words) -> String {
+fn manual_changes(tools: &[SheetTool], changes: &[usize], lang: Lang) -> String {
     const MAX_LISTED: usize = 12;
     let count = changes.len();
     let listed = changes
         .iter()
         .take(MAX_LISTED)
-        .filter_map(|&index| tool_text(&tools[index], words).into_iter().next());
+        .filter_map(|&index| tool_text(&tools[index], lang).into_iter().next());
     let more = (count > MAX_LISTED).then(|| "…".to_owned());
     let listed = listed.chain(more).collect::<Vec<_>>().join(", ");
-    words.choose(
+    lang.choose(
         format!("Program stops for changes of the cutter by hand ({count}): {listed}; Z0 is set again after each"),
         format!("Das Programm hält für Fräserwechsel von Hand an ({count}): {listed}; nach jedem wird Z0 neu gesetzt"),
     )
 }
 
 /// Describes where to set the zero point.
-fn zero(sheet: &Sheet, words: Words) -> Vec<String> {
+fn zero(sheet: &Sheet, lang: Lang) -> Vec<String> {
     let mut checks = Vec::new();
     if let Some([low, _]) = removed_box(sheet) {
-        let (across, up) = (words.distance_of_zero(low[0], true), words.distance_of_zero(low[1], false));
+        let (across, up) = (distance_of_zero(low[0], true, lang), distance_of_zero(low[1], false, lang));
         let offset = if sheet.selects_g54 { " (G54)" } else { "" };
-        checks.push(words.choose(
+        checks.push(lang.choose(
             format!("X0 Y0 is set{offset}: {across} and {up} of the dashed rectangle"),
             format!("X0 Y0 ist gesetzt{offset}: {across} und {up} des gestrichelten Rechtecks"),
         ));
     }
     if let Some(tops) = shims::upper_faces(sheet) {
         let tops = format_numbers(&tops).unwrap_or_default();
-        checks.push(words.choose(
+        checks.push(lang.choose(
             format!("Z0 is set on the face under the shims; the material's upper face is at Z {tops}"),
             format!("Z0 ist auf der Fläche unter den Unterlagen gesetzt; die Oberseite des Materials ist bei Z {tops}"),
         ));
         return checks;
     }
     let top = thicknesses(sheet).unwrap_or_default();
-    checks.push(words.choose(
+    checks.push(lang.choose(
         format!("Z0 is set on the face that the material lies on; its upper face is at Z {top}"),
         format!(
             "Z0 ist auf der Fläche gesetzt, auf der das Material liegt; dessen Oberseite ist bei Z {top}"
@@ -178,20 +174,20 @@ fn zero(sheet: &Sheet, words: Words) -> Vec<String> {
 }
 
 /// Returns the facts that the operator should know while the program runs.
-pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
-    let mut facts = Facts { words, blocks: Vec::new() };
+pub(super) fn facts(sheet: &Sheet, lang: Lang) -> Vec<Block> {
+    let mut facts = Facts { lang, blocks: Vec::new() };
     facts.heading("Material", "Material");
     facts.fact("M", "M", materials(sheet));
     facts.fact("T", "T", thicknesses(sheet).map(|thickness| format!("{thickness} mm")));
     let [en, de] =
         if shims::height_count(sheet) > 1 { ["together", "zusammen"] } else { ["at least", "mindestens"] };
-    facts.fact(en, de, size(sheet, words));
+    facts.fact(en, de, size(sheet, lang));
     if let [tool] = sheet.tools.as_slice() {
         facts.heading("Cutter", "Fräser");
-        facts.fact("O", "O", Some(format!("Ø {} mm", words.mm(tool.diameter))));
+        facts.fact("O", "O", Some(format!("Ø {} mm", localized_mm(tool.diameter, lang))));
         facts.fact("number T", "Nummer T", tool.number.map(|number| number.to_string()));
         facts.fact("name", "Name", tool.name.clone());
-        facts.fact("spindle", "Spindel", spindle(tool, words));
+        facts.fact("spindle", "Spindel", spindle(tool, lang));
     }
     facts.heading("Feeds in mm/min", "Vorschübe in mm/min");
     let feeds = |is_meant: fn(MoveKind) -> bool| format_numbers(&feeds(sheet, is_meant));
@@ -202,7 +198,7 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
     facts.heading("Toolpath of the cutter's tip", "Weg der Fräserspitze");
     for (axis, extent) in ["X", "Y", "Z"].into_iter().zip(sheet.cutting_box) {
         let range = |(low, high)| {
-            words.choose(format!("{} to {}", mm(low), mm(high)), format!("{} bis {}", mm(low), mm(high)))
+            lang.choose(format!("{} to {}", mm(low), mm(high)), format!("{} bis {}", mm(low), mm(high)))
         };
         facts.fact(axis, axis, extent.map(range));
     }
@@ -223,23 +219,23 @@ pub(super) fn facts(sheet: &Sheet, words: Words) -> Vec<Block> {
 }
 
 struct Facts {
-    words: Words,
+    lang: Lang,
     blocks: Vec<Block>,
 }
 
 impl Facts {
     fn heading(&mut self, en: &str, de: &str) {
-        self.blocks.push(Block::Heading(self.words.choose(en, de).into()));
+        self.blocks.push(Block::Heading(self.lang.choose(en, de).into()));
     }
 
     fn fact(&mut self, en: &str, de: &str, value: Option<String>) {
-        let name = self.words.choose(en, de).to_owned();
+        let name = self.lang.choose(en, de).to_owned();
         self.blocks.extend(value.map(|value| Block::Fact(name, value)));
     }
 }
 
 /// Returns the tables of details, which follow the checklist and the facts.
-pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
+pub(super) fn tables(sheet: &Sheet, lang: Lang) -> Vec<Block> {
     let mut blocks = Vec::new();
     let has_many_tools = sheet.tools.len() > 1;
     let mut table = |heading: &str, shares: &'static [f64], head: &[&str], rows: Vec<Vec<String>>| {
@@ -248,60 +244,60 @@ pub(super) fn tables(sheet: &Sheet, words: Words) -> Vec<Block> {
         }
         let head: Vec<String> = head.iter().map(|&text| text.to_owned()).collect();
         blocks.push(Block::Heading(heading.to_owned()));
-        let continued = format!("{heading} ({})", words.choose("continued", "Fortsetzung"));
+        let continued = format!("{heading} ({})", lang.choose("continued", "Fortsetzung"));
         let row = |cells| Block::Row { cells, shares, head: head.clone(), continued: continued.clone() };
         blocks.extend(rows.into_iter().map(row));
     };
     table(
-        words.choose("Operations", "Arbeitsgänge"),
+        lang.choose("Operations", "Arbeitsgänge"),
         if has_many_tools { &[0.14, 0.24, 0.38, 0.14, 0.1] } else { &[0.16, 0.26, 0.42, 0.16] },
         &[
-            words.choose("No.", "Nr."),
-            words.choose("path", "Pfad"),
-            words.choose("what", "was"),
-            words.choose("down to", "bis"),
-            words.choose("cutter", "Fräser"),
+            lang.choose("No.", "Nr."),
+            lang.choose("path", "Pfad"),
+            lang.choose("what", "was"),
+            lang.choose("down to", "bis"),
+            lang.choose("cutter", "Fräser"),
         ][..if has_many_tools { 5 } else { 4 }],
-        operations::rows(sheet, words),
+        operations::rows(sheet, lang),
     );
     table(
-        words.choose("Z-probes", "Z-Proben"),
+        lang.choose("Z-probes", "Z-Proben"),
         &[0.09, 0.37, 0.12, 0.12, 0.12, 0.18],
         &[
             "#",
-            words.choose("in the file of values", "in der Wertedatei"),
+            lang.choose("in the file of values", "in der Wertedatei"),
             "X",
             "Y",
-            words.choose("drawn Z", "Z gezeichnet"),
-            words.choose("measured", "gemessen"),
+            lang.choose("drawn Z", "Z gezeichnet"),
+            lang.choose("measured", "gemessen"),
         ],
         probes(sheet),
     );
     table(
-        words.choose("Clamps", "Spannpratzen"),
+        lang.choose("Clamps", "Spannpratzen"),
         &[0.34, 0.24, 0.24, 0.18],
-        &[words.choose("layer", "Layer"), "X", "Y", words.choose("up to Z", "bis Z")],
-        clamps(sheet, words),
+        &[lang.choose("layer", "Layer"), "X", "Y", lang.choose("up to Z", "bis Z")],
+        clamps(sheet, lang),
     );
     if has_many_tools {
         table(
-            words.choose("Cutters", "Fräser"),
+            lang.choose("Cutters", "Fräser"),
             &[0.06, 0.09, 0.15, 0.28, 0.24, 0.18],
             &[
                 "T",
                 "Ø mm",
-                words.choose("name", "Name"),
-                words.choose("cutting edges", "Schneiden"),
-                words.choose("spindle", "Spindel"),
-                words.choose("paths", "Pfade"),
+                lang.choose("name", "Name"),
+                lang.choose("cutting edges", "Schneiden"),
+                lang.choose("spindle", "Spindel"),
+                lang.choose("paths", "Pfade"),
             ],
-            sheet.tools.iter().map(|tool| tool_row(tool, words)).collect(),
+            sheet.tools.iter().map(|tool| tool_row(tool, lang)).collect(),
         );
     }
     table(
-        words.choose("Embedded paths", "Eingebettete Pfade"),
+        lang.choose("Embedded paths", "Eingebettete Pfade"),
         &[0.34, 0.14, 0.52],
-        &["", words.choose("times", "Anzahl"), words.choose("drawing", "Zeichnung")],
+        &["", lang.choose("times", "Anzahl"), lang.choose("drawing", "Zeichnung")],
         embedded_rows(sheet),
     );
     blocks
@@ -322,8 +318,8 @@ fn probes(sheet: &Sheet) -> Vec<Vec<String>> {
     sheet.probes.iter().map(row).collect()
 }
 
-fn clamps(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
-    let to = words.choose("to", "bis");
+fn clamps(sheet: &Sheet, lang: Lang) -> Vec<Vec<String>> {
+    let to = lang.choose("to", "bis");
     let row = |clamp: &crate::scene::KeepOut| {
         let [low, high]: [Point; 2] = clamp_box(clamp);
         let range = |axis: usize| format!("{} {to} {}", mm(low[axis]), mm(high[axis]));
@@ -332,13 +328,13 @@ fn clamps(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
     sheet.scene.keep_outs.iter().map(row).collect()
 }
 
-fn tool_row(tool: &SheetTool, words: Words) -> Vec<String> {
+fn tool_row(tool: &SheetTool, lang: Lang) -> Vec<String> {
     vec![
         tool.number.map(|number| number.to_string()).unwrap_or_default(),
         mm(tool.diameter),
         tool.name.clone().unwrap_or_default(),
-        edges(tool, words).unwrap_or_default(),
-        spindle(tool, words).unwrap_or_default(),
+        edges(tool, lang).unwrap_or_default(),
+        spindle(tool, lang).unwrap_or_default(),
         tool.paths.join(", "),
     ]
 }
@@ -356,37 +352,43 @@ fn embedded_rows(sheet: &Sheet) -> Vec<Vec<String>> {
 }
 
 /// Describes a cutter in up to three texts: number, diameter and name; cutting edges; spindle speed and direction.
-fn tool_text(tool: &SheetTool, words: Words) -> Vec<String> {
+fn tool_text(tool: &SheetTool, lang: Lang) -> Vec<String> {
     let number = tool.number.map(|number| format!("T{number} "));
     let name = tool.name.as_ref().map(|name| format!(" ({name})"));
-    let what =
-        format!("{}Ø {} mm{}", number.unwrap_or_default(), words.mm(tool.diameter), name.unwrap_or_default());
-    std::iter::once(what).chain(edges(tool, words)).chain(spindle(tool, words)).collect()
+    let what = format!(
+        "{}Ø {} mm{}",
+        number.unwrap_or_default(),
+        localized_mm(tool.diameter, lang),
+        name.unwrap_or_default()
+    );
+    std::iter::once(what).chain(edges(tool, lang)).chain(spindle(tool, lang)).collect()
 }
 
 /// Describes the cutting edges of a cutter: corner radius, number and length.
-fn edges(tool: &SheetTool, words: Words) -> Option<String> {
+fn edges(tool: &SheetTool, lang: Lang) -> Option<String> {
     let radius = Some(tool.corner_radius)
         .filter(|radius| *radius > 0.0)
-        .map(|radius| format!("R {}", words.mm(radius)));
+        .map(|radius| format!("R {}", localized_mm(radius, lang)));
     let flutes =
-        tool.flutes.map(|flutes| words.choose(format!("{flutes} flutes"), format!("{flutes} Schneiden")));
+        tool.flutes.map(|flutes| lang.choose(format!("{flutes} flutes"), format!("{flutes} Schneiden")));
     let length = tool.length.map(|length| {
-        words
-            .choose(format!("cuts {} mm deep", mm(length)), format!("schneidet {} mm tief", words.mm(length)))
+        lang.choose(
+            format!("cuts {} mm deep", mm(length)),
+            format!("schneidet {} mm tief", localized_mm(length, lang)),
+        )
     });
     let texts: Vec<String> = radius.into_iter().chain(flutes).chain(length).collect();
     (!texts.is_empty()).then(|| texts.join(", "))
 }
 
-fn spindle(tool: &SheetTool, words: Words) -> Option<String> {
+fn spindle(tool: &SheetTool, lang: Lang) -> Option<String> {
     let speed =
-        tool.speed.map(|speed| words.choose(format!("{} rpm", mm(speed)), format!("{} 1/min", mm(speed))));
+        tool.speed.map(|speed| lang.choose(format!("{} rpm", mm(speed)), format!("{} 1/min", mm(speed))));
     let way = tool.clockwise.map(|clockwise| {
         if clockwise {
-            words.choose("clockwise", "im Uhrzeigersinn")
+            lang.choose("clockwise", "im Uhrzeigersinn")
         } else {
-            words.choose("counterclockwise", "gegen den Uhrzeigersinn")
+            lang.choose("counterclockwise", "gegen den Uhrzeigersinn")
         }
     });
     let texts: Vec<String> = speed.into_iter().chain(way.map(str::to_owned)).collect();
@@ -403,9 +405,9 @@ fn thicknesses(sheet: &Sheet) -> Option<String> {
 }
 
 /// Describes the size of the removed material in X and Y; `None` if nothing is removed.
-fn size(sheet: &Sheet, words: Words) -> Option<String> {
+fn size(sheet: &Sheet, lang: Lang) -> Option<String> {
     let [low, high] = removed_box(sheet)?;
-    Some(format!("{} × {} mm", words.mm(high[0] - low[0]), words.mm(high[1] - low[1])))
+    Some(format!("{} × {} mm", localized_mm(high[0] - low[0], lang), localized_mm(high[1] - low[1], lang)))
 }
 
 /// Formats a list of numbers. If there are many, only the first and the last are written.

@@ -192,38 +192,28 @@ pub(super) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> 
     distinct
 }
 
-/// The language of a sheet, with functions that choose or format texts in it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Words(pub(super) Lang);
+/// Formats a length for a sentence, with the language's decimal separator.
+pub(super) fn localized_mm(length: f64, lang: Lang) -> String {
+    with_decimal_separator(mm(length), lang)
+}
 
-impl Words {
-    pub(super) fn choose<T>(self, en: T, de: T) -> T {
-        self.0.choose(en, de)
+/// Describes the distance of zero from the lower end of a range along X (`is_across`) or Y.
+pub(super) fn distance_of_zero(low: f64, is_across: bool, lang: Lang) -> String {
+    let (sides, edge) = match (is_across, lang) {
+        (true, Lang::En) => (["right", "left"], "left edge"),
+        (true, Lang::De) => (["rechts", "links"], "linken Rand"),
+        (false, Lang::En) => (["above", "below"], "lower edge"),
+        (false, Lang::De) => (["über", "unter"], "unteren Rand"),
+    };
+    if low.abs() < 0.0005 {
+        return lang.choose(format!("on the {edge}"), format!("auf dem {edge}"));
     }
-
-    /// Formats a length for a sentence, with the language's decimal separator.
-    pub(super) fn mm(self, length: f64) -> String {
-        with_decimal_separator(mm(length), self.0)
-    }
-
-    /// Describes the distance of zero from the lower end of a range along X (`is_across`) or Y.
-    pub(super) fn distance_of_zero(self, low: f64, is_across: bool) -> String {
-        let (sides, edge) = match (is_across, self.0) {
-            (true, Lang::En) => (["right", "left"], "left edge"),
-            (true, Lang::De) => (["rechts", "links"], "linken Rand"),
-            (false, Lang::En) => (["above", "below"], "lower edge"),
-            (false, Lang::De) => (["über", "unter"], "unteren Rand"),
-        };
-        if low.abs() < 0.0005 {
-            return self.choose(format!("on the {edge}"), format!("auf dem {edge}"));
-        }
-        let side = if low < 0.0 { sides[0] } else { sides[1] };
-        let length = self.mm(low.abs());
-        match (self.0, is_across) {
-            (Lang::En, true) => format!("{length} mm {side} of the {edge}"),
-            (Lang::En, false) => format!("{length} mm {side} the {edge}"),
-            (Lang::De, true) => format!("{length} mm {side} vom {edge}"),
-            (Lang::De, false) => format!("{length} mm {side} dem {edge}"),
-        }
+    let side = if low < 0.0 { sides[0] } else { sides[1] };
+    let length = localized_mm(low.abs(), lang);
+    match (lang, is_across) {
+        (Lang::En, true) => format!("{length} mm {side} of the {edge}"),
+        (Lang::En, false) => format!("{length} mm {side} the {edge}"),
+        (Lang::De, true) => format!("{length} mm {side} vom {edge}"),
+        (Lang::De, false) => format!("{length} mm {side} dem {edge}"),
     }
 }

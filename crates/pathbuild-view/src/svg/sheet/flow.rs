@@ -1,9 +1,7 @@
 //! Arranges blocks of text in columns and on pages.
 
 use crate::scene::Point;
-use crate::svg::canvas::OTHER_COLOUR;
-use crate::svg::canvas::wrap_text;
-use crate::svg::canvas::{Anchor, Canvas, INK_COLOUR, svg_number};
+use crate::svg::canvas::{Anchor, Canvas, INK_COLOUR, OTHER_COLOUR, svg_number, wrap_text};
 
 /// Letter size and line height in units of the page.
 pub(super) const LETTER_SIZE: f64 = 10.0;

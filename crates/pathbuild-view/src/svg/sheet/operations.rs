@@ -1,8 +1,8 @@
 //! The operations of a setup sheet: a table that explains each number in the picture.
 
-use pathbuild_diagnostic::{Noun, counted};
+use pathbuild_diagnostic::{Lang, Noun, counted};
 
-use super::data::{Sheet, SheetTool, Words};
+use super::data::{Sheet, SheetTool, localized_mm};
 use crate::scene::{Element, ElementKind, ScenePath, Shape};
 use crate::svg::canvas::mm;
 
@@ -26,12 +26,12 @@ struct ElementOperation {
 }
 
 /// Returns the rows of the table, with five cells each: numbers, path, operation, depth, cutter.
-pub(super) fn rows(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
+pub(super) fn rows(sheet: &Sheet, lang: Lang) -> Vec<Vec<String>> {
     let paths = sheet.scene.paths.iter().zip(&sheet.path_tools);
     let mut rows: Vec<Vec<String>> = paths
         .flat_map(|(path, tool)| {
             let tool = cutter(&sheet.tools[*tool]);
-            operations(path, words).into_iter().map(move |operation| row(operation, tool.clone()))
+            operations(path, lang).into_iter().map(move |operation| row(operation, tool.clone()))
         })
         .collect();
     let more = rows.len().saturating_sub(MAX_ROWS);
@@ -40,7 +40,7 @@ pub(super) fn rows(sheet: &Sheet, words: Words) -> Vec<Vec<String>> {
         rows.push(vec![
             "…".to_owned(),
             String::new(),
-            counted(more, MORE, words.0),
+            counted(more, MORE, lang),
             String::new(),
             String::new(),
         ]);
@@ -61,11 +61,11 @@ fn row(operation: Operation, cutter: String) -> Vec<String> {
     vec![numbers, work.path, work.what, work.depth, cutter]
 }
 
-fn operations(path: &ScenePath, words: Words) -> Vec<Operation> {
+fn operations(path: &ScenePath, lang: Lang) -> Vec<Operation> {
     let depths = depths(path);
     let numbered = path.elements.iter().zip(depths);
     let mut numbered: Vec<(u32, ElementOperation)> = numbered
-        .filter_map(|(element, depth)| Some((element.order?, element_operation(path, element, depth, words))))
+        .filter_map(|(element, depth)| Some((element.order?, element_operation(path, element, depth, lang))))
         .collect();
     numbered.sort_by_key(|(number, _)| *number);
     let mut operations: Vec<Operation> = Vec::new();
@@ -94,32 +94,34 @@ fn element_operation(
     path: &ScenePath,
     element: &Element,
     depth: Option<f64>,
-    words: Words,
+    lang: Lang,
 ) -> ElementOperation {
     let name = path.embedded.get(element.path as usize).map_or(&path.name, |embedded| &embedded.name);
     ElementOperation {
         occurrence: element.path,
         path: name.clone(),
-        what: operation_text(path, element, words),
+        what: operation_text(path, element, lang),
         depth: depth.map(|z| format!("Z {}", mm(z))).unwrap_or_default(),
     }
 }
 
 /// Describes the operation at an element. A circle as wide as the cutter is drilled.
-fn operation_text(path: &ScenePath, element: &Element, words: Words) -> String {
+fn operation_text(path: &ScenePath, element: &Element, lang: Lang) -> String {
     let work = match element.kind {
-        ElementKind::Mark => words.choose("marking", "Markieren"),
-        ElementKind::Support => words.choose("milling with support bars", "Fräsen mit Stützstegen"),
-        _ => words.choose("milling", "Fräsen"),
+        ElementKind::Mark => lang.choose("marking", "Markieren"),
+        ElementKind::Support => lang.choose("milling with support bars", "Fräsen mit Stützstegen"),
+        _ => lang.choose("milling", "Fräsen"),
     };
     let Shape::Circle { radius, .. } = element.shape else { return work.to_owned() };
     let diameter = 2.0 * radius;
     if path.tool.is_some_and(|tool| (tool - diameter).abs() < 0.001) {
-        return words
-            .choose(format!("drilling Ø {}", mm(diameter)), format!("Bohren Ø {}", words.mm(diameter)));
+        return lang.choose(
+            format!("drilling Ø {}", mm(diameter)),
+            format!("Bohren Ø {}", localized_mm(diameter, lang)),
+        );
     }
-    words.choose(
+    lang.choose(
         format!("{work}: circle Ø {}", mm(diameter)),
-        format!("{work}: Kreis Ø {}", words.mm(diameter)),
+        format!("{work}: Kreis Ø {}", localized_mm(diameter, lang)),
     )
 }

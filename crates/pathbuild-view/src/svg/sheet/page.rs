@@ -3,12 +3,11 @@
 use pathbuild_diagnostic::Lang;
 
 use super::blocks;
-use super::data::{PAPER, Sheet, UNITS, Words};
+use super::data::{PAPER, Sheet, UNITS};
 use super::flow::{Block, Column, Item, LETTER_SIZE, MAX_PICTURE_HEIGHT, lay_out};
 use super::picture::{self, PlacedPicture};
 use crate::scene::Point;
-use crate::svg::canvas::{Anchor, Canvas, INK_COLOUR, TEXT_COLOUR, svg_number};
-use crate::svg::canvas::{text_width, wrap_text};
+use crate::svg::canvas::{Anchor, Canvas, INK_COLOUR, TEXT_COLOUR, svg_number, text_width, wrap_text};
 
 /// Size of a page and its margins, in units.
 pub(super) const SIZE: Point = [PAPER[0] * UNITS, PAPER[1] * UNITS];
@@ -37,7 +36,7 @@ pub(super) struct Page {
 }
 
 pub(super) fn pages_as_svg(sheet: &Sheet, lang: Lang) -> Vec<String> {
-    let pages = pages(sheet, Words(lang));
+    let pages = pages(sheet, lang);
     let count = pages.len();
     let drawn = pages.iter().enumerate().map(|(index, page)| {
         let text = page.draw(sheet, lang, index, count);
@@ -52,7 +51,7 @@ pub(super) fn pages_as_svg(sheet: &Sheet, lang: Lang) -> Vec<String> {
     drawn.collect()
 }
 
-pub(super) fn pages(sheet: &Sheet, words: Words) -> Vec<Page> {
+pub(super) fn pages(sheet: &Sheet, lang: Lang) -> Vec<Page> {
     let mut first = Page::default();
     let placed = picture::first_page_picture(
         sheet,
@@ -64,7 +63,7 @@ pub(super) fn pages(sheet: &Sheet, words: Words) -> Vec<Page> {
     let middle = LEFT_EDGE + (RIGHT_EDGE - LEFT_EDGE) * CHECKLIST_SHARE;
     let left = Column::new([LEFT_EDGE, top], [middle, BOTTOM_EDGE]);
     let right = Column::new([middle + GUTTER, top], [RIGHT_EDGE, BOTTOM_EDGE]);
-    let (checks, facts) = (blocks::checklist(sheet, words), blocks::facts(sheet, words));
+    let (checks, facts) = (blocks::checklist(sheet, lang), blocks::facts(sheet, lang));
     let mut rest: Vec<Block> = Vec::new();
     let mut below = top;
     for (blocks, column) in [(&checks, left), (&facts, right)] {
@@ -73,7 +72,7 @@ pub(super) fn pages(sheet: &Sheet, words: Words) -> Vec<Page> {
         below = below.max(bottom);
     }
     let has_room = rest.is_empty() && below + MIN_TABLE_HEIGHT < BOTTOM_EDGE;
-    rest.extend(blocks::tables(sheet, words));
+    rest.extend(blocks::tables(sheet, lang));
     let mut rest: &[Block] = &rest;
     if has_room {
         let column = Column::new([LEFT_EDGE, below + 12.0], [RIGHT_EDGE, BOTTOM_EDGE]);
@@ -101,29 +100,28 @@ pub(super) fn pages(sheet: &Sheet, words: Words) -> Vec<Page> {
 impl Page {
     fn draw(&self, sheet: &Sheet, lang: Lang, index: usize, count: usize) -> String {
         let mut canvas = Canvas::paper(PAPER, SIZE);
-        let words = Words(lang);
         if let Some(picture) = &self.picture {
             picture.draw(&mut canvas, sheet, lang);
         }
-        for item in title(sheet, words) {
+        for item in title(sheet, lang) {
             item.draw(&mut canvas);
         }
         for item in &self.items {
             item.draw(&mut canvas);
         }
-        draw_footer(&mut canvas, sheet, words, index + 1, count);
+        draw_footer(&mut canvas, sheet, lang, index + 1, count);
         canvas.finish()
     }
 }
 
 /// Returns the items of the title: the name of the path or of the joined paths, the drawings, and a rule.
-fn title(sheet: &Sheet, words: Words) -> Vec<Item> {
+fn title(sheet: &Sheet, lang: Lang) -> Vec<Item> {
     let (size, width) = (20.0, (RIGHT_EDGE - LEFT_EDGE) * 0.62);
     let name = wrap_text(&sheet.title, width, size);
     let name = if name.len() > 1 { format!("{}…", name[0]) } else { name[0].clone() };
     let drawings = sheet.drawings.join(", ");
     let beside = LEFT_EDGE + text_width(&name, size) + 14.0;
-    let drawings = words.choose(format!("drawing {drawings}"), format!("Zeichnung {drawings}"));
+    let drawings = lang.choose(format!("drawing {drawings}"), format!("Zeichnung {drawings}"));
     let lines = wrap_text(&drawings, RIGHT_EDGE - beside, LETTER_SIZE);
     let first = if lines.len() > 1 { format!("{}…", lines[0]) } else { lines[0].clone() };
     vec![
@@ -134,11 +132,11 @@ fn title(sheet: &Sheet, words: Words) -> Vec<Item> {
 }
 
 /// Draws the page footer: identification in case the pages get separated, and a ruler for checking the scale of the print.
-fn draw_footer(canvas: &mut Canvas, sheet: &Sheet, words: Words, number: usize, count: usize) {
-    let page = words.choose(format!("page {number} of {count}"), format!("Seite {number} von {count}"));
+fn draw_footer(canvas: &mut Canvas, sheet: &Sheet, lang: Lang, number: usize, count: usize) {
+    let page = lang.choose(format!("page {number} of {count}"), format!("Seite {number} von {count}"));
     let text = format!("{} · {page}", sheet.hashes);
     canvas.text([LEFT_EDGE, FOOTER_TOP + 8.0], 9.0, Anchor::Start, &format!("fill=\"{TEXT_COLOUR}\""), &text);
-    let ruler = words.choose("50 mm, when printed at 100 %", "50 mm, wenn mit 100 % gedruckt");
+    let ruler = lang.choose("50 mm, when printed at 100 %", "50 mm, wenn mit 100 % gedruckt");
     let end = RIGHT_EDGE - 50.0 * UNITS;
     let y = FOOTER_TOP + 4.0;
     canvas.path(

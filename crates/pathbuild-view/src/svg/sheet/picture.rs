@@ -3,14 +3,14 @@
 use pathbuild_diagnostic::Lang;
 
 use crate::scene::Point;
-use crate::svg::canvas::text_width;
-use crate::svg::canvas::{Anchor, Canvas, Depths, INK_COLOUR, PROBE_COLOUR, TEXT_COLOUR, mm, svg_number};
+use crate::svg::canvas::{
+    Anchor, Canvas, Depths, INK_COLOUR, PROBE_COLOUR, TEXT_COLOUR, mm, svg_number, text_width,
+};
 use crate::svg::frame::{Frame, OccupiedSpace, PageTransform, VisibleParts};
-use crate::svg::legend;
 use crate::svg::stock::{MilledStock, has_stock};
-use crate::svg::{drawing, moves, symbols};
+use crate::svg::{drawing, legend, moves, symbols};
 
-use super::data::{Corners, Sheet, UNITS, Words, removed_box, shown_box};
+use super::data::{Corners, Sheet, UNITS, removed_box, shown_box};
 use super::flow::{Column, MAX_PICTURE_HEIGHT};
 
 /// Margins around the drawing in units. Dimensions are to the left and below, and their last numbers extend to the right.
@@ -201,8 +201,8 @@ impl PlacedPicture {
         let top = self.bottom() - LEGEND_HEIGHT + 12.0;
         canvas.open(&format!("id=\"stock-legend\" fill=\"{INK_COLOUR}\""));
         let scale = self.scale.text();
-        let title = Words(lang)
-            .choose(format!("after milling, scale {scale}"), format!("nach dem Fräsen, Maßstab {scale}"));
+        let title =
+            lang.choose(format!("after milling, scale {scale}"), format!("nach dem Fräsen, Maßstab {scale}"));
         canvas.text([self.area.left, top], 11.0, Anchor::Start, "font-weight=\"bold\"", &title);
         let right = self.area.left + self.area.width;
         stock.legend(canvas, VisibleParts::all(lang), [self.area.left, top + 17.0], right);
@@ -217,11 +217,10 @@ impl PlacedPicture {
         shown: VisibleParts,
         hidden: &[u32],
     ) {
-        let words = Words(shown.lang);
         let top = self.bottom() - LEGEND_HEIGHT + 12.0;
         canvas.open(&format!("id=\"legend\" fill=\"{INK_COLOUR}\""));
         let scale = self.scale.text();
-        let scale = words.choose(format!("scale {scale}"), format!("Maßstab {scale}"));
+        let scale = shown.lang.choose(format!("scale {scale}"), format!("Maßstab {scale}"));
         let bold = "font-weight=\"bold\"";
         canvas.text([self.area.left, top], 11.0, Anchor::Start, bold, &scale);
         legend::draw_depths(canvas, depths, [self.area.left + 110.0, top]);

@@ -1,6 +1,8 @@
 //! The shims under raised material (H), and the pieces of material that lie at different heights. (book: program/sheet)
 
-use super::data::{Sheet, Words, distinct};
+use pathbuild_diagnostic::Lang;
+
+use super::data::{Sheet, distinct, localized_mm};
 use super::operations;
 use crate::scene::{EmbeddedPath, ScenePath};
 use crate::svg::canvas::mm;
@@ -25,12 +27,12 @@ struct Run<'s> {
 }
 
 /// Describes the shims, with the numbers of the elements whose material lies on them: one sentence for each height and upper face.
-pub(super) fn checks(sheet: &Sheet, words: Words) -> Vec<String> {
+pub(super) fn checks(sheet: &Sheet, lang: Lang) -> Vec<String> {
     let mut raised: Vec<Run<'_>> = sheet.scene.paths.iter().flat_map(runs).collect();
     raised.retain(|run| run.heights[0] > 0.0);
     let sentences = |heights| {
         let runs: Vec<&Run<'_>> = raised.iter().filter(|run| run.heights == heights).collect();
-        runs.chunks(MAX_RUNS).map(|runs| sentence(runs, heights, words)).collect::<Vec<_>>()
+        runs.chunks(MAX_RUNS).map(|runs| sentence(runs, heights, lang)).collect::<Vec<_>>()
     };
     distinct(raised.iter().map(|run| run.heights)).into_iter().flat_map(sentences).collect()
 }
@@ -48,23 +50,23 @@ pub(super) fn upper_faces(sheet: &Sheet) -> Option<Vec<f64>> {
     runs.iter().any(|run| run.heights[0] > 0.0).then_some(tops)
 }
 
-fn sentence(runs: &[&Run<'_>], [height, top]: [f64; 2], words: Words) -> String {
+fn sentence(runs: &[&Run<'_>], [height, top]: [f64; 2], lang: Lang) -> String {
     let piece = |name: &str| {
         let numbers = runs.iter().filter(|run| run.name == name).flat_map(|run| &run.numbers);
         let numbers = ranges(&numbers.copied().collect::<Vec<_>>());
-        words.choose(format!("{name} (No. {numbers})"), format!("{name} (Nr. {numbers})"))
+        lang.choose(format!("{name} (No. {numbers})"), format!("{name} (Nr. {numbers})"))
     };
     let pieces =
         distinct(runs.iter().map(|run| run.name)).into_iter().map(piece).collect::<Vec<_>>().join(", ");
     let depth = height - runs.iter().map(|run| run.lowest).fold(f64::INFINITY, f64::min);
-    let cut = (depth > MIN_CUT).then(|| words.mm(depth)).map(|depth| {
-        words.choose(
+    let cut = (depth > MIN_CUT).then(|| localized_mm(depth, lang)).map(|depth| {
+        lang.choose(
             format!("; they are cut {depth} mm deep"),
             format!("; sie werden {depth} mm tief angefräst"),
         )
     });
-    let (height, top, cut) = (words.mm(height), mm(top), cut.unwrap_or_default());
-    words.choose(
+    let (height, top, cut) = (localized_mm(height, lang), mm(top), cut.unwrap_or_default());
+    lang.choose(
         format!("Shims of {height} mm lie under the material of {pieces}, whose upper face is at Z {top}{cut}"),
         format!("{height} mm hohe Unterlagen liegen unter dem Material von {pieces}, dessen Oberseite bei Z {top} ist{cut}"),
     )
