@@ -1,12 +1,11 @@
 //! Verifies programs of any origin.
 
 use camino::Utf8PathBuf;
-use pathbuild_workspace::Workspace;
 use pathbuild_workspace::config::types::Requirement;
 use pathbuild_workspace::program::UnitCodes;
-use pathbuild_workspace::settle;
 use pathbuild_workspace::verify::{self, CheckRecord, MoveComparison, Outcome, Verification};
 use pathbuild_workspace::waivers::Coverage;
+use pathbuild_workspace::{Workspace, settle};
 
 use crate::baseline::SettledFindings;
 use crate::{BaselineOptions, Error, Finding, Lang, WrittenBaseline};

@@ -4,9 +4,8 @@
 
 #![expect(clippy::disallowed_methods, reason = "these are the cache's own files; no result depends on them")]
 
-use std::fs;
-use std::io;
 use std::time::{Duration, SystemTime};
+use std::{fs, io};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::reasons::{self, HOLDS_OTHERS, NO_CACHE, reason};

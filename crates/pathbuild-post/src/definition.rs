@@ -11,16 +11,13 @@ use pathbuild_gcode::native::too_large;
 use pathbuild_gcode::verify::{Ends, Tolerance};
 use pathbuild_motion::Turning;
 
-use crate::PostMacro;
-use crate::PostOptions;
-use crate::Row;
 use crate::findings::EngineOutput;
 use crate::job::{Job, Operation, Units};
 use crate::line_words::{CommentMarks, first_other_line};
 use crate::read_back::{self, ReadBackOptions};
 use crate::rs274_translation::TranslatedText;
 use crate::target::{self, Target};
-use crate::{cad6, cambam};
+use crate::{PostMacro, PostOptions, Row, cad6, cambam};
 
 /// A parsed definition, ready to write programs.
 #[derive(Clone, Debug)]

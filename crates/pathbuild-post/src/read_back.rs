@@ -13,14 +13,12 @@ use pathbuild_motion::{
     Action, Axes, Change, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, WorkSystem,
 };
 
-use crate::ambiguous;
-use crate::dwells;
 use crate::findings::LineOrigin;
 use crate::job::{Entry, Job, JobStep, Operation};
 use crate::rs274_translation::{Doubt, TranslatedText};
 use crate::target::Target;
-use crate::tools;
 use crate::traverse::{self, MatchedCut};
+use crate::{ambiguous, dwells, tools};
 
 /// The expectations that a text is checked against.
 #[derive(Clone, Copy, Debug)]

@@ -14,8 +14,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, TextFault, Value, sh
 
 use crate::config::clean;
 use crate::files;
-use crate::findings::Findings;
-use crate::findings::Fingerprint;
+use crate::findings::{Findings, Fingerprint};
 use crate::waivers::{Coverage, RunDate, WaivedFinding, Waiver};
 use crate::workspace::Workspace;
 

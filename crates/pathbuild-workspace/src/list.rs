@@ -15,8 +15,7 @@ use crate::findings::Findings;
 use crate::inputs::Input;
 use crate::post_processor::{PostArguments, PostProcessor};
 use crate::session::{CheckedTarget, Session, no_drawing_error};
-use crate::workspace::Failure;
-use crate::workspace::Workspace;
+use crate::workspace::{Failure, Workspace};
 use crate::{Inputs, emit};
 
 /// A request to list paths.

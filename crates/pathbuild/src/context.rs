@@ -16,10 +16,9 @@ use pathbuild_workspace::{Failure, Inputs, Workspace, files};
 use serde_json::Value;
 
 use crate::args::Cli;
-use crate::environment;
+use crate::{environment, german};
 
 use crate::exit::ExitStatus;
-use crate::german;
 use crate::output::Output;
 use crate::printer::{Printer, Stream};
 use crate::render::{Format, View, json as lines, render};

@@ -16,8 +16,7 @@ use pathbuild_path::{
 use pathbuild_toolpath::{own_moves, part_cuts};
 use smol_str::SmolStr;
 
-use crate::database::Db;
-use crate::database::{TimeoutPanic, catch_bugs};
+use crate::database::{Db, TimeoutPanic, catch_bugs};
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::nearby_ends::LayerEnds;
 use crate::queries::reading::{Fingerprint, entities, read, read_entities};

@@ -9,8 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_path::{FilePattern, PathKey, PathName, RangeTable, SubpathName};
 use rustc_hash::FxHashSet;
 
-use crate::database::Db;
-use crate::database::catch_bugs;
+use crate::database::{Db, catch_bugs};
 use crate::inputs::{Directory, Settings, SourceFile};
 use crate::queries::index::{FileIndex, NameKey, file_index, path_index};
 use crate::system::{FileKind, Names, ReadError, is_drawing, join, or_current_directory};

@@ -9,8 +9,7 @@ use pathbuild_path::{
     AssignedText, Bindings, CaseSensitiveName, Combinations, PathName, Position, RawPath, SourceMap,
 };
 
-use crate::database::catch_bugs;
-use crate::database::{Db, abandon_query};
+use crate::database::{Db, abandon_query, catch_bugs};
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::index::{NameKey, file_index};
 use crate::queries::reading::{Fingerprint, entities, read, read_entities};

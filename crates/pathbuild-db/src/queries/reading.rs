@@ -9,8 +9,7 @@ use pathbuild_files::Stamp;
 use pathbuild_path::may_be_stray_text;
 use rustc_hash::FxHasher;
 
-use crate::database::Db;
-use crate::database::catch_bugs;
+use crate::database::{Db, catch_bugs};
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::system::ReadError;
 

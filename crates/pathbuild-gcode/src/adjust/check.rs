@@ -10,8 +10,7 @@ use pathbuild_toolpath::odd_probes;
 
 use super::Inputs;
 use super::scan::{ProbeSurvey, ProbeUse};
-use super::values::{EnteredValue, ProbeLine};
-use super::values::{ProbePoint, ProbeTable, ProgramProbe};
+use super::values::{EnteredValue, ProbeLine, ProbePoint, ProbeTable, ProgramProbe};
 use crate::native::{f3, push_exact};
 
 /// Measured heights in mm, by probe number.

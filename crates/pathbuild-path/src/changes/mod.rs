@@ -8,8 +8,7 @@ mod pairing;
 
 use std::collections::BTreeMap;
 
-use pathbuild_diagnostic::drawn_changes as texts;
-use pathbuild_diagnostic::{Point, Sentence, Text, Value};
+use pathbuild_diagnostic::{Point, Sentence, Text, Value, drawn_changes as texts};
 
 use crate::element::diagnostic_point;
 use crate::element_parameters::ElementParameters;

@@ -1,8 +1,7 @@
 //! Pictures of the part of a drawing around a finding.
 
 use super::canvas::{Anchor, Canvas, ERROR_COLOUR, INK_COLOUR, TEXT_COLOUR, WARNING_COLOUR, mm};
-use super::frame::VisibleParts;
-use super::frame::{Frame, OccupiedSpace, PageTransform, widen};
+use super::frame::{Frame, OccupiedSpace, PageTransform, VisibleParts, widen};
 use super::stock::{self, MilledStock};
 use super::symbols;
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};

@@ -1,12 +1,10 @@
 //! The legend below the drawing: title, kinds of lines, depth scale and findings.
 
-use super::canvas::wrap_text;
 use super::canvas::{
     Anchor, BAR_COLOUR, Canvas, Depths, ERROR_COLOUR, INK_COLOUR, PROBE_COLOUR, TEXT_COLOUR, WARNING_COLOUR,
-    color, mm, svg_number,
+    color, mm, svg_number, wrap_text,
 };
-use super::frame::Frame;
-use super::frame::VisibleParts;
+use super::frame::{Frame, VisibleParts};
 use super::stock::MilledStock;
 use super::symbols::SWEEP_COLOUR;
 use crate::scene::{Finding, MoveKind, Point, Scene};

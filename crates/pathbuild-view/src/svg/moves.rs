@@ -6,8 +6,7 @@ use std::fmt::Write;
 use pathbuild_motion::{Move, MoveShape};
 
 use super::canvas::{Canvas, Depths, KERF_COLOUR, RAPID_COLOUR, svg_number};
-use super::frame::PageTransform;
-use super::frame::VisibleParts;
+use super::frame::{PageTransform, VisibleParts};
 use crate::scene::{MoveKind, Point, SceneMove, ScenePath};
 
 /// Minimum length in px of a move that gets an arrow.

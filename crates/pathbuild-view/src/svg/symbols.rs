@@ -4,8 +4,7 @@ use super::canvas::{
     Anchor, BAR_COLOUR, Canvas, ERROR_COLOUR, INK_COLOUR, OTHER_COLOUR, PROBE_COLOUR, RAPID_COLOUR,
     TEXT_COLOUR, WARNING_COLOUR, svg_number,
 };
-use super::frame::VisibleParts;
-use super::frame::{Frame, OccupiedSpace, PageTransform, Rectangle, square_around, text_width};
+use super::frame::{Frame, OccupiedSpace, PageTransform, Rectangle, VisibleParts, square_around, text_width};
 use super::moves::{along, arc_pieces};
 use crate::scene::{
     ArcShape, Element, ElementKind, Label, MoveKind, OtherShape, Point, Scene, SceneMove, ScenePath, Shape,

@@ -7,8 +7,7 @@ use pathbuild_db::system::join;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message, Text, TextFault, Value};
 
-use super::kinds::{MEASURE_BOUNDS, number_from_text};
-use super::kinds::{regex_fault, split_restriction};
+use super::kinds::{MEASURE_BOUNDS, number_from_text, regex_fault, split_restriction};
 use super::origin::SourcedValue;
 use super::types::{Directories, Restriction};
 use crate::waivers::RunDate;

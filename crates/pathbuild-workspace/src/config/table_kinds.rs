@@ -10,8 +10,10 @@ use serde_json::{Value as Json, json};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::kinds::{COUNT, NOT_NEGATIVE, NUMBER_RANGE, POSITIVE, SWITCH};
-use super::kinds::{PATTERNS, REGEX, TEXT, choice, choice_schema, name_of, quoted, read_choice};
+use super::kinds::{
+    COUNT, NOT_NEGATIVE, NUMBER_RANGE, PATTERNS, POSITIVE, REGEX, SWITCH, TEXT, choice, choice_schema,
+    name_of, quoted, read_choice,
+};
 use crate::config::reader::{Table, TomlReader, ValueType};
 use crate::config::types::{CutterShape, FileSeverities, Level, LineTypeAlias, PostChoice, Tool};
 use crate::waivers::{Date, Waiver};

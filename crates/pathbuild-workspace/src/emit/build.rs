@@ -14,11 +14,10 @@ use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
 use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Correction, Program, ProgramStep, UnprobedPoint, memory};
 
-use super::joined_programs;
 use super::options::{OutputSettings, total};
 use super::outcome::ProgramOutcome;
 use super::plan::Job;
-use super::sheet;
+use super::{joined_programs, sheet};
 use crate::post_processor::PostProcessor;
 use crate::session::{OutputKind, WriteSettings};
 

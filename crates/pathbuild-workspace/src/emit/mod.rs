@@ -29,8 +29,7 @@ use crate::config::types::SheetFormat;
 use crate::memo::{Answer, Memo, is_transient};
 use crate::post_processor::{PostArguments, PostProcessor};
 use crate::session::{ArgumentMatches, Session};
-use crate::workspace::Failure;
-use crate::workspace::Workspace;
+use crate::workspace::{Failure, Workspace};
 
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
 pub use options::{Provenances, missing_values, write_settings};

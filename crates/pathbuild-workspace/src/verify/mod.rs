@@ -31,8 +31,7 @@ use crate::config::{Settings, number, positive};
 use crate::post_processor::{PostArguments, PostProcessor, known_words, machine, tool_table};
 use crate::program::{DefinitionTranslation, Program, ReadingOptions};
 use crate::session::Session;
-use crate::workspace::Failure;
-use crate::workspace::Workspace;
+use crate::workspace::{Failure, Workspace};
 
 pub use checks::{
     APPROACH_ABOVE_MATERIAL, Assumption, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text,

@@ -9,8 +9,7 @@ use crate::files::ExtraInput;
 use crate::memo::{Answer, Inputs, Memo, is_transient};
 use crate::program;
 use crate::session::Session;
-use crate::workspace::Failure;
-use crate::workspace::Workspace;
+use crate::workspace::{Failure, Workspace};
 
 /// A request to verify programs.
 #[derive(Debug)]

@@ -2,10 +2,9 @@
 //! a check from scratch. Each step waits for the previous one, so that all of them happen to the same session.
 
 use std::cell::{Cell, RefCell};
-use std::fs;
 use std::sync::Arc;
-use std::thread;
 use std::time::Duration;
+use std::{fs, thread};
 
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::Diagnostic;

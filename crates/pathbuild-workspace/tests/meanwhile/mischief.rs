@@ -7,8 +7,7 @@ use std::time::{Duration, Instant};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::Stamp;
-use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, WriteOutcome};
+use pathbuild_db::system::{Entry, FileKind, Listing, OsSystem, ReadError, Stamp, WriteOutcome};
 use pathbuild_diagnostic::Value;
 
 /// The event that happens to a file.

@@ -3,10 +3,9 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
-use std::fs;
 use std::sync::Arc;
-use std::thread;
 use std::time::Duration;
+use std::{fs, thread};
 
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::{Code, Diagnostic};

@@ -4,15 +4,14 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
 use pathbuild_view::{Scene, VisibleParts, has_stock};
-use pathbuild_workspace::Failure;
 use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::files::is_file_name_taken;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
-use pathbuild_workspace::program;
 use pathbuild_workspace::program_view::program_scene;
 use pathbuild_workspace::session::{NamedPaths, Session};
 use pathbuild_workspace::verify::VerifyOptions;
+use pathbuild_workspace::{Failure, program};
 
 use super::picture_output::{deliver, show};
 use crate::args::ViewArgs;

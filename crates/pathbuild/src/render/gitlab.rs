@@ -5,8 +5,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity};
 use serde_json::{Value as Json, json};
 
 use super::{View, view};
-use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::findings::Fingerprint;
+use pathbuild_workspace::findings::{Findings, Fingerprint};
 
 pub(super) fn render(findings: &Findings, view: &View) -> String {
     let fingerprints = Fingerprint::of(&findings.diagnostics);

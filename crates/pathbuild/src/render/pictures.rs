@@ -6,8 +6,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_view::{FindingPlace, Places, Scene, cutout_svg, has_stock, stock_cutout_svg};
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::files::write_error;
-use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::findings::Fingerprint;
+use pathbuild_workspace::findings::{Findings, Fingerprint};
 use pathbuild_workspace::session::Session;
 
 /// Maximum number of findings that get a picture.

@@ -7,8 +7,7 @@ use pathbuild_diagnostic::{Code, Diagnostic};
 use serde_json::{Value as Json, json};
 
 use super::{View, view};
-use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::findings::Fingerprint;
+use pathbuild_workspace::findings::{Findings, Fingerprint};
 use pathbuild_workspace::waivers::Waiver;
 
 /// Maximum number of results. GitHub refuses runs with more.

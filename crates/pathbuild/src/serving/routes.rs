@@ -23,9 +23,7 @@ use tokio::runtime;
 use tokio::sync::watch;
 use tokio::time::timeout;
 
-use super::endpoint::answer;
-use super::endpoint::{Endpoint, random_token};
-use super::endpoint::{HEADERS, PROGRAM_ROUTE, admit, method};
+use super::endpoint::{Endpoint, HEADERS, PROGRAM_ROUTE, admit, answer, method, random_token};
 use super::hub::{AnswerForm, Hub, Subject};
 
 /// State that all routes share.
