@@ -914,13 +914,11 @@ fn what_the_cutter_takes_is_whole_in_a_picture() {
     let numbers: Vec<f64> = line.split(['M', 'L', ' ']).filter_map(|number| number.parse().ok()).collect();
     let [left, y, right, _] = numbers[..] else { panic!("{line}") };
     assert!(left - width / 2.0 >= 0.0 && right + width / 2.0 <= 1160.0, "{line} {width}");
-    let clip = document
-        .descendants()
-        .find(|node| node.has_tag_name("clipPath"))
-        .unwrap()
-        .first_element_child()
-        .unwrap();
-    let bottom: f64 = clip.attribute("height").unwrap().parse().unwrap();
+    // The legend's white background covers what is lower.
+    let mut rectangles = document.descendants().filter(|node| node.has_tag_name("rect"));
+    let background =
+        rectangles.find(|node| node.attribute("width") == Some("1160") && node.has_attribute("y"));
+    let bottom: f64 = background.unwrap().attribute("y").unwrap().parse().unwrap();
     assert!(y + width / 2.0 <= bottom, "{line} {width}: {bottom}");
     // The disc is as wide as the cutter, and its number is next to it.
     let [x, y, radius, _] =

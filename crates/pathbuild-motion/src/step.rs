@@ -503,4 +503,10 @@ impl Move {
             piece
         })
     }
+
+    /// Returns one of the pieces of [`split`](Self::split), by its number from 0.
+    pub fn piece(&self, number: u32, count: u32) -> Self {
+        let end = |number: u32| Position { at: self.point(f64::from(number) / f64::from(count)), ..self.to };
+        Self { from: if number == 0 { self.from } else { end(number) }, to: end(number + 1), ..*self }
+    }
 }

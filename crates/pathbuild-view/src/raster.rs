@@ -43,6 +43,7 @@ pub fn png(scene: Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
         .ok_or_else(|| Value::foreign("the picture has no size"))?;
     let mut pixels = Pixmap::new(size.width(), size.height()).ok_or(&PICTURE_TOO_LARGE)?;
     resvg::render(&tree, Transform::from_scale(PIXELS_PER_PX, PIXELS_PER_PX), &mut pixels.as_mut());
+    drop(tree);
     pixels.encode_png().map_err(Value::foreign)
 }
 

@@ -429,7 +429,7 @@ fn add_path_end(problems: &mut [Diagnostic], end: Xy) {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BoundPath {
     /// The path, unless a diagnostic is an error.
-    pub path: Option<Path>,
+    pub path: Option<Arc<Path>>,
     /// Diagnostics of the drawing and of the values.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -447,7 +447,7 @@ fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath
         .unwrap_or_else(|bug| ExaminedPath { path: None, problems: vec![bug.in_path(raw.name.as_str())] });
     let mut diagnostics = raw.findings_except(&problems);
     diagnostics.extend(problems);
-    BoundPath { path, diagnostics }
+    BoundPath { path: path.map(Arc::new), diagnostics }
 }
 
 /// Walks a path. The time limit is enforced here as PB005, not only by the driver, because indexes are built before any target is queried.

@@ -37,7 +37,7 @@ pub struct Part {
     /// The drawing that defines the path.
     pub file: SourceFile,
     /// The path with all parameters bound.
-    pub path: Path,
+    pub path: Arc<Path>,
     /// The values of the path's variables.
     pub bindings: Bindings,
 }
@@ -65,7 +65,7 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>>
     let is_only_embedded = !root.bindings(db).is_empty();
     if *target.role(db) != Role::Emitted && (is_only_embedded || options.sweep_height.is_none()) {
         // A checked path gets the sweep height that it has when embedded.
-        options.sweep_height = path(db, root).path.as_ref().map(Path::embedded_sweep_height);
+        options.sweep_height = path(db, root).path.as_deref().map(Path::embedded_sweep_height);
     }
     let (program, trace) = fold_traced(&ClosurePaths { db }, root, drawing, options);
     let mut instances: Vec<Instance<'_>> = Vec::new();

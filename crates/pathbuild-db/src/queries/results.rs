@@ -104,6 +104,7 @@ fn sound_paths(db: &dyn Db, file: SourceFile) -> Option<Vec<Path>> {
     let language = Settings::get(db).language(db);
     let is_readable = !check_file(db, file).iter().any(Diagnostic::is_error);
     let paths = raw_file(db, file).paths();
-    let sound = |raw| bind(raw, &Bindings::check_values(&raw.definitions), language).path;
+    let sound =
+        |raw| bind(raw, &Bindings::check_values(&raw.definitions), language).path.map(Arc::unwrap_or_clone);
     is_readable.then(|| paths.map(sound).collect())?
 }

@@ -30,6 +30,15 @@ pub struct DrawnSource<'a> {
     pub parameters: &'a [ElementParameters],
 }
 
+impl DrawnSource<'_> {
+    /// Returns the number of elements and markers.
+    pub(super) fn elements(&self) -> usize {
+        let raw = self.raw;
+        let ends = [&raw.start, &raw.end].into_iter().flatten().count();
+        raw.drawn.elements.len() + raw.unclear_curves().len() + ends + raw.turns.len() + raw.probes.len()
+    }
+}
+
 /// Returns a path without a program: only the drawn elements, in the coordinates of the drawing.
 pub fn drawn_path(source: &DrawnSource<'_>) -> ScenePath {
     let mut scene = ScenePath {

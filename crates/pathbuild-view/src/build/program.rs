@@ -22,9 +22,9 @@ pub struct ProgramSource<'a> {
     pub trace: &'a Trace<usize>,
     /// The path and the paths that it embeds, as drawn and with all parameters bound.
     pub parts: &'a [(DrawnSource<'a>, &'a Path)],
-    /// Native text of the program, written without splitting moves; `None` if only the text as written is shown.
+    /// Native text of the program, written without splitting moves; `None` to omit it.
     pub native: Option<&'a str>,
-    /// Text of the program as written by `emit`; `None` to show only the native text.
+    /// Text of the program as written by `emit`; `None` to omit it.
     pub emitted: Option<EmittedText<'a>>,
     /// Speed of rapid moves in mm/min (the value of `--rapid`).
     pub rapid: Option<f64>,
@@ -39,8 +39,6 @@ pub struct EmittedText<'a> {
     pub bytes: &'a [u8],
     /// Dialect in which the text is read.
     pub dialect: Dialect,
-    /// Whether a post wrote the text, so that it differs from the native text.
-    pub is_posted: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -53,6 +51,8 @@ struct ShownText<'a> {
 pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
     let ProgramSource { program, trace, parts, native, emitted, rapid } = source;
     let mut builder = Builder { scene: ScenePath::default(), first_elements: Vec::new() };
+    let drawn = |occurrence: &Occurrence<usize>| parts[occurrence.id].0.elements();
+    builder.scene.elements.reserve_exact(trace.occurrences.iter().map(drawn).sum());
     for occurrence in &trace.occurrences {
         builder.occurrence(occurrence, &parts[occurrence.id]);
     }

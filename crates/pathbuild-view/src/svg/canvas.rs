@@ -92,6 +92,17 @@ impl Canvas {
         ));
     }
 
+    /// Hides everything drawn so far in an area. A clip path for the other areas would cost a renderer two more images of the page.
+    pub(super) fn cover(&mut self, [[x, y], [right, bottom]]: [Point; 2]) {
+        self.raw(&format!(
+            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#fff\"/>",
+            svg_number(x),
+            svg_number(y),
+            svg_number(right - x),
+            svg_number(bottom - y)
+        ));
+    }
+
     pub(super) fn path(&mut self, data: &str, attributes: &str) {
         self.raw(&format!("<path d=\"{data}\" {attributes}/>"));
     }

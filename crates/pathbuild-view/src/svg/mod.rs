@@ -35,12 +35,12 @@ pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     let legend = legend::Legend::new(scene, &frame, &depths, shown);
     let mut canvas = Canvas::new(Frame::WIDTH, legend.bottom());
     canvas.title(&scene.title);
-    canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
-    canvas.clip("frame", frame.area());
+    canvas.open("id=\"drawing\"");
     let mut room = OccupiedSpace::new(frame.area());
     let hidden = drawing(&mut canvas, scene, &frame, &depths, shown, &mut room);
     symbols::findings(&mut canvas, scene, &frame, &mut room, legend.listed);
     canvas.close();
+    canvas.cover([[0.0, frame.area()[1][1]], [Frame::WIDTH, legend.bottom()]]);
     legend.draw(&mut canvas, &hidden);
     canvas.finish()
 }
@@ -73,11 +73,11 @@ fn stock_svg(scene: &Scene, shown: VisibleParts) -> String {
     let legend = legend::Legend::of_stock(&stock, &frame, &depths, shown);
     let mut canvas = Canvas::new(Frame::WIDTH, legend.bottom());
     canvas.title(&scene.title);
-    canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
-    canvas.clip("frame", frame.area());
+    canvas.open("id=\"drawing\"");
     stock.draw(&mut canvas, &frame, "stock");
     symbols::findings(&mut canvas, scene, &frame, &mut OccupiedSpace::new(frame.area()), legend.listed);
     canvas.close();
+    canvas.cover([[0.0, frame.area()[1][1]], [Frame::WIDTH, legend.bottom()]]);
     legend.draw(&mut canvas, &[]);
     canvas.finish()
 }

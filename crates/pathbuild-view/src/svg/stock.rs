@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use pathbuild_diagnostic::{Code, Lang};
+use pathbuild_gcode::interpret::Program;
 use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapid_hits};
 use pathbuild_motion::{Axes, Move, MoveShape, Pace, Position, Step};
 
@@ -14,7 +15,7 @@ use super::canvas::{Anchor, Canvas, INK_COLOUR, mm, svg_number};
 use super::frame::{Frame, PageTransform, VisibleParts, widen};
 use super::moves::path_data;
 use super::symbols;
-use crate::scene::{FinishedPart, MoveKind, Point, Scene, SceneMove, ScenePath, Shape};
+use crate::scene::{FinishedPart, MoveKind, Point, Scene, SceneMove, ScenePath, Shape, ToolSpan};
 
 const UNTOUCHED_COLOUR: &str = "#dbbd85";
 const EDGE_COLOUR: &str = "#4a3012";
@@ -48,11 +49,14 @@ const MAX_COMBINED_STROKES: usize = 512;
 /// The cuts of a scene, and the stock that surrounds them.
 pub(super) struct MilledStock<'s> {
     pub(super) scene: &'s Scene,
+    /// The paths to which the pieces of moves refer.
+    paths: Vec<&'s ScenePath>,
     blanks: Vec<Blank>,
-    areas: Vec<SweptArea>,
     strokes: Vec<Stroke>,
     /// Pieces of rapid moves that hit material.
-    hits: Vec<SweptArea>,
+    hits: Vec<MovePiece>,
+    /// Colour of the marked strokes, instead of the colour of their depth.
+    mark: &'static str,
     /// Z in mm of the highest upper face and of the deepest cut.
     range: [f64; 2],
     /// Whether corners that the cutter does not reach are filled, because a finding of the scene mentions some or the caller asks for it.
@@ -63,20 +67,54 @@ pub(super) struct MilledStock<'s> {
 type Blank = ([Point; 2], f64);
 
 /// The area swept by a cutter during a move, in the coordinates of the drawing.
-#[derive(Clone, Copy)]
 struct SweptArea {
     way: Move,
     diameter: f64,
 }
 
+/// A move of a path, or a piece of it. The area that it sweeps is computed whenever it is drawn, because the areas of a long program would take more
+/// memory than its moves.
+#[derive(Clone, Copy)]
+struct MovePiece {
+    /// Index into [`MilledStock::paths`].
+    path: u32,
+    /// Index into [`ScenePath::moves`].
+    movement: u32,
+    piece: Piece,
+}
+
+#[derive(Clone, Copy)]
+enum Piece {
+    Whole,
+    /// One of `count` pieces of the same length, counted from 0.
+    Part {
+        number: u16,
+        count: u16,
+    },
+    /// The lower end.
+    Bottom,
+}
+
+impl Piece {
+    fn of(self, way: &Move) -> Move {
+        match self {
+            Self::Whole => *way,
+            Self::Part { number, count } => way.piece(number.into(), count.into()),
+            Self::Bottom => {
+                let bottom = if way.from.z() < way.to.z() { way.from } else { way.to };
+                Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }
+            }
+        }
+    }
+}
+
 /// A stroke to paint. Higher strokes are painted first, and an edge before the cuts at the same height.
 struct Stroke {
-    /// Index into [`MilledStock::areas`]: an edge and the cut inside it share an area, because areas take more memory than strokes.
-    area: u32,
+    at: MovePiece,
     z: f64,
     kind: StrokeKind,
-    /// Colour that replaces the colour of the depth.
-    mark: Option<&'static str>,
+    /// Whether the stroke has the colour of [`MilledStock::mark`].
+    is_marked: bool,
 }
 
 impl SweptArea {
@@ -104,7 +142,7 @@ fn sort(strokes: &mut [Stroke]) {
     let is_through = |stroke: &Stroke| stroke.kind >= StrokeKind::ThroughEdge;
     strokes.sort_by(|one, other| {
         let by_height = is_through(one).cmp(&is_through(other)).then(other.z.total_cmp(&one.z));
-        by_height.then(other.mark.cmp(&one.mark)).then(one.kind.cmp(&other.kind))
+        by_height.then(other.is_marked.cmp(&one.is_marked)).then(one.kind.cmp(&other.kind))
     });
 }
 
@@ -129,7 +167,7 @@ impl<'s> MilledStock<'s> {
     pub(super) fn of(scene: &'s Scene) -> Self {
         let mut blanks: Vec<Blank> = Vec::new();
         let (mut low, mut count) = (f64::INFINITY, 0);
-        for (path, movement, setting) in cuts(scene) {
+        for Cut { path, movement, setting, .. } in cuts(scene) {
             let Some([from, to]) = movement.extent() else { continue };
             let zero = path.zero;
             let extent = [
@@ -151,18 +189,19 @@ impl<'s> MilledStock<'s> {
         let low = if count > 0 { low } else { 0.0 };
         let top = blanks.last().map_or(low, |(_, top)| *top);
         let step = ((top - low) / SLOPE_STEPS).max(1e-3);
-        let mut painter =
-            StrokeBuilder { areas: Vec::with_capacity(count), strokes: Vec::with_capacity(2 * count) };
-        for (path, movement, setting) in cuts(scene) {
-            painter.cut(&in_drawing_coordinates(&movement.way, path.zero), &setting, step);
-        }
-        let StrokeBuilder { areas, mut strokes } = painter;
-        sort(&mut strokes);
         let blank = if let [blank] = blanks[..] { Some(blank) } else { None };
-        let hits = scene.paths.iter().flat_map(|path| areas_of_hits(scene, path, blank)).collect();
+        let hits =
+            (0..).zip(&scene.paths).flat_map(|(index, path)| hits(scene, path, index, blank)).collect();
+        let mut painter = StrokeBuilder { strokes: Vec::with_capacity(2 * count) };
+        for Cut { at, movement, setting, .. } in cuts(scene) {
+            painter.cut(at, &movement.way, &setting, step);
+        }
+        let mut strokes = painter.strokes;
+        sort(&mut strokes);
         let unreachable = Code::UnreachableCorner.to_string();
         let has_corners = scene.findings.iter().any(|finding| finding.code == unreachable);
-        Self { scene, blanks, areas, strokes, hits, range: [top, low], has_corners }
+        let (paths, mark) = (scene.paths.iter().collect(), THROUGH_COLOUR);
+        Self { scene, paths, blanks, strokes, hits, mark, range: [top, low], has_corners }
     }
 
     /// Combines two stocks, and marks the cuts of this one that are deeper than those of the other. Returns `None` if there are none,
@@ -170,25 +209,27 @@ impl<'s> MilledStock<'s> {
     fn compare_with(mut self, other: Self, mark: &'static str) -> Option<Self> {
         let mut heights: BTreeMap<_, f64> = BTreeMap::new();
         for stroke in &other.strokes {
-            let height = heights.entry(other.area(stroke).key()).or_insert(f64::INFINITY);
+            let height = heights.entry(other.area(stroke.at).key()).or_insert(f64::INFINITY);
             *height = height.min(stroke.height());
         }
-        let areas = &self.areas;
+        let paths = self.paths.as_slice();
         let is_deeper = |stroke: &Stroke| {
-            heights.get(&areas[stroke.area as usize].key()).is_none_or(|z| stroke.height() < *z)
+            heights.get(&swept_area(paths, stroke.at).key()).is_none_or(|z| stroke.height() < *z)
         };
         self.strokes.retain(|stroke| matches!(stroke.kind, StrokeKind::Cut | StrokeKind::Through));
         self.strokes.retain(is_deeper);
         if self.strokes.is_empty() {
             return None;
         }
+        self.mark = mark;
         for stroke in &mut self.strokes {
-            stroke.mark = Some(mark);
+            stroke.is_marked = true;
         }
-        let first = number(self.areas.len());
-        self.areas.extend(other.areas);
+        let first = number(self.paths.len());
+        self.paths.extend(other.paths);
         let others = other.strokes.into_iter();
-        self.strokes.extend(others.map(|stroke| Stroke { area: first + stroke.area, ..stroke }));
+        let moved = |at: MovePiece| MovePiece { path: first + at.path, ..at };
+        self.strokes.extend(others.map(|stroke| Stroke { at: moved(stroke.at), ..stroke }));
         sort(&mut self.strokes);
         self.blanks.extend(other.blanks);
         self.range = [self.range[0].max(other.range[0]), self.range[1].min(other.range[1])];
@@ -198,16 +239,17 @@ impl<'s> MilledStock<'s> {
 
     /// Removes the strokes and hits outside of an area.
     pub(super) fn keep_near(mut self, [low, high]: [Point; 2]) -> Self {
-        let is_near = |swept: &SweptArea| {
+        let paths = self.paths.as_slice();
+        let is_near = |at: MovePiece| {
+            let swept = swept_area(paths, at);
             let radius = swept.diameter / 2.0;
             let sides = swept.way.extent().into_iter().zip(low.into_iter().zip(high));
             sides.into_iter().all(|(side, (low, high))| {
                 side.is_none_or(|(from, to)| from - radius <= high && to + radius >= low)
             })
         };
-        let areas = &self.areas;
-        self.strokes.retain(|stroke| is_near(&areas[stroke.area as usize]));
-        self.hits.retain(is_near);
+        self.strokes.retain(|stroke| is_near(stroke.at));
+        self.hits.retain(|hit| is_near(*hit));
         self
     }
 
@@ -246,9 +288,10 @@ impl<'s> MilledStock<'s> {
         });
         let mut hits = String::new();
         for (index, hit) in self.hits.iter().enumerate() {
-            hits.push_str(&path_data(&hit.way, &place));
-            if self.hits.get(index + 1).is_none_or(|next| next.diameter != hit.diameter) {
-                stroke(canvas, &std::mem::take(&mut hits), hit.diameter * place.scale(), WRONG_COLOUR);
+            let SweptArea { way, diameter } = self.area(*hit);
+            hits.push_str(&path_data(&way, &place));
+            if self.hits.get(index + 1).is_none_or(|next| self.area(*next).diameter != diameter) {
+                stroke(canvas, &std::mem::take(&mut hits), diameter * place.scale(), WRONG_COLOUR);
             }
         }
         canvas.close();
@@ -285,14 +328,14 @@ impl<'s> MilledStock<'s> {
         let mut all = String::new();
         let mut count = 0;
         for (index, next) in strokes.iter().enumerate() {
-            let SweptArea { way, diameter } = self.area(next);
-            all.push_str(&path_data(way, place));
+            let SweptArea { way, diameter } = self.area(next.at);
+            all.push_str(&path_data(&way, place));
             count += 1;
             let is_alike = |other: &Stroke| {
                 other.kind == next.kind
                     && other.z == next.z
-                    && other.mark == next.mark
-                    && self.area(other).diameter == *diameter
+                    && other.is_marked == next.is_marked
+                    && self.area(other.at).diameter == diameter
             };
             if count < MAX_COMBINED_STROKES && strokes.get(index + 1).is_some_and(is_alike) {
                 continue;
@@ -306,15 +349,16 @@ impl<'s> MilledStock<'s> {
                 }
                 StrokeKind::Cut | StrokeKind::Through => {
                     let through = (next.kind == StrokeKind::Through).then_some(THROUGH_COLOUR);
-                    let color = next.mark.or(through).map_or_else(|| self.color(next.z), str::to_owned);
+                    let mark = next.is_marked.then_some(self.mark);
+                    let color = mark.or(through).map_or_else(|| self.color(next.z), str::to_owned);
                     stroke(canvas, &data, width, &color);
                 }
             }
         }
     }
 
-    fn area(&self, stroke: &Stroke) -> &SweptArea {
-        &self.areas[stroke.area as usize]
+    fn area(&self, at: MovePiece) -> SweptArea {
+        swept_area(&self.paths, at)
     }
 
     fn color(&self, z: f64) -> String {
@@ -456,29 +500,55 @@ fn is_known(way: &Move) -> bool {
     way.from.known.and(way.to.known) == Axes::ALL && way.named.is_none()
 }
 
-/// Returns the cuts of a scene that have a known place and known material, each with its path and its conditions.
-fn cuts(scene: &Scene) -> impl Iterator<Item = (&ScenePath, &SceneMove, CuttingConditions)> {
-    let all = scene.paths.iter().flat_map(|path| path.moves.iter().map(move |movement| (path, movement)));
-    let known = all.filter(|(_, movement)| {
+/// Returns the area swept by a piece of a move of one of these paths.
+fn swept_area(paths: &[&ScenePath], MovePiece { path, movement, piece }: MovePiece) -> SweptArea {
+    let path = paths[path as usize];
+    let movement = &path.moves[movement as usize];
+    let way = piece.of(&in_drawing_coordinates(&movement.way, path.zero));
+    SweptArea { way, diameter: cutter(path, movement).unwrap_or_default() }
+}
+
+/// A cut that has a known place and known material.
+struct Cut<'s> {
+    path: &'s ScenePath,
+    movement: &'s SceneMove,
+    at: MovePiece,
+    setting: CuttingConditions,
+}
+
+fn cuts(scene: &Scene) -> impl Iterator<Item = Cut<'_>> {
+    let all = (0..).zip(&scene.paths).flat_map(|(index, path)| {
+        (0..).zip(&path.moves).map(move |(movement, way)| (index, path, movement, way))
+    });
+    let known = all.filter(|(.., movement)| {
         movement.kind.cuts() && is_known(&movement.way) && movement.extent().is_some()
     });
-    known.filter_map(move |(path, movement)| {
-        Some((path, movement, cutting_conditions(scene, path, movement)?))
+    known.filter_map(move |(index, path, number, movement)| {
+        let at = MovePiece { path: index, movement: number, piece: Piece::Whole };
+        Some(Cut { path, movement, at, setting: cutting_conditions(scene, path, movement)? })
     })
 }
 
 fn cutting_conditions(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<CuttingConditions> {
-    let line = movement.line.unwrap_or(0);
-    let later = path.tools.partition_point(|tool| tool.line <= line);
-    let tool = later.checked_sub(1).map(|index| &path.tools[index]);
     let element = movement.element.and_then(|element| path.elements.get(element as usize));
     let component = path.embedded.get(element.map_or(0, |element| element.path as usize));
-    let stated = tool.and_then(|tool| tool.surface);
+    let stated = tool_span(path, movement).and_then(|tool| tool.surface);
     let top = stated.or(component.map(|component| component.thickness)).or(path.thickness)?;
     let raised = component.map_or(0.0, |component| component.raised);
     let is_on_zero = scene.program.as_ref().is_none_or(|program| program.is_on_zero);
     let through = if is_on_zero && top > raised { raised + scene.through } else { f64::NEG_INFINITY };
-    Some(CuttingConditions { diameter: tool.map(|tool| tool.diameter).or(path.tool)?, top, through })
+    Some(CuttingConditions { diameter: cutter(path, movement)?, top, through })
+}
+
+/// Returns the diameter in mm of the cutter of a move.
+fn cutter(path: &ScenePath, movement: &SceneMove) -> Option<f64> {
+    tool_span(path, movement).map(|tool| tool.diameter).or(path.tool)
+}
+
+fn tool_span<'s>(path: &'s ScenePath, movement: &SceneMove) -> Option<&'s ToolSpan> {
+    let line = movement.line.unwrap_or(0);
+    let later = path.tools.partition_point(|tool| tool.line <= line);
+    later.checked_sub(1).map(|index| &path.tools[index])
 }
 
 fn in_drawing_coordinates(way: &Move, zero: Point) -> Move {
@@ -494,50 +564,48 @@ fn in_drawing_coordinates(way: &Move, zero: Point) -> Move {
 }
 
 struct StrokeBuilder {
-    areas: Vec<SweptArea>,
     strokes: Vec<Stroke>,
 }
 
 impl StrokeBuilder {
     /// Adds the strokes that a cut paints. A slope is divided into steps, each of which has the height of its upper end.
-    fn cut(&mut self, way: &Move, setting: &CuttingConditions, step: f64) {
+    fn cut(&mut self, at: MovePiece, way: &Move, setting: &CuttingConditions, step: f64) {
         let [from, to] = [way.from.z(), way.to.z()];
         let low = from.min(to);
         if low >= setting.top {
             return;
         }
-        let bottom = if from < to { way.from } else { way.to };
+        let bottom = MovePiece { piece: Piece::Bottom, ..at };
         if way.is_vertical() {
-            self.add(Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }, low, setting, true);
+            self.add(bottom, low, setting, true);
         } else if (from - to).abs() < step / 4.0 {
-            self.add(*way, from.max(to), setting, true);
+            self.add(at, from.max(to), setting, true);
         } else {
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
                 reason = "at most the number of steps"
             )]
-            let count = ((from - to).abs() / step).ceil().clamp(1.0, SLOPE_STEPS) as u32;
-            for piece in way.split(count) {
-                let z = piece.from.z().max(piece.to.z());
+            let count = ((from - to).abs() / step).ceil().clamp(1.0, SLOPE_STEPS) as u16;
+            for (number, way) in (0..).zip(way.split(count.into())) {
+                let z = way.from.z().max(way.to.z());
                 if z < setting.top {
-                    self.add(piece, z, setting, false);
+                    self.add(MovePiece { piece: Piece::Part { number, count }, ..at }, z, setting, false);
                 }
             }
-            self.add(Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }, low, setting, false);
+            self.add(bottom, low, setting, false);
         }
     }
 
-    fn add(&mut self, way: Move, z: f64, setting: &CuttingConditions, has_edge: bool) {
+    fn add(&mut self, at: MovePiece, z: f64, setting: &CuttingConditions, has_edge: bool) {
         let (z, edge, kind) = if z <= setting.through {
             (setting.through, StrokeKind::ThroughEdge, StrokeKind::Through)
         } else {
             (rounded(z), StrokeKind::Edge, StrokeKind::Cut)
         };
-        let area = number(self.areas.len());
-        self.areas.push(SweptArea { way, diameter: setting.diameter });
-        self.strokes.extend(has_edge.then_some(Stroke { area, z, kind: edge, mark: None }));
-        self.strokes.push(Stroke { area, z, kind, mark: None });
+        let stroke = |kind| Stroke { at, z, kind, is_marked: false };
+        self.strokes.extend(has_edge.then_some(stroke(edge)));
+        self.strokes.push(stroke(kind));
     }
 }
 
@@ -550,40 +618,94 @@ fn rounded(z: f64) -> f64 {
     (z * 1000.0).round() / 1000.0
 }
 
-/// Returns the pieces of a path's rapid moves that hit material. If not all cuts share one blank, the material is only known near cuts.
-fn areas_of_hits(scene: &Scene, path: &ScenePath, blank: Option<Blank>) -> Vec<SweptArea> {
-    let settings: Vec<Option<CuttingConditions>> =
-        path.moves.iter().map(|movement| cutting_conditions(scene, path, movement)).collect();
-    let highest = settings.iter().flatten().map(|setting| setting.top).fold(f64::NEG_INFINITY, f64::max);
-    let is_low = |movement: &SceneMove| {
-        matches!(movement.kind, MoveKind::Sweep | MoveKind::Lift)
-            && movement.depth().is_some_and(|z| z < highest)
-    };
-    if !path.moves.iter().any(|movement| is_low(movement) && movement.way.to.z() <= movement.way.from.z()) {
+/// Returns the pieces of a path's rapid moves that hit material. If not all cuts share one blank, the material is only known near cuts. `index` is that
+/// of the path.
+fn hits(scene: &Scene, path: &ScenePath, index: u32, blank: Option<Blank>) -> Vec<MovePiece> {
+    let tops = path.moves.iter().filter_map(|movement| cutting_conditions(scene, path, movement));
+    let highest = tops.map(|setting| setting.top).fold(f64::NEG_INFINITY, f64::max);
+    let touch = blank.map(|blank| move_touching_blank(blank, path.zero));
+    let search = HitSearch { scene, path, highest, touch };
+    let goes_down = |movement: &SceneMove| movement.way.to.z() <= movement.way.from.z();
+    if !path.moves.iter().any(|movement| search.is_low(movement) && goes_down(movement)) {
         return Vec::new();
     }
-    let (mut spans, mut steps, mut swept) = (Vec::new(), Vec::new(), Vec::new());
-    if let Some((way, span)) = blank.map(|blank| move_touching_blank(blank, path.zero)) {
-        swept.push(SweptArea { way, diameter: 0.0 });
-        steps.push(Step::of_move(span.line, way));
-        spans.push(span);
+    let mut lines = rapid_hits(&search, &Stock::of_pieces(search.spans())).into_iter().peekable();
+    let mut hits = Vec::new();
+    search.each_piece(&mut |line, _, found| {
+        if lines.next_if_eq(&line).is_some() {
+            hits.extend(found.map(|(movement, piece, _)| MovePiece { path: index, movement, piece }));
+        }
+    });
+    hits
+}
+
+/// The moves of a path in the form in which hits are searched: rapid moves below a surface are divided into pieces, so that only those pieces are found
+/// that hit material.
+struct HitSearch<'s> {
+    scene: &'s Scene,
+    path: &'s ScenePath,
+    /// Z in mm of the highest upper face.
+    highest: f64,
+    /// A move that makes the blank known, and its stock.
+    touch: Option<(Move, StockSpan)>,
+}
+
+/// A piece of a move, by the index of the move, with its conditions.
+type FoundPiece<'c> = (u32, Piece, &'c CuttingConditions);
+
+impl HitSearch<'_> {
+    fn is_low(&self, movement: &SceneMove) -> bool {
+        matches!(movement.kind, MoveKind::Sweep | MoveKind::Lift)
+            && movement.depth().is_some_and(|z| z < self.highest)
     }
-    for (movement, setting) in path.moves.iter().zip(&settings) {
-        let Some(setting) = setting.as_ref().filter(|_| movement.kind != MoveKind::Probe) else { continue };
-        let first = line(steps.len());
-        let (surface, cutter) = (setting.top, Cutter::flat(setting.diameter));
-        spans.push(StockSpan { line: first, surface, cutter });
-        let count = (movement.length / (setting.diameter * SEARCH_PIECE)).ceil().clamp(1.0, MAX_PIECES);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-        let count = if is_low(movement) && !movement.way.is_vertical() { count as u32 } else { 1 };
-        for way in movement.way.split(count) {
-            swept
-                .push(SweptArea { way: in_drawing_coordinates(&way, path.zero), diameter: setting.diameter });
-            steps.push(Step::of_move(line(steps.len()), way));
+
+    /// Passes on each piece with the number of its step, which is 1 for the move that touches the blank.
+    fn each_piece(&self, take: &mut dyn FnMut(u32, &Move, Option<FoundPiece<'_>>)) {
+        let mut last = 0;
+        if let Some((way, _)) = &self.touch {
+            last = 1;
+            take(last, way, None);
+        }
+        for (index, movement) in (0..).zip(&self.path.moves) {
+            let setting = cutting_conditions(self.scene, self.path, movement);
+            let Some(setting) = setting.filter(|_| movement.kind != MoveKind::Probe) else { continue };
+            let count = self.pieces(movement, &setting);
+            for number in 0..count {
+                let piece = if count == 1 { Piece::Whole } else { Piece::Part { number, count } };
+                last += 1;
+                take(last, &piece.of(&movement.way), Some((index, piece, &setting)));
+            }
         }
     }
-    let lines = rapid_hits(&steps, &Stock::of_pieces(spans));
-    lines.into_iter().map(|line| swept[line as usize - 1]).collect()
+
+    fn pieces(&self, movement: &SceneMove, setting: &CuttingConditions) -> u16 {
+        if !self.is_low(movement) || movement.way.is_vertical() {
+            return 1;
+        }
+        let count = (movement.length / (setting.diameter * SEARCH_PIECE)).ceil().clamp(1.0, MAX_PIECES);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let count = count as u16;
+        count
+    }
+
+    /// Returns the stock of the steps, with a span for each change.
+    fn spans(&self) -> Vec<StockSpan> {
+        let mut spans: Vec<StockSpan> = self.touch.iter().map(|(_, span)| *span).collect();
+        self.each_piece(&mut |line, _, found| {
+            let Some((.., setting)) = found else { return };
+            let (surface, cutter) = (setting.top, Cutter::flat(setting.diameter));
+            if spans.last().is_none_or(|last| (last.surface, last.cutter) != (surface, cutter)) {
+                spans.push(StockSpan { line, surface, cutter });
+            }
+        });
+        spans
+    }
+}
+
+impl Program for HitSearch<'_> {
+    fn each(&self, take: &mut dyn FnMut(&Step)) {
+        self.each_piece(&mut |line, way, _| take(&Step::of_move(line, *way)));
+    }
 }
 
 /// Returns a move that touches the upper face of a blank, with a cutter so wide that the material around the move is the entire blank. It
@@ -607,11 +729,6 @@ fn move_touching_blank(([low, high], surface): Blank, zero: Point) -> (Move, Sto
 
 /// Depth in mm of the move that touches a blank, too small to count as material.
 const TOUCH_DEPTH: f64 = 1e-4;
-
-/// Returns the line number of a step that comes after `steps` other steps.
-fn line(steps: usize) -> u32 {
-    u32::try_from(steps + 1).unwrap_or(u32::MAX)
-}
 
 pub(super) fn draw_uncut_parts(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
     let style = format!("fill=\"{LEFTOVER_COLOUR}\" fill-opacity=\"0.35\"");

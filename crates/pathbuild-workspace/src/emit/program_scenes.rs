@@ -23,7 +23,8 @@ use crate::config::types::SheetFormat;
 use crate::findings::Findings;
 use crate::post_processor::PostProcessor;
 use crate::session::{
-    CheckedTarget, NamedPaths, NotOnePath, Session, drawn_source, examples, finished_parts, program_scene,
+    CheckedTarget, NamedPaths, NotOnePath, ProgramDetails, Session, drawn_source, examples, finished_parts,
+    program_scene,
 };
 use crate::workspace::{Workspace, relative};
 
@@ -39,6 +40,8 @@ pub struct SceneReport {
 /// The program text that is shown beside the moves.
 #[derive(Clone, Copy, Debug)]
 pub enum ShownText<'a> {
+    /// No program, and no parameters of elements: pictures show neither.
+    Omitted,
     /// The native program, even if `emit` writes another one.
     Native,
     /// The program that `emit` writes, natively or through a post-processor. Falls back to the native program if `emit` writes nothing.
@@ -108,6 +111,8 @@ impl Session<'_> {
         scene
             .keep_outs
             .extend(keep_outs(self.db(), file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
+        // Before the paths are built: for these layers, the drawing is read again.
+        scene.other_layers = view::other_layers(remaining_layers(self.db(), file));
         for path in names {
             let (seen, found, clamps) = self.scene_path(file, path, text);
             let zero = seen.as_ref().map_or([0.0, 0.0], |seen| seen.zero);
@@ -115,7 +120,6 @@ impl Session<'_> {
             scene.paths.extend(seen);
             diagnostics.extend(found);
         }
-        scene.other_layers = view::other_layers(remaining_layers(self.db(), file));
         scene.uncut = uncut_rings(self.db(), file).into_iter().map(view::outline).collect();
         self.add_origins(&mut scene);
         SceneReport { scene, diagnostics }
@@ -125,7 +129,7 @@ impl Session<'_> {
     pub fn scene_of(&self, drawing: &Utf8Path, name: &str) -> Option<Scene> {
         let file = self.file(drawing);
         let name = path_names(self.db(), file).iter().find(|path| path.as_str() == name)?;
-        Some(self.scene(file, slice::from_ref(name), ShownText::Native).scene)
+        Some(self.scene(file, slice::from_ref(name), ShownText::Omitted).scene)
     }
 
     /// Adds the line in pathbuild.toml to each parameter whose value is a default from the configuration.
@@ -163,7 +167,7 @@ impl Session<'_> {
         let is_written = *checked.target.role(self.db()) == Role::Emitted
             && self.workspace().settings.general.rapid.value.is_some();
         let (emitted, refusal) = match text {
-            ShownText::Native => (None, None),
+            ShownText::Omitted | ShownText::Native => (None, None),
             ShownText::Emitted(post_processor) => match program_text(self, post_processor, &checked) {
                 Ok(emitted) => (emitted, None),
                 Err(problems) => {
@@ -171,15 +175,23 @@ impl Session<'_> {
                 }
             },
         };
-        let shown = emitted.as_ref().map(|emitted| EmittedText {
+        let emitted = emitted.as_ref().map(|emitted| EmittedText {
             file: is_written.then_some(emitted.file.as_str()),
             bytes: &emitted.bytes,
             dialect: emitted.dialect,
-            is_posted: matches!(text, ShownText::Emitted(Some(_))),
         });
+        let details = || {
+            let has_native = match text {
+                ShownText::Omitted => return None,
+                ShownText::Native => true,
+                // A native text that `emit` writes is not shown twice.
+                ShownText::Emitted(post_processor) => emitted.is_none() || post_processor.is_some(),
+            };
+            Some(ProgramDetails { has_native, emitted })
+        };
         let work = |db: &Database, target: &Target| -> Result<_, Box<Diagnostic>> {
             let Some(traced) = traced_program(db, *target) else { return Ok(None) };
-            let mut scene = program_scene(db, traced, writing, shown)?;
+            let mut scene = program_scene(db, traced, writing, details())?;
             if let Some(scene) = &mut scene {
                 scene.examples = examples(db, traced, writing);
                 scene.refusal.clone_from(&refusal);

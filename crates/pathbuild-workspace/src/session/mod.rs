@@ -31,7 +31,7 @@ pub use outputs::{OutputKind, WriteSettings, stem_fault, without_positions, with
 pub(crate) use resolve::{MAX_READ_FOR_NAMES, no_drawing_error};
 pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, several_paths_error};
 pub use scene::HashedPath;
-pub(crate) use scene::{drawn_source, examples, finished_parts, program_scene};
+pub(crate) use scene::{ProgramDetails, drawn_source, examples, finished_parts, program_scene};
 pub use settings::{limits, reading};
 pub use work::{CheckedTarget, Checker, Pair, ProgramFacts, pairs as q_project_pairs};
 

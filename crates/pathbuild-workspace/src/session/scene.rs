@@ -116,7 +116,16 @@ fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
     scene
 }
 
-/// Returns the scene of a program, with the elements from which its moves come; `None` if a drawing changed in the meantime.
+/// The details of a program that only pages show.
+pub(crate) struct ProgramDetails<'a> {
+    /// Whether to add the native text.
+    pub(crate) has_native: bool,
+    /// The text as written by `emit`, if it is to be added.
+    pub(crate) emitted: Option<EmittedText<'a>>,
+}
+
+/// Returns the scene of a program, with the elements from which its moves come; `None` if a drawing changed in the meantime. `details`: whether to add
+/// texts and the parameters of the elements, which take more memory than the moves.
 ///
 /// # Errors
 /// PB005 if its text is too large.
@@ -124,24 +133,27 @@ pub(crate) fn program_scene(
     db: &dyn Db,
     traced: &TracedProgram,
     writing: &WriteSettings,
-    emitted: Option<EmittedText<'_>>,
+    details: Option<ProgramDetails<'_>>,
 ) -> Result<Option<ScenePath>, Box<Diagnostic>> {
     let TracedProgram { program, trace, parts } = traced;
     // The first part is the emitted path itself.
     let known = parts.iter().zip(0..).map(|(part, number)| {
-        effective_parameters(db, part.file, &part.path.name, &part.bindings, number == 0)
+        let is_shown = details.is_some();
+        is_shown.then(|| effective_parameters(db, part.file, &part.path.name, &part.bindings, number == 0))
     });
-    let known: Vec<Vec<ElementParameters>> = known.collect();
+    let known: Vec<Vec<ElementParameters>> = known.map(Option::unwrap_or_default).collect();
     let sources = parts.iter().zip(&known).map(|(part, known)| {
         let drawn = drawn_path(db, part.file, &part.path.name)?;
-        Some((drawn_source(db, part.file, drawn, known), &part.path))
+        Some((drawn_source(db, part.file, drawn, known), &*part.path))
     });
     let Some(sources) = sources.collect::<Option<Vec<_>>>() else { return Ok(None) };
     // Do not split moves for height correction: each line of the text must correspond to one move.
     let correction = Correction { longest: 0.0, ..writing.options.correction };
     let options = WriteOptions { correction, ..writing.options };
-    let is_shown = emitted.is_none_or(|emitted| emitted.is_posted);
-    let native = is_shown.then(|| write_program(program, "", &options, writing.most_bytes));
+    let native = details
+        .as_ref()
+        .is_some_and(|details| details.has_native)
+        .then(|| write_program(program, "", &options, writing.most_bytes));
     let native = native.transpose()?;
     let rapid = (options.rapid > 0.0).then_some(options.rapid);
     Ok(Some(view::program_path(&ProgramSource {
@@ -149,7 +161,7 @@ pub(crate) fn program_scene(
         trace,
         parts: &sources,
         native: native.as_deref(),
-        emitted,
+        emitted: details.and_then(|details| details.emitted),
         rapid,
     })))
 }

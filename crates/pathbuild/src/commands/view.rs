@@ -24,7 +24,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
         Ok(output) => output,
         Err(reason) => return context.usage(&reason),
     };
-    let target = match target_scene(context, args) {
+    let target = match target_scene(context, args, output.format) {
         Ok(scene) => scene,
         Err(failure) => return context.failed(failure),
     };
@@ -58,7 +58,7 @@ struct TargetScene {
 }
 
 /// Returns the scene of the argument. A file that is not a drawing is read as a program.
-fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failure> {
+fn target_scene(context: &Context, args: &ViewArgs, format: Format) -> Result<TargetScene, Failure> {
     let file = Utf8Path::new(&args.what);
     if !is_drawing(file) && is_file_name_taken(file) {
         return program_file(context, file, args);
@@ -70,7 +70,7 @@ fn target_scene(context: &Context, args: &ViewArgs) -> Result<TargetScene, Failu
             option,
         )));
     }
-    Session::new(context).with_stable_files(|session| drawing(session, &args.what))
+    Session::new(context).with_stable_files(|session| drawing(session, &args.what, format))
 }
 
 fn program_file(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<TargetScene, Failure> {
@@ -82,7 +82,7 @@ fn program_file(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<T
     Ok(TargetScene { report, file: file.to_string() })
 }
 
-fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
+fn drawing(session: &Session<'_>, what: &str, format: Format) -> Result<TargetScene, Failure> {
     let Some(NamedPaths { file, names }) = session.named_paths(what).map_err(Failure::Found)? else {
         let reason = session.workspace().phrase(
             "view shows one path, drawing or program: `{}` is a directory",
@@ -94,7 +94,9 @@ fn drawing(session: &Session<'_>, what: &str) -> Result<TargetScene, Failure> {
     let db = session.db();
     let post_processor = PostProcessor::for_run(session.workspace(), None, PostArguments::default());
     let post_processor = post_processor.map_err(Failure::Post)?;
-    let mut report = session.scene(file, &names, ShownText::Emitted(post_processor.as_ref()));
+    let text =
+        if format.is_picture() { ShownText::Omitted } else { ShownText::Emitted(post_processor.as_ref()) };
+    let mut report = session.scene(file, &names, text);
     let missing = session.no_path(file.path(db), &names, &report.diagnostics);
     report.diagnostics.extend(missing);
     if names.is_empty() {
