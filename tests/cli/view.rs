@@ -735,6 +735,22 @@ fn cuts_into_parts_are_red() {
     }
 }
 
+/// Of the corners that turn inwards, only those that the message means are filled: of the opening, not of the outline in it.
+#[test]
+fn only_corners_out_of_reach_are_violet() {
+    let drawn = "layer 1234.1P\nstart -5,-5 \"T2 O2 I1 B0 D1 P4 U8 F100 S5\"\nsweep -5,-5 6,6\nmill 6,6 44,6 44,44 6,44 6,6\n\
+                 sweep 6,6 31,19\nbars 31,19 31,31\nbars to 19,31 19,19 31,19\nsweep 31,19 60,-5\nend 60,-5\n\
+                 layer Part\npolyline 0,0 50,0 50,50 0,50 closed\npolyline 5,5 45,5 45,45 5,45 closed\n\
+                 polyline 20,20 30,20 30,30 20,30 closed";
+    let place = Place::new().file("pathbuild.toml", "part = 'Part'\n");
+    let place = place.file("1234.1P.dxf", sheet(drawn).unwrap().to_dxf());
+    let run = place.run("view 1234.1P --stock -o a.svg");
+    let picture = place.read("a.svg");
+    let corners = picture.split_once("-corners-0)\" fill=\"#9628c8\">").unwrap_or_else(|| panic!("{run}")).1;
+    let (corners, _) = corners.split_once("</g>").unwrap();
+    assert_eq!(corners.matches("<circle").count(), 4, "{corners}");
+}
+
 /// A drawing states its cutter and material itself.
 #[test]
 fn options_for_programs_are_refused_for_drawings() {

@@ -14,6 +14,7 @@ use crate::mill::{BarPlan, Section, axis_circle, last_turns};
 /// path.
 pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible: bool) -> PathCuts {
     let mut found = CutCollector { path, numbers: BTreeMap::new(), elements: Vec::new(), cuts: Vec::new() };
+    let mut embedded = Vec::new();
     for item in &walked.items {
         match item {
             Item::Chain(chain) => {
@@ -34,7 +35,8 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
                 let turns = last_turns(helix, path.thickness, path.tool);
                 found.add(path.segments[*segment].element, supported, turns);
             }
-            Item::Sweep(_) | Item::Subpath(_) => {}
+            Item::Subpath(placed) => embedded.extend(embedded_place(path, placed, found.cuts.len())),
+            Item::Sweep(_) => {}
         }
     }
     // The cuts are stored as long as the drawing's index, so free the spare capacity.
@@ -48,7 +50,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
         cuts: found.cuts,
         bars: bars(path),
         ends: (path.start, path.end),
-        embedded: walked.items.iter().filter_map(|item| embedded(path, item)).collect(),
+        embedded,
     }
 }
 
@@ -79,10 +81,10 @@ impl CutCollector<'_> {
     }
 }
 
-fn embedded(path: &Path, item: &Item) -> Option<EmbeddedPlace> {
-    let Item::Subpath(PlacedSubpath { segment, start, end }) = item else { return None };
-    let SegmentKind::Subpath(subpath) = &path.segments[*segment].kind else { return None };
-    Some(EmbeddedPlace { segment: *segment, ends: (*start, *end), height: subpath.height })
+fn embedded_place(path: &Path, placed: &PlacedSubpath, cuts_before: usize) -> Option<EmbeddedPlace> {
+    let PlacedSubpath { segment, start, end } = *placed;
+    let SegmentKind::Subpath(subpath) = &path.segments[segment].kind else { return None };
+    Some(EmbeddedPlace { segment, ends: (start, end), height: subpath.height, cuts_before })
 }
 
 /// Creates an element without cuts.

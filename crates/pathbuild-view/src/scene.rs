@@ -334,6 +334,9 @@ pub struct FinishedPart {
     /// For each ring, the index of the opening that contains it, or its own index if no other opening does.
     #[serde(skip)]
     pub nests: Vec<usize>,
+    /// Stretches of the outline that the cutter does not reach.
+    #[serde(skip)]
+    pub corners: Vec<Shape>,
     /// Pieces of cuts that go into the part.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gouges: Vec<Shape>,
@@ -486,6 +489,14 @@ impl Shape {
     pub fn start(&self) -> Point {
         match self {
             Self::Line { from, .. } | Self::Arc(ArcShape { from, .. }) => *from,
+            Self::Circle { centre, .. } => *centre,
+        }
+    }
+
+    /// Returns the end of a curve, or the centre of a circle.
+    pub fn end(&self) -> Point {
+        match self {
+            Self::Line { to, .. } | Self::Arc(ArcShape { to, .. }) => *to,
             Self::Circle { centre, .. } => *centre,
         }
     }

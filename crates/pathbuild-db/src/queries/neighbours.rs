@@ -1,12 +1,15 @@
 //! The parts in a program: their places, and the cuts of a project into the parts of other components and through their support bars.
 //! (book: language/part)
 
+mod displaced;
+mod waste;
+
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{
-    Curve, NeighbourGouge, Origin, Part, PartSettings, PathCuts, PlacedCuts, PlacedPart, Placement,
+    Curve, LostBar, NeighbourGouge, Origin, Part, PartSettings, PathCuts, PlacedCuts, PlacedPart, Placement,
     SeveredPart, TipMove, Xy, gouging_moves,
 };
 use pathbuild_toolpath::tip_move;
@@ -74,12 +77,27 @@ struct PlacedProgram<'db> {
 struct PlacedPath<'db> {
     instance: Instance<'db>,
     cuts: PlacedCuts<'db>,
-    /// Index of the path that embeds this one, and the embedding segment; `None` for a target's own path.
-    parent: Option<(usize, &'db Origin)>,
+    /// `None` for a target's own path.
+    parent: Option<Embedder<'db>>,
+}
+
+/// The path that embeds another one.
+#[derive(Clone, Copy)]
+struct Embedder<'db> {
+    /// Index into [`PlacedProgram::paths`].
+    path: usize,
+    /// The embedding segment.
+    origin: &'db Origin,
+    /// The number of cuts of the embedding path that come before the embedded one.
+    cuts_before: usize,
 }
 
 /// Distance in mm below which two placements of one drawing are considered equal, because its paths were embedded together.
 const PLACEMENT_TOLERANCE: f64 = 0.01;
+
+fn diagnostic_point(at: Xy) -> Point {
+    Point::new(at.x, at.y)
+}
 
 /// Whether two placements of one drawing are the same.
 fn is_same(one: &Placement, other: &Placement) -> bool {
@@ -94,7 +112,7 @@ impl<'db> PlacedProgram<'db> {
         instance: Instance<'db>,
         placement: Placement,
         raised: f64,
-        parent: Option<(usize, &'db Origin)>,
+        parent: Option<Embedder<'db>>,
     ) {
         let Some(cuts) = path_cuts(self.db, instance) else { return };
         let is_known = |part: &&_| self.is_known(instance, &placement, part);
@@ -115,7 +133,8 @@ impl<'db> PlacedProgram<'db> {
             let Some(inner) = path_cuts(self.db, *child) else { continue };
             let onto = (placement.place(place.ends.0), placement.place(place.ends.1));
             let inner = Placement::aligning(inner.ends, onto, &placement);
-            self.add(*child, inner, raised + place.height, Some((number, &embedding.origin)));
+            let parent = Embedder { path: number, origin: &embedding.origin, cuts_before: place.cuts_before };
+            self.add(*child, inner, raised + place.height, Some(parent));
         }
     }
 
@@ -143,6 +162,8 @@ impl<'db> PlacedProgram<'db> {
                 self.at(path, origin, self.severed_problem(owner, severed))
             }));
         }
+        found.extend(self.displaced_paths());
+        found.extend(self.cuts_in_loose_waste());
         found
     }
 
@@ -154,7 +175,7 @@ impl<'db> PlacedProgram<'db> {
         others: impl Iterator<Item = usize>,
     ) -> Vec<Diagnostic> {
         let mut gouges: BTreeMap<_, (NeighbourGouge, usize, &Origin)> = BTreeMap::new();
-        let mut bars = Vec::new();
+        let mut bars: BTreeMap<_, (&Origin, BTreeMap<usize, LostBar>)> = BTreeMap::new();
         for cutting in others {
             let taken = owned.cuts_made_by(&self.paths[cutting].cuts, self.settings.tolerance);
             for gouge in taken.gouges {
@@ -165,13 +186,21 @@ impl<'db> PlacedProgram<'db> {
                     *deepest = (gouge, cutting, origin);
                 }
             }
-            bars.extend(taken.bars.iter().map(|lost| {
+            for lost in taken.bars {
                 let (path, origin) = self.innermost_common_path(cutting, lost.element, owner);
-                self.at(path, origin, lost.problem(owned.cuts))
-            }));
+                let (_, of_element) =
+                    bars.entry((path, origin.id.0)).or_insert_with(|| (origin, BTreeMap::new()));
+                let worst = of_element.entry(lost.bar).or_insert_with(|| lost.clone());
+                if worst.is_exceeded_by(&lost) {
+                    *worst = lost;
+                }
+            }
         }
         let gouges = gouges.into_iter().map(|((_, path, _), (gouge, cutting, origin))| {
             self.at(path, origin, self.gouge_problem(owned, cutting, &gouge))
+        });
+        let bars = bars.into_iter().filter_map(|((path, _), (origin, bars))| {
+            Some(self.at(path, origin, LostBar::problem(bars.values(), owned.cuts, true)?))
         });
         gouges.chain(bars).collect()
     }
@@ -219,10 +248,9 @@ impl<'db> PlacedProgram<'db> {
 
     fn severed_problem(&self, owner: usize, severed: &SeveredPart) -> Diagnostic {
         let owner = &self.paths[owner].cuts;
-        let place = owner.start_of(severed.part);
         Diagnostic::new(&messages::SEVERED_PART)
             .quoting("other", owner.cuts.name.as_str())
-            .with("place", Point::new(place.x, place.y))
+            .with("place", diagnostic_point(owner.start_of(severed.part)))
     }
 
     /// Returns the parts that cuts of other paths leave loose, with their placements.
@@ -242,16 +270,15 @@ impl<'db> PlacedProgram<'db> {
         let taken = foreign.flat_map(|(owner, cutting)| {
             self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.settings.tolerance).bars
         });
-        taken.map(|lost| lost.middle).collect()
+        taken.flat_map(|lost| lost.sections).collect()
     }
 
     /// Whether a path is independent of the parts of another: it neither belongs to the same drawing at the same place nor is embedded in it. In
     /// joined programs, it also belongs to another program.
     fn is_foreign(&self, owner: usize, cutting: usize) -> bool {
         let PlacedPath { instance, cuts, .. } = &self.paths[cutting];
-        let root = |path| self.path_and_embedders(path).last();
         let is_within = if self.is_joined {
-            root(cutting) == root(owner)
+            self.root(cutting) == self.root(owner)
         } else {
             self.path_and_embedders(cutting).any(|around| around == owner)
         };
@@ -260,29 +287,41 @@ impl<'db> PlacedProgram<'db> {
 
     /// Iterates over a path and the paths that embed it, from the inside out.
     fn path_and_embedders(&self, path: usize) -> impl Iterator<Item = usize> {
-        std::iter::successors(Some(path), |inner| self.paths[*inner].parent.map(|(outer, _)| outer))
+        std::iter::successors(Some(path), |inner| Some(self.paths[*inner].parent?.path))
+    }
+
+    /// Returns the target's own path that a path is, or that embeds it.
+    fn root(&self, path: usize) -> Option<usize> {
+        self.path_and_embedders(path).last()
     }
 
     /// Returns the innermost path that contains both an element and another path, and the element of that innermost path that is the given element or
     /// embeds it.
-    fn innermost_common_path(&self, mut path: usize, element: u32, other: usize) -> (usize, &'db Origin) {
+    fn innermost_common_path(&self, path: usize, element: u32, other: usize) -> (usize, &'db Origin) {
+        let origin = &self.paths[path].cuts.cuts.elements[element as usize].origin;
+        self.embedding_beside(path, other).unwrap_or((path, origin))
+    }
+
+    /// Returns the innermost path that contains both paths, and its element that embeds the first one. `None` if the first path contains the other one,
+    /// or if none contains both and no path embeds the first one.
+    fn embedding_beside(&self, mut path: usize, other: usize) -> Option<(usize, &'db Origin)> {
         let around: Vec<usize> = self.path_and_embedders(other).collect();
-        let mut origin = &self.paths[path].cuts.cuts.elements[element as usize].origin;
+        let mut found = None;
         while !around.contains(&path) {
             let Some(parent) = self.paths[path].parent else { break };
-            (path, origin) = parent;
+            path = parent.path;
+            found = Some((path, parent.origin));
         }
-        (path, origin)
+        found
     }
 
     fn gouge_problem(&self, owner: &PlacedCuts<'_>, cutting: usize, gouge: &NeighbourGouge) -> Diagnostic {
-        let point = |at: Xy| Point::new(at.x, at.y);
         Diagnostic::new(&messages::GOUGED_NEIGHBOUR)
             .with("tool", 2.0 * self.paths[cutting].cuts.cuts.radius)
             .with("depth", gouge.depth)
             .quoting("other", owner.cuts.name.as_str())
-            .with("place", point(owner.start_of(gouge.part)))
-            .with("point", point(gouge.at))
+            .with("place", diagnostic_point(owner.start_of(gouge.part)))
+            .with("point", diagnostic_point(gouge.at))
     }
 
     /// Places a finding at an element of a path, with the embeddings that lead there.
@@ -292,7 +331,7 @@ impl<'db> PlacedProgram<'db> {
             (instance.file(self.db).path(self.db), cuts.cuts.name.as_str())
         };
         let step = |inner: usize| {
-            let (outer, origin) = self.paths[inner].parent?;
+            let Embedder { path: outer, origin, .. } = self.paths[inner].parent?;
             let (file, name) = place(outer);
             Some(TraceStep { file: file.clone(), path: name.into(), point: origin.point })
         };
@@ -314,6 +353,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     let placed = |drawn, placement, raised, thickness| PlacedPart {
         drawn,
         left: &[],
+        corners: &[],
         lost_bars: &[],
         bars_lost_to_neighbours: Vec::new(),
         gouges: gouging_moves(drawn, &placement, raised, &ways, [radius, tolerance]),
@@ -334,6 +374,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
             let mut part_of_path =
                 placed(drawn, occurrence.placement, occurrence.raised, cutting.path.thickness);
             part_of_path.is_loose |= findings.loose.contains(part);
+            part_of_path.corners = &findings.corners[*part];
             // The material left and the bars are known by path, not by part: list them with the first part only.
             if index == 0 {
                 (part_of_path.left, part_of_path.lost_bars) =

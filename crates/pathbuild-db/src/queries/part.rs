@@ -135,20 +135,26 @@ pub fn uncut_rings(db: &dyn Db, file: SourceFile) -> Vec<&[Curve]> {
     findings.uncut.iter().filter_map(ring).collect()
 }
 
-/// Returns PB220 for each outline that no path comes near. The drawing is read again for the positions of the outlines.
-pub(super) fn uncut_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
-    let uncut = example_findings(db, file).map(|findings| findings.uncut.as_slice()).unwrap_or_default();
-    if uncut.is_empty() {
+/// Returns PB220 for each outline that no path comes near, and PB223 for each outline in an opening that is cut as a part. The drawing is read again for
+/// the positions of the outlines.
+pub(super) fn doubtful_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
+    let Some(findings) = example_findings(db, file).filter(|findings| has_doubtful_outlines(findings)) else {
         return Vec::new();
-    }
+    };
     let language = Settings::get(db).language(db);
     let reading = Reading { compatible: false, ..Settings::get(db).reading(db).clone() };
     let drawn = read_parts(&read_layers_as(db, file, &reading, &|layer| language.is_part(layer)), language);
-    let problem = |(part, ring): &(usize, usize)| {
+    let problem = |message, (part, ring): &(usize, usize)| {
         let place = drawn.places.get(*part)?.get(*ring)?.clone();
-        let mut problem = Diagnostic { place, ..Diagnostic::new(&messages::OUTLINE_NOT_CUT) };
+        let mut problem = Diagnostic { place, ..Diagnostic::new(message) };
         lower_to_warnings(db, [&mut problem]);
         Some(problem.in_file(file.path(db)))
     };
-    uncut.iter().filter_map(problem).collect()
+    let uncut = findings.uncut.iter().filter_map(|ring| problem(&messages::OUTLINE_NOT_CUT, ring));
+    let inner = findings.inner.iter().filter_map(|ring| problem(&messages::PART_IN_OPENING, ring));
+    uncut.chain(inner).collect()
+}
+
+pub(super) fn has_doubtful_outlines(findings: &PartFindings) -> bool {
+    !findings.uncut.is_empty() || !findings.inner.is_empty()
 }

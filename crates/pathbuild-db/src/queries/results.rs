@@ -14,7 +14,7 @@ use crate::queries::closures::closure;
 use crate::queries::index::{bind, file_index};
 use crate::queries::keep_outs::entered_keep_outs;
 use crate::queries::neighbours::{harmed_neighbours, neighbour_findings};
-use crate::queries::part::{example_findings, uncut_outlines};
+use crate::queries::part::{doubtful_outlines, example_findings, has_doubtful_outlines};
 use crate::queries::programs::ClosurePaths;
 use crate::queries::raw::{locate_in, raw_file, read_layers};
 
@@ -36,14 +36,17 @@ pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
 
 /// Returns the findings about a file as a whole. Its paths are targets of their own.
 pub fn check_file(db: &dyn Db, file: SourceFile) -> &[Diagnostic] {
-    let has_uncut = example_findings(db, file).is_some_and(|findings| !findings.uncut.is_empty());
-    if has_uncut { problems_with_outlines(db, file) } else { file_index(db, file).diagnostics() }
+    if example_findings(db, file).is_some_and(has_doubtful_outlines) {
+        problems_with_outlines(db, file)
+    } else {
+        file_index(db, file).diagnostics()
+    }
 }
 
 #[salsa::tracked]
 fn problems_with_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
-    let uncut = uncut_outlines(db, file);
-    file_index(db, file).diagnostics().iter().cloned().chain(uncut).collect()
+    let outlines = doubtful_outlines(db, file);
+    file_index(db, file).diagnostics().iter().cloned().chain(outlines).collect()
 }
 
 /// Returns the findings about a path, everything it embeds, clamps in its way, and parts that it cuts into. They have no lines and handles yet, see

@@ -1,6 +1,6 @@
 //! Tests drawings that just comply with each rule, and drawings that just do not.
 
-use pathbuild_diagnostic::{Lang, Severity};
+use pathbuild_diagnostic::{Lang, Point, Severity};
 
 use pathbuild_path::direction;
 
@@ -46,6 +46,27 @@ fn a_contour_too_far_outside_leaves_material_all_round() {
     assert_eq!(left.len(), 4, "{left:?}");
     for found in &left {
         assert!((number(found, "thickness") - 0.5).abs() < 0.01, "{}", found.text(Lang::En));
+    }
+}
+
+/// One side of the contour is too far away. It is named, even if it is farther than O away and another side is nearer to the middle of the stretch.
+#[test]
+fn material_left_names_the_side_that_is_too_far_away() {
+    let upper_side = |[width, height]: [f64; 2], distance: f64| {
+        let (right, top) = (width + 2.0, height + 1.0 + distance);
+        let drawing = format!(
+            "{START}sweep -5,-5 0,0\nbars 0,0 {right},0\nbars to {right},{top} 0,{top} 0,0\nsweep 0,0 50,-5\nend 50,-5\n\
+             layer Part\npolyline 1,1 {x},1 {x},{y} 1,{y} closed\n",
+            x = width + 1.0,
+            y = height + 1.0
+        );
+        let mut found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
+        found.retain(|found| found.code().to_string() == "PB215");
+        assert_eq!(found[0].place.point, Some(Point::new(right, top)), "{width} {distance}: {found:?}");
+    };
+    for distance in [1.5, 1.9, 2.1, 2.5, 4.0, 11.0] {
+        upper_side([40.0, 20.0], distance);
+        upper_side([10.0, 60.0], distance);
     }
 }
 
@@ -448,14 +469,43 @@ fn bars_must_not_be_cut_by_other_components() {
     };
     let project = "layer 8001.1P\nstart 0,0 \"T2 O2 S20\"\nsubpath 0,0 55,0 \">1234.1P Mx\"\n\
                    sweep 55,0 5,5\nsubpath 5,5 47,5 \">1300.1P Mx\"\nend 47,5\n";
-    let codes = |bottom: f64| {
+    let lost = |bottom: f64| {
         let files = [("8001.1P.dxf", project), ("1234.1P.dxf", &plate), ("1300.1P.dxf", &cut(bottom))];
-        let found = PartTest::default().diagnostics(&files);
-        let found = found.iter().map(|found| found.code().to_string());
-        found.filter(|code| code == "PB214" || code == "PB218").collect::<Vec<_>>()
+        let mut found = PartTest::default().diagnostics(&files);
+        found.retain(|found| ["PB214", "PB218"].contains(&found.code().to_string().as_str()));
+        found
     };
-    assert_eq!(codes(0.8), [""; 0], "at D of the bars");
-    assert_eq!(codes(0.77).len(), 6, "every bar of this side, by more than the tolerance");
+    assert_eq!(lost(0.8), [], "at D of the bars");
+    let found = lost(0.77);
+    let [found] = &found[..] else { panic!("once for all bars: {found:?}") };
+    assert!((number(found, "count") - 4.0).abs() < 1e-9, "two corners, and two bars between: {found:?}");
+    let text = found.text(Lang::En);
+    assert!(text.contains("3 of the 3 mm") && text.contains("in the program"), "{text}");
+}
+
+/// Half bars that meet at a corner are one bar, which stands at the corner.
+#[test]
+fn a_bar_round_a_corner_is_one_bar() {
+    let lost = |ways: &str| {
+        let drawing = format!(
+            "{}layer 1234.1L\nstart -8,-8 \"T2 O2 I0.5 B-0.2 S5\"\nsweep -8,-8 -3,0\n{ways}\nend 60,-5\n",
+            plate("bars")
+        );
+        let found = PartTest::default().diagnostics(&[("1234.1.dxf", &drawing)]);
+        let bars = found.into_iter().filter(|found| found.code().to_string() == "PB218");
+        let numbers = |found: &pathbuild_diagnostic::Diagnostic| {
+            ["lost", "length", "count"].map(|name| (number(found, name) * 100.0).round() / 100.0)
+        };
+        bars.map(|found| (numbers(&found), found.argument("point").cloned())).collect::<Vec<_>>()
+    };
+    let corner = lost("mill -3,0 0,0\nsweep 0,0 60,-5");
+    let at = |x: f64| Some(pathbuild_diagnostic::Value::Point(Point::new(x, 0.0)));
+    assert_eq!(corner, [([1.96, 3.0, 1.0], at(0.0))]);
+    // Two elements that take the same bar are one finding, at the element that takes most of it.
+    assert_eq!(lost("mill -3,0 -0.5,0\nmill to 1,0\nsweep 1,0 60,-5"), [([2.48, 3.0, 1.0], at(0.0))]);
+    // The second element only takes the two bars between the corners and the last corner.
+    let side = lost("mill -3,0 5,0\nmill to 45,0\nsweep 45,0 60,-5");
+    assert_eq!(side.iter().map(|(numbers, _)| numbers[2]).collect::<Vec<_>>(), [1.0, 3.0], "{side:?}");
 }
 
 /// A raised component is on a raised plate, through which the cuts of the other component go. The raised component's own cuts enter the other plate

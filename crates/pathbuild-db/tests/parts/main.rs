@@ -4,6 +4,7 @@
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers of corners")]
 
 mod drawings;
+mod embedded;
 mod outlines;
 mod random;
 
@@ -129,6 +130,7 @@ fn number(found: &Diagnostic, name: &str) -> f64 {
     let value = found.arguments.iter().find(|(known, _)| *known == name).map(|(_, value)| value);
     match value {
         Some(pathbuild_diagnostic::Value::Number(number)) => number.0,
+        Some(pathbuild_diagnostic::Value::Count(count)) => *count as f64,
         other => panic!("{name}: {other:?} in {found:?}"),
     }
 }

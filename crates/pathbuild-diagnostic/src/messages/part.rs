@@ -1,4 +1,4 @@
-//! Messages about finished parts: their outlines, and the cuts along and into them. (PB213 to PB220)
+//! Messages about finished parts: their outlines, and the cuts along and into them. (PB213 to PB223)
 
 messages! {
     /// A cut of the path into its own part.
@@ -57,12 +57,19 @@ messages! {
         help_en: "place the parts farther apart, or draw support bars on a side where the plate remains",
         help_de: "die Teile weiter auseinander setzen oder Stützstege auf einer Seite zeichnen, an der die Platte stehen bleibt",
     }
-    /// A support bar that another cut removes.
+    /// Support bars that another cut removes.
     BAR_CUT_AWAY: BarCutAway {
-        en: "this cut removes {lost} of the {length} mm of the support bar at {point} of path {other}",
-        de: "dieser Schnitt nimmt {lost} von {length} mm des Stützstegs bei {point} von Pfad {other} weg",
+        en: "this cut removes {lost} of the {length} mm of the support bar at {point} of path {other} (bars: {count})",
+        de: "dieser Schnitt nimmt {lost} von {length} mm des Stützstegs bei {point} von Pfad {other} weg (Stege: {count})",
         help_en: "leave the bar out of this cut, or end the cut higher than D of the bar",
         help_de: "den Schnitt am Steg aussparen oder höher als D des Stegs enden lassen",
+    }
+    /// Support bars that a cut of another path of the project removes.
+    NEIGHBOURS_BAR_CUT_AWAY: BarCutAway {
+        en: "this cut removes {lost} of the {length} mm of a support bar of path {other}; that bar stands at {point} in the program (bars: {count})",
+        de: "dieser Schnitt nimmt {lost} von {length} mm eines Stützstegs von Pfad {other} weg, der im Programm bei {point} steht (Stege: {count})",
+        help_en: "place the paths farther apart, or end this cut higher than D of the bar",
+        help_de: "die Pfade weiter auseinander setzen oder diesen Schnitt höher als D des Stegs enden lassen",
     }
     /// Two ends of an outline that almost meet.
     OUTLINE_GAP: DoubtfulOutline {
@@ -105,5 +112,26 @@ messages! {
         de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang",
         help_en: "draw the missing path; move a path that runs O or more away to half of O beside the outline; if this is not an outline of the part, move it to another layer",
         help_de: "den fehlenden Pfad zeichnen; einen Pfad, der um O oder mehr entfernt verläuft, auf die Hälfte von O neben den Umriss verschieben; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
+    }
+    /// Two paths that cut the same part, but are embedded at different places.
+    DISPLACED_PATH: DisplacedPath {
+        en: "paths {name} and {other} cut the same part, but place it up to {distance} mm apart: in the program, its outline begins at {point} and at {place}",
+        de: "die Pfade {name} und {other} fräsen dasselbe Teil, setzen es aber bis zu {distance} mm auseinander: sein Umriss beginnt im Programm bei {point} und bei {place}",
+        help_en: "embed the paths relative to each other as they lie in their drawing; two copies of the part must be O or more apart",
+        help_de: "die Pfade so zueinander einbetten, wie sie in ihrer Zeichnung liegen; zwei Exemplare des Teils müssen mindestens um O auseinander liegen",
+    }
+    /// A cut in a piece of waste that nothing holds any more.
+    CUT_IN_LOOSE_WASTE: CutInLooseWaste {
+        en: "path {name} cuts in waste that is loose by then: the opening of path {other} whose outline begins at {place} in the program has been cut out all round",
+        de: "Pfad {name} fräst in Abfall, der dann schon lose ist: der Ausschnitt von Pfad {other}, dessen Umriss im Programm bei {place} beginnt, ist rundum ausgefräst",
+        help_en: "mill this path before the opening, draw support bars in the opening, or set part-held = \"otherwise\" if tape or vacuum holds the waste",
+        help_de: "diesen Pfad vor dem Ausschnitt fräsen, den Ausschnitt mit Stützstegen zeichnen oder part-held = \"otherwise\" setzen, wenn Klebeband oder Vakuum den Abfall hält",
+    }
+    /// An outline in an opening that a path cuts as a part.
+    PART_IN_OPENING: PartInOpening {
+        en: "support bars stand along the outside of this outline, but it lies in an opening, so it is not checked as a part",
+        de: "an der Außenseite dieses Umrisses stehen Stützstege, er liegt aber in einem Ausschnitt und wird deshalb nicht als Teil geprüft",
+        help_en: "give the inner part a drawing of its own, and embed its path; if this is not an outline of a part, move it to another layer",
+        help_de: "das innere Teil in eine eigene Zeichnung setzen und seinen Pfad einbetten; ist dies kein Umriss eines Teils, ihn auf einen anderen Layer legen",
     }
 }

@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
 
+use super::boxes::BoxIndex;
 use super::cuts::{CutIndex, PathCuts, StandingBar};
 use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, at as at_along, join_stretches};
+use crate::approx;
 use crate::element::diagnostic_point;
 use crate::geometry::{Curve, Xy};
 use crate::keep_out::widened_box;
@@ -14,76 +16,159 @@ use crate::keep_out::widened_box;
 /// Share of a bar's length up to which its loss is not reported.
 const BAR_LOSS: f64 = 0.05;
 
-/// A support bar that the cuts of an element take away.
+/// A support bar that the cuts of a path take away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LostBar {
     /// Index of the path to which the bar belongs.
     pub of: usize,
+    /// Number of the bar among the bars of its path.
+    pub bar: usize,
     /// Index of the path that cuts the bar away.
     pub by: usize,
-    /// Index into [`PathCuts::elements`] of the path that cuts the bar away.
+    /// The element that takes most of the bar, as an index into [`PathCuts::elements`] of the path that cuts the bar away.
     pub element: u32,
     /// The length in mm that is cut away.
     pub lost: f64,
     /// The length of the bar in mm.
     pub length: f64,
-    /// The midpoint of the bar.
+    /// The midpoint of the bar; for a bar at a corner, the corner.
     pub at: Xy,
-    /// The middle line of the bar.
-    pub middle: Curve,
+    /// The middle line of the bar. A bar at a corner has a section on each side of the corner.
+    pub sections: Vec<Curve>,
 }
 
-/// Returns the bars of all paths that are cut away, once for each element that cuts one away.
+/// Returns the bars of all paths that are cut away, once for each path that cuts one away.
 pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
     let mut found = Vec::new();
     for (of, path) in cuts.paths.iter().enumerate() {
-        for bar in &path.bars {
-            let Some(middle) = &bar.middle else { continue };
-            let length = middle.length();
-            let at = at_along(middle, length / 2.0);
-            let elements = BarLoss { bar, middle, cuts, tolerance }.elements();
-            let lost = |((by, element), lost)| LostBar { of, by, element, lost, length, at, middle: *middle };
-            found.extend(elements.into_iter().map(lost));
+        for (bar, whole) in whole_bars(path).into_iter().enumerate() {
+            let losses = BarLoss { cuts, tolerance, bar: &whole }.losses();
+            found.extend(losses.into_iter().filter_map(|(by, elements)| {
+                let (lost, element) = total_loss(elements)?;
+                let sections: Vec<Curve> = whole.iter().map(|(_, middle)| *middle).collect();
+                let length = sections.iter().map(Curve::length).sum();
+                let at = middle_of(&sections);
+                let is_lost = lost > BAR_LOSS * length;
+                is_lost.then_some(LostBar { of, bar, by, element, lost, length, at, sections })
+            }));
         }
     }
     found
 }
 
 impl LostBar {
-    /// Returns PB218. `path` is the path to which the bar belongs.
-    pub fn problem(&self, path: &PathCuts) -> Diagnostic {
-        Diagnostic::new(&messages::BAR_CUT_AWAY)
-            .with("lost", self.lost)
-            .with("length", self.length)
-            .with("point", diagnostic_point(self.at))
-            .quoting("other", path.name.as_str())
+    /// Returns PB218 for bars that the same element takes away from a path. The bar that loses most is named. `is_placed`: whether its place is given
+    /// in the program instead of in the drawing.
+    pub fn problem<'l>(
+        bars: impl IntoIterator<Item = &'l Self>,
+        path: &PathCuts,
+        is_placed: bool,
+    ) -> Option<Diagnostic> {
+        let bars: Vec<&Self> = bars.into_iter().collect();
+        let worst = bars
+            .iter()
+            .copied()
+            .reduce(|worst, next| if worst.is_exceeded_by(next) { next } else { worst })?;
+        let message = if is_placed { &messages::NEIGHBOURS_BAR_CUT_AWAY } else { &messages::BAR_CUT_AWAY };
+        let problem = Diagnostic::new(message)
+            .with("lost", worst.lost)
+            .with("length", worst.length)
+            .with("point", diagnostic_point(worst.at))
+            .quoting("other", path.name.as_str());
+        Some(problem.with("count", bars.len()))
+    }
+
+    /// Whether another bar loses more. Of equal losses, the leftmost counts, as for cuts into the part.
+    pub fn is_exceeded_by(&self, other: &Self) -> bool {
+        let is_left = || (other.at.x, other.at.y) < (self.at.x, self.at.y);
+        other.lost > self.lost + JOIN_GAP || (other.lost >= self.lost - JOIN_GAP && is_left())
     }
 }
+
+/// Groups the bars of a path: those on both sides of a corner are a single bar. Bars of which nothing stands are left out.
+fn whole_bars(path: &PathCuts) -> Vec<Vec<(&StandingBar, Curve)>> {
+    let bars: Vec<(&StandingBar, Curve)> =
+        path.bars.iter().filter_map(|bar| Some((bar, bar.middle?))).collect();
+    let extent = |number: usize| widened_box(&bars[number].1, BOX_MARGIN);
+    let boxes = BoxIndex::new((0..bars.len()).map(extent));
+    let mut is_grouped = vec![false; bars.len()];
+    let mut found = Vec::new();
+    for first in 0..bars.len() {
+        if std::mem::replace(&mut is_grouped[first], true) {
+            continue;
+        }
+        let mut group = vec![first];
+        let mut next = 0;
+        while let Some(member) = group.get(next).copied() {
+            for other in boxes.near(extent(member)) {
+                if !is_grouped[other] && meeting_point(&bars[member].1, &bars[other].1).is_some() {
+                    is_grouped[other] = true;
+                    group.push(other);
+                }
+            }
+            next += 1;
+        }
+        found.push(group.into_iter().map(|number| bars[number]).collect());
+    }
+    found
+}
+
+/// Margin in mm around the boxes of bars, larger than the distance up to which ends coincide.
+const BOX_MARGIN: f64 = 0.01;
+
+fn meeting_point(one: &Curve, other: &Curve) -> Option<Xy> {
+    let ends = [one.start(), one.end()];
+    ends.into_iter().find(|end| [other.start(), other.end()].iter().any(|at| approx::coincide(*end, *at)))
+}
+
+/// Returns the midpoint of a bar, or the first corner round which it stands.
+fn middle_of(sections: &[Curve]) -> Xy {
+    let corner = sections.windows(2).find_map(|pair| meeting_point(&pair[0], &pair[1]));
+    let middle = || sections.first().map(|only| at_along(only, only.length() / 2.0));
+    corner.or_else(middle).unwrap_or_else(Xy::origin)
+}
+
+/// The stretches of a bar that are cut away, by path and element.
+type Losses = BTreeMap<usize, BTreeMap<u32, Vec<Stretch>>>;
 
 /// A bar, and the cuts that may take it away.
 struct BarLoss<'b> {
-    bar: &'b StandingBar,
-    middle: &'b Curve,
     cuts: &'b CutIndex<'b>,
     tolerance: f64,
+    /// The sections of the bar.
+    bar: &'b [(&'b StandingBar, Curve)],
 }
 
 impl BarLoss<'_> {
-    /// Returns the elements that cut too much of the bar away, by path and element, each with the length that it cuts away in mm.
-    fn elements(&self) -> Vec<((usize, u32), f64)> {
-        let mut gone: BTreeMap<(usize, u32), Vec<Stretch>> = BTreeMap::new();
-        for number in self.cuts.near(widened_box(self.middle, 0.0)) {
-            let cut = &self.cuts.cuts[number];
-            let Some(below) = cut.cut.way.part_below(self.bar.top - self.tolerance) else { continue };
-            let mut stretches = Vec::new();
-            add_stretches_within(self.middle, &below, cut.radius - self.tolerance, &mut stretches);
-            if !stretches.is_empty() {
-                gone.entry((cut.path, cut.cut.element)).or_default().append(&mut stretches);
+    /// Returns what is cut away, as stretches along all sections of the bar, one after another.
+    fn losses(&self) -> Losses {
+        let mut losses = Losses::new();
+        let mut start = 0.0;
+        for (bar, middle) in self.bar {
+            for number in self.cuts.near(widened_box(middle, 0.0)) {
+                let cut = &self.cuts.cuts[number];
+                let Some(below) = cut.cut.way.part_below(bar.top - self.tolerance) else { continue };
+                let mut stretches = Vec::new();
+                add_stretches_within(middle, &below, cut.radius - self.tolerance, &mut stretches);
+                if !stretches.is_empty() {
+                    let of_path = losses.entry(cut.path).or_default();
+                    let along = stretches.into_iter().map(|(from, to)| (from + start, to + start));
+                    of_path.entry(cut.cut.element).or_default().extend(along);
+                }
             }
+            start += middle.length();
         }
-        let lost =
-            |stretches| join_stretches(stretches, JOIN_GAP).iter().map(|(from, to)| to - from).sum::<f64>();
-        let all = gone.into_iter().map(|(element, stretches)| (element, lost(stretches)));
-        all.filter(|(_, lost)| *lost > BAR_LOSS * self.middle.length()).collect()
+        losses
     }
+}
+
+/// Returns the length in mm that the elements of a path cut away, and the element that cuts most of it away.
+fn total_loss(elements: BTreeMap<u32, Vec<Stretch>>) -> Option<(f64, u32)> {
+    let length = |stretches: Vec<Stretch>| {
+        join_stretches(stretches, JOIN_GAP).iter().map(|(from, to)| to - from).sum::<f64>()
+    };
+    let all = elements.values().flatten().copied().collect();
+    let lengths = elements.into_iter().map(|(element, stretches)| (length(stretches), element));
+    let (_, element) = lengths.reduce(|most, next| if next.0 > most.0 + JOIN_GAP { next } else { most })?;
+    Some((length(all), element))
 }

@@ -5,13 +5,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 
-use super::bars::lost_bars;
+use super::bars::{LostBar, lost_bars};
+use super::boxes::may_be_near;
 use super::cuts::{CutIndex, IndexedCut, PathCuts};
 use super::enclosure::Enclosure;
 use super::gouge::{ClassifiedCut, Gouge, classify_cuts, gouges};
+use super::intervals::at as at_along;
 use super::leftover::{LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
-use super::prepared::PreparedPart;
-use super::{Part, PartSettings};
+use super::prepared::{PreparedPart, Side};
+use super::{Part, PartRing, PartSettings};
 use crate::element::diagnostic_point;
 use crate::geometry::Curve;
 use crate::keep_out::widened_box;
@@ -21,6 +23,8 @@ use crate::keep_out::widened_box;
 pub struct PartFindings {
     /// The outlines that no path comes near: for each, the index of its part, and of the ring in the part.
     pub uncut: Vec<(usize, usize)>,
+    /// The outlines in openings along which support bars stand as for a part, likewise.
+    pub inner: Vec<(usize, usize)>,
     /// The findings about each path, by the index of the path.
     pub of_paths: Vec<Vec<Diagnostic>>,
     /// The indices of the parts that each path cuts out or into, by path.
@@ -31,6 +35,8 @@ pub struct PartFindings {
     pub loose: Vec<usize>,
     /// For each path, the middle lines of its support bars that are cut away.
     pub lost_bars: Vec<Vec<Curve>>,
+    /// For each part, the stretches of its outlines that the cutter does not reach.
+    pub corners: Vec<Vec<Curve>>,
 }
 
 /// Depth in micrometres up to which a cut into a part is a warning. Depths are rounded to micrometres, as in the message, before they are compared.
@@ -46,11 +52,13 @@ pub fn check_parts(
 ) -> PartFindings {
     let none = PartFindings {
         uncut: Vec::new(),
+        inner: Vec::new(),
         of_paths: vec![Vec::new(); paths.len()],
         parts: vec![Vec::new(); paths.len()],
         left: vec![Vec::new(); paths.len()],
         loose: Vec::new(),
         lost_bars: vec![Vec::new(); paths.len()],
+        corners: Vec::new(),
     };
     if parts.is_empty() {
         return none;
@@ -64,6 +72,7 @@ pub fn check_parts(
         if is_complete && !embeds_others {
             findings.uncut.extend(check.nests_without_cuts().map(|ring| (number, ring)));
         }
+        findings.inner.extend(check.inner_parts().map(|ring| (number, ring)));
         let leftovers = if is_complete { check.leftovers() } else { Leftovers::default() };
         for (path, problem) in check.problems(is_complete, &leftovers) {
             if problem.code() == Code::LoosePart {
@@ -71,6 +80,7 @@ pub fn check_parts(
             }
             findings.of_paths[path].push(problem);
         }
+        findings.corners.push(leftovers.corners);
         for left in leftovers.stretches {
             findings.left[left.path].push(left.material);
         }
@@ -81,12 +91,23 @@ pub fn check_parts(
             }
         }
     }
-    for lost in lost_bars(&cuts, settings.tolerance) {
-        let problem = lost.problem(paths[lost.of]);
-        findings.lost_bars[lost.of].push(lost.middle);
-        findings.of_paths[lost.by].push(paths[lost.by].at_element(lost.element, problem));
-    }
+    findings.add_lost_bars(&lost_bars(&cuts, settings.tolerance), paths);
     findings
+}
+
+impl PartFindings {
+    /// Adds PB218, once for each element that takes bars away from a path.
+    fn add_lost_bars(&mut self, lost: &[LostBar], paths: &[&PathCuts]) {
+        let mut of_elements: BTreeMap<(usize, u32, usize), Vec<&LostBar>> = BTreeMap::new();
+        for bar in lost {
+            self.lost_bars[bar.of].extend(&bar.sections);
+            of_elements.entry((bar.by, bar.element, bar.of)).or_default().push(bar);
+        }
+        for ((by, element, of), bars) in of_elements {
+            let problem = LostBar::problem(bars, paths[of], false);
+            self.of_paths[by].extend(problem.map(|problem| paths[by].at_element(element, problem)));
+        }
+    }
 }
 
 /// A part with the paths that cut it.
@@ -125,6 +146,30 @@ impl<'s> PartCheck<'s> {
         (0..rings.len()).filter(move |ring| rings[*ring].nest == *ring && !is_near(*ring))
     }
 
+    /// Returns the rings in openings that paths cut as parts: support bars stand along their outside. Bars at the edge of a ring around them hold the
+    /// waste of that ring.
+    fn inner_parts(&self) -> impl Iterator<Item = usize> {
+        let rings = self.part.part.rings.iter().enumerate();
+        let inner = rings.filter(|(ring, drawn)| drawn.nest != *ring);
+        inner.filter(|(ring, drawn)| self.is_cut_as_part(*ring, drawn)).map(|(ring, _)| ring)
+    }
+
+    fn is_cut_as_part(&self, ring: usize, drawn: &PartRing) -> bool {
+        let rings = || self.part.part.rings.iter().enumerate();
+        let is_near = |ring: &PartRing, bar: &Curve, reach: f64| {
+            ring.curves.iter().any(|curve| may_be_near(curve, bar, reach) && curve.distance(bar) < reach)
+        };
+        let paths = self.cuts.paths.iter().filter(|path| self.part.part.may_belong_to(&path.name));
+        let bars = paths.flat_map(|path| path.bars.iter().map(|bar| (bar.foot, path.radius)));
+        bars.filter(|(bar, radius)| is_near(drawn, bar, 2.0 * radius)).any(|(bar, radius)| {
+            let middle = at_along(&bar, bar.length() / 2.0);
+            let Side::Openings(around) = self.part.side(middle) else { return false };
+            let reach = radius + self.settings.tolerance;
+            !around.contains(&ring)
+                && !rings().any(|(ring, other)| around.contains(&ring) && is_near(other, &bar, reach))
+        })
+    }
+
     /// Returns the findings about the part, each with the index of its path. Whether material is left depends on the cuts of all owners together.
     fn problems(&self, is_complete: bool, leftovers: &Leftovers) -> Vec<(usize, Diagnostic)> {
         let mut found: Vec<_> = self.gouge_findings().collect();
@@ -158,7 +203,7 @@ impl<'s> PartCheck<'s> {
     /// Returns PB215 for each element beside which material is left, and PB216 for outlines that the cutter cannot reach.
     fn leftover_findings(
         &self,
-        Leftovers { stretches, unreachable }: &Leftovers,
+        Leftovers { stretches, unreachable, .. }: &Leftovers,
     ) -> Vec<(usize, Diagnostic)> {
         let mut of_elements: BTreeMap<(usize, u32, bool), Vec<&Leftover>> = BTreeMap::new();
         for left in stretches {
@@ -255,7 +300,7 @@ mod tests {
     use crate::geometry::{Line, Xy};
     use crate::keep_out::TipMove;
     use crate::names::{LayerPattern, PathName};
-    use crate::part::{CutElement, PartCut, PartRing};
+    use crate::part::{CutElement, PartCut};
 
     fn rectangle([left, low]: [f64; 2], [right, high]: [f64; 2], pieces: u32) -> Vec<Line> {
         let corners = [[left, low], [right, low], [right, high], [left, high]].map(Xy::from);

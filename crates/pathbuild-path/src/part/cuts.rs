@@ -42,6 +42,8 @@ pub struct EmbeddedPlace {
     pub ends: (Xy, Xy),
     /// H in mm: the height by which the embedded path is raised.
     pub height: f64,
+    /// The number of [cuts](PathCuts::cuts) of this path that come before the embedded path.
+    pub cuts_before: usize,
 }
 
 /// A drawn element that cuts, with its depth.

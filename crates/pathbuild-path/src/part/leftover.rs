@@ -3,6 +3,8 @@
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
+use nalgebra::Vector2;
+
 use super::boxes::square;
 use super::cuts::{CutIndex, IndexedCut, StandingBar, THROUGH_HEIGHT};
 use super::gouge::ClassifiedCut;
@@ -12,7 +14,7 @@ use super::intervals::{
 };
 use super::loose::is_surrounded;
 use super::prepared::{PreparedPart, Side};
-use crate::geometry::{Curve, Xy};
+use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::keep_out::widened_box;
 
 /// Length in mm from which leftover material is reported.
@@ -72,6 +74,8 @@ pub(super) struct UnreachableOutline {
 pub(super) struct Leftovers {
     pub(super) stretches: Vec<Leftover>,
     pub(super) unreachable: Option<UnreachableOutline>,
+    /// The stretches of outlines that `unreachable` describes.
+    pub(super) corners: Vec<Curve>,
 }
 
 pub(super) struct LeftoverSearch<'s> {
@@ -140,7 +144,7 @@ impl<'s> LeftoverSearch<'s> {
             let described =
                 stretches.left.iter().filter_map(|stretch| self.leftover(ring, *stretch, &stretches));
             found.stretches.extend(described);
-            self.add_unreachable(ring, &stretches, &mut longest, &mut found.unreachable);
+            self.add_unreachable(ring, &stretches, &mut longest, &mut found);
         }
         found
     }
@@ -359,32 +363,31 @@ impl<'s> LeftoverSearch<'s> {
     fn leftover(&self, ring: usize, (from, to): Stretch, stretches: &RingStretches) -> Option<Leftover> {
         let whole = stretches.length;
         let place = |along: f64| self.ring_point(ring, along, whole);
-        let middle = place(f64::midpoint(from, to));
-        let nearest = self.nearest(ring, middle).or_else(|| self.nearest_at_any_distance(ring, middle))?;
+        let nearest = self.cut_beside(ring, f64::midpoint(from, to), whole)?;
         let is_end = |end: f64| {
             let wrapped = [end - whole, end, end + whole];
             let touches = |at: f64| wrapped.iter().any(|end| (end - at).abs() <= NEIGHBOUR_JOIN_GAP);
             stretches.never.iter().any(|never| touches(never.0) || touches(never.1))
         };
         let length = to - from;
-        if length <= 2.0 * nearest.cut.radius && (is_end(from) || is_end(to)) {
+        if length <= 2.0 * nearest.radius && (is_end(from) || is_end(to)) {
             return None;
         }
         // Take no samples at the ends: the end of the cut may be there, where the distance to its edge is largest.
         let sample = |number| place(from + length * (f64::from(number) + 0.5) / f64::from(SAMPLES));
         let thickness = (0..SAMPLES).map(sample).map(|at| self.distance(at)).fold(0.0, f64::max);
-        let is_through = nearest.cut.through.is_some();
+        let is_through = nearest.through.is_some();
         Some(Leftover {
-            path: nearest.cut.path,
-            element: nearest.cut.cut.element,
+            path: nearest.path,
+            element: nearest.cut.element,
             from: place(from),
             to: place(to),
             length,
             thickness,
-            height: (!is_through).then(|| nearest.cut.cut.way.lowest()),
+            height: (!is_through).then(|| nearest.cut.way.lowest()),
             material: LeftMaterial {
                 outline: self.ring_section(ring, (from, to), whole),
-                reach: if is_through { thickness } else { 2.0 * nearest.cut.radius },
+                reach: if is_through { thickness } else { 2.0 * nearest.radius },
             },
         })
     }
@@ -395,14 +398,15 @@ impl<'s> LeftoverSearch<'s> {
         ring: usize,
         stretches: &RingStretches,
         longest: &mut f64,
-        found: &mut Option<UnreachableOutline>,
+        found: &mut Leftovers,
     ) {
         for (from, to) in &stretches.unreachable {
-            let at = self.ring_point(ring, f64::midpoint(*from, *to), stretches.length);
-            let nearest = self.nearest(ring, at).or_else(|| self.nearest_at_any_distance(ring, at));
-            let Some(nearest) = nearest else { continue };
-            let (path, element) = (nearest.cut.path, nearest.cut.cut.element);
-            let all = found.get_or_insert(UnreachableOutline { at, length: 0.0, path, element });
+            let middle = f64::midpoint(*from, *to);
+            let at = self.ring_point(ring, middle, stretches.length);
+            let Some(nearest) = self.cut_beside(ring, middle, stretches.length) else { continue };
+            let (path, element) = (nearest.path, nearest.cut.element);
+            found.corners.extend(self.ring_section(ring, (*from, *to), stretches.length));
+            let all = found.unreachable.get_or_insert(UnreachableOutline { at, length: 0.0, path, element });
             all.length += to - from;
             if to - from > *longest {
                 *longest = to - from;
@@ -419,27 +423,56 @@ impl<'s> LeftoverSearch<'s> {
         nearest.unwrap_or_else(|| self.all_contour_cuts().map(distance).fold(f64::INFINITY, f64::min))
     }
 
-    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate is only considered where it
-    /// reaches the ring.
-    fn nearest(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
-        self.nearest_of(self.cuts.near(square(at, 0.0)).collect(), ring, at)
+    /// Returns the cut that a finding at a place of a ring names: the nearest one within O, else the first one that the way straight out of the part
+    /// meets, else the nearest of all.
+    fn cut_beside(&self, ring: usize, along: f64, whole: f64) -> Option<&'s IndexedCut<'s>> {
+        let at = self.ring_point(ring, along, whole);
+        let near = self.nearest_of(self.cuts.near(square(at, 0.0)).collect(), ring, at);
+        let near = near.or_else(|| self.first_cut_outwards(ring, along, whole));
+        near.or_else(|| self.nearest_of((0..self.cuts.cuts.len()).collect(), ring, at))
     }
 
-    fn nearest_at_any_distance(&self, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
-        self.nearest_of((0..self.cuts.cuts.len()).collect(), ring, at)
-    }
-
-    fn nearest_of(&self, near: Vec<usize>, ring: usize, at: Xy) -> Option<&'s ClassifiedCut<'s>> {
-        let point = Curve::Line(crate::geometry::Line { start: at, end: at });
+    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate is only considered where it reaches
+    /// the ring.
+    fn nearest_of(&self, near: Vec<usize>, ring: usize, at: Xy) -> Option<&'s IndexedCut<'s>> {
+        let point = Curve::Line(Line { start: at, end: at });
         let curve = RingCurve { ring, curve: &point, near };
         let distance = |judged: &ClassifiedCut<'_>| judged.curve.distance_to(at) - judged.cut.radius;
-        let element = |judged: &ClassifiedCut<'_>| (judged.cut.path, judged.cut.cut.element);
         let counts = |judged: &&ClassifiedCut<'_>| {
             judged.cut.through.is_some() || distance(judged) <= self.tolerance + JOIN_GAP
         };
-        self.cuts_beside(&curve).filter(counts).min_by(|one, other| {
-            distance(one).total_cmp(&distance(other)).then_with(|| element(one).cmp(&element(other)))
-        })
+        let nearest = self.cuts_beside(&curve).filter(counts).min_by(|one, other| {
+            distance(one).total_cmp(&distance(other)).then_with(|| one.cut.number().cmp(&other.cut.number()))
+        });
+        nearest.map(|judged| &judged.cut)
+    }
+
+    /// Returns the first through cut that a straight way meets that leaves the part at a right angle to the ring. Cuts farther than O from the part
+    /// are not classified; they lie outside of it.
+    fn first_cut_outwards(&self, ring: usize, along: f64, whole: f64) -> Option<&'s IndexedCut<'s>> {
+        let (curve, along) = self.ring_place(ring, along, whole);
+        let is_beside = |number: &usize| match self.judged.get(number).map(|judged| &judged.side) {
+            Some(Side::Outside) | None => ring == 0,
+            Some(Side::Openings(openings)) => openings.contains(&ring),
+            Some(Side::Material) => false,
+        };
+        let cuts = self.cuts.cuts.iter().enumerate();
+        let beside = cuts.filter(|(number, cut)| self.contours[cut.path] && is_beside(number));
+        let way = |cut: &IndexedCut<'s>| Some(cut.element(self.cuts).supported.unwrap_or(cut.through?));
+        let beside: Vec<_> = beside.filter_map(|(_, cut)| Some((cut, way(cut)?))).collect();
+        let at = at_along(curve, along);
+        let farthest = |(_, curve): &(&IndexedCut<'_>, Curve)| (curve.start() - at).norm() + curve.length();
+        let reach = beside.iter().map(farthest).fold(0.0, f64::max);
+        let out = Curve::Line(Line { start: at, end: at + outwards(curve, at)? * reach });
+        let meets = |(cut, curve): (&'s IndexedCut<'s>, Curve)| {
+            let mut met = Vec::new();
+            add_stretches_within(&out, &curve, cut.radius, &mut met);
+            Some((met.into_iter().map(|(from, _)| from).min_by(f64::total_cmp)?, cut))
+        };
+        let first = beside.into_iter().filter_map(meets).min_by(|(one, cut), (other, other_cut)| {
+            one.total_cmp(other).then_with(|| cut.number().cmp(&other_cut.number()))
+        });
+        first.map(|(_, cut)| cut)
     }
 
     /// Returns the curves of a stretch of a ring. The stretch may begin below 0 if it runs across the ring's start.
@@ -457,15 +490,31 @@ impl<'s> LeftoverSearch<'s> {
 
     /// Returns the point of a ring at a distance along the ring, which may be below 0 for a stretch across the ring's start.
     fn ring_point(&self, ring: usize, along: f64, whole: f64) -> Xy {
+        let (curve, along) = self.ring_place(ring, along, whole);
+        at_along(curve, along)
+    }
+
+    /// Returns the curve of a ring at such a distance, and the distance along that curve.
+    fn ring_place(&self, ring: usize, along: f64, whole: f64) -> (&'s Curve, f64) {
         let curves = &self.part.part.rings[ring].curves;
         let mut along = if along < 0.0 { along + whole } else { along };
         for curve in curves {
             let length = curve.length();
             if along <= length {
-                return at_along(curve, along);
+                return (curve, along);
             }
             along -= length;
         }
-        curves[0].start()
+        (&curves[0], 0.0)
     }
+}
+
+/// Returns the direction at a right angle to a curve of a ring, out of the material on its left; `None` for a curve without length.
+fn outwards(curve: &Curve, at: Xy) -> Option<Vector2<f64>> {
+    let out = match curve {
+        Curve::Line(Line { start, end }) => Vector2::new(end.y - start.y, start.x - end.x),
+        Curve::Arc(Arc { centre, clockwise: true, .. }) => centre - at,
+        Curve::Arc(Arc { centre, .. }) => at - centre,
+    };
+    out.try_normalize(0.0)
 }

@@ -33,14 +33,22 @@ pub(super) fn is_cut_out<'b>(
     if beside().any(|(at, bar)| leads_straight_out(at, bar, cuts)) {
         return false;
     }
-    let sweeps: Vec<SweptLine> =
-        cuts.iter().flat_map(|(curve, radius)| swept_lines(curve, *radius)).collect();
+    let sweeps = swept_by(cuts);
     if beside().any(|(at, _)| can_escape(at, &sweeps)) {
         return false;
     }
     let boxes = BoxIndex::new(cuts.iter().map(|(curve, radius)| widened_box(curve, *radius)));
     let Some(centre) = point_in_material(part, cuts, &boxes) else { return false };
-    !can_escape(centre, &sweeps) && is_ring_closed(centre, &sweeps)
+    is_in_ring(centre, &sweeps)
+}
+
+/// Whether through cuts, each with its cutter radius, close a ring round a point that none of them covers.
+pub(super) fn is_enclosed(at: Xy, cuts: &[(Curve, f64)]) -> bool {
+    is_in_ring(at, &swept_by(cuts))
+}
+
+fn is_in_ring(at: Xy, sweeps: &[SweptLine]) -> bool {
+    !can_escape(at, sweeps) && is_ring_closed(at, sweeps)
 }
 
 /// Whether cuts, each with its cutter radius, close a ring round a part.
@@ -200,6 +208,10 @@ fn point_in_material(part: &PreparedPart<'_>, cuts: &[(Curve, f64)], boxes: &Box
             Some(inside.section(0.0, inside.length() / 2.0).end()).filter(|at| is_free(*at))
         })
     })
+}
+
+fn swept_by(cuts: &[(Curve, f64)]) -> Vec<SweptLine> {
+    cuts.iter().flat_map(|(curve, radius)| swept_lines(curve, *radius)).collect()
 }
 
 fn swept_lines(curve: &Curve, radius: f64) -> Vec<SweptLine> {

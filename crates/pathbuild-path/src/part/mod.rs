@@ -4,6 +4,7 @@ mod bars;
 mod boxes;
 mod check;
 mod cuts;
+mod displacement;
 mod enclosure;
 mod gouge;
 mod intervals;
@@ -11,6 +12,7 @@ mod leftover;
 mod loose;
 mod neighbours;
 mod prepared;
+mod waste;
 
 use pathbuild_diagnostic::{Diagnostic, Place};
 use smol_str::SmolStr;
@@ -24,9 +26,11 @@ pub(crate) use intervals::{Stretch, add_stretches_within, at as at_along, join_s
 pub use bars::LostBar;
 pub use check::{PartFindings, check_parts};
 pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar, THROUGH_HEIGHT};
+pub use displacement::largest_displacement;
 pub use gouge::gouging_moves;
 pub use leftover::LeftMaterial;
 pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts, SeveredPart};
+pub use waste::{EarlierCuts, WasteCut};
 
 /// Settings of the part check.
 #[derive(Clone, Debug)]
@@ -96,6 +100,8 @@ pub struct PlacedPart<'d> {
     pub drawn: &'d Part,
     /// The material that is left at the part's outline, as drawn.
     pub left: &'d [LeftMaterial],
+    /// The stretches of the part's outlines that the cutter does not reach, as drawn.
+    pub corners: &'d [Curve],
     /// The middle lines of the support bars that the cuts of the part's own path remove, as drawn.
     pub lost_bars: &'d [Curve],
     /// The middle lines of the support bars that the paths of a project cut away from each other, in the program's coordinates. The program's

@@ -25,7 +25,7 @@ pub struct PlacedCuts<'c> {
     /// The height in mm by which the path is raised.
     pub raised: f64,
     /// The bounding box of the area that the cutter covers, as placed; `None` if the path cuts nothing.
-    swept: Option<AABB<[f64; 2]>>,
+    pub(super) swept: Option<AABB<[f64; 2]>>,
     /// The bounding box of the path's parts and bars, as placed; `None` if it has none.
     kept: Option<AABB<[f64; 2]>>,
 }
@@ -64,7 +64,7 @@ pub struct SeveredPart {
 }
 
 /// Depth in mm below a plate's upper face from which a cut is considered a cut into the plate.
-const MIN_CUT_DEPTH: f64 = 0.01;
+pub(super) const MIN_CUT_DEPTH: f64 = 0.01;
 
 /// Distance in mm up to which two outlines are considered the same.
 const SAME_PART_DISTANCE: f64 = 0.01;
@@ -81,10 +81,14 @@ impl<'c> PlacedCuts<'c> {
         Self { cuts, parts, placement, raised, swept: swept.map(placed), kept: kept.map(placed) }
     }
 
+    /// Whether cuts of another path may reach the parts or bars of this one.
+    pub fn is_reached_by(&self, other: &Self) -> bool {
+        self.kept.zip(other.swept).is_some_and(|(kept, swept)| kept.intersects(&swept))
+    }
+
     /// Returns the cuts that another path makes into the parts and bars of this one.
     pub fn cuts_made_by(&self, other: &Self, tolerance: f64) -> NeighbourCuts {
-        let is_near = self.kept.zip(other.swept).is_some_and(|(kept, swept)| kept.intersects(&swept));
-        if !is_near {
+        if !self.is_reached_by(other) {
             return NeighbourCuts::default();
         }
         let (own, cutting) = (self.placed(self.raised), other.placed(self.level_for_cuts_of(other)));

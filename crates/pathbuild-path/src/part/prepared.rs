@@ -72,6 +72,10 @@ impl<'p> PreparedPart<'p> {
         self.rings[0].extent
     }
 
+    pub(crate) fn ring_extent(&self, ring: usize) -> AABB<[f64; 2]> {
+        self.rings[ring].extent
+    }
+
     /// Returns the curves near a box, with their rings.
     pub(crate) fn curves_near(&self, extent: AABB<[f64; 2]>) -> impl Iterator<Item = (usize, &Curve)> {
         let near = self.curve_boxes.near(extent);

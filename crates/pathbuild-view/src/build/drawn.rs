@@ -209,7 +209,7 @@ pub fn keep_out(clamp: &pathbuild_path::KeepOut, [x, y]: Point) -> KeepOut {
 
 /// Converts a finished part to the coordinates of the program.
 pub fn finished_part(part: &PlacedPart<'_>) -> FinishedPart {
-    let PlacedPart { drawn, left, is_loose, radius, top, tolerance, .. } = *part;
+    let PlacedPart { drawn, left, corners, is_loose, radius, top, tolerance, .. } = *part;
     let shapes = |curves: &[Curve]| -> Vec<Shape> {
         curves.iter().map(|curve| curve_shape(&part.placement.place_curve(curve))).collect()
     };
@@ -224,6 +224,7 @@ pub fn finished_part(part: &PlacedPart<'_>) -> FinishedPart {
             .map(|left| LeftMaterial { outline: shapes(&left.outline), reach: left.reach })
             .collect(),
         nests: drawn.rings.iter().map(|ring| ring.nest).collect(),
+        corners: shapes(corners),
         gouges: outline(&part.gouges),
         lost_bars,
         radius,

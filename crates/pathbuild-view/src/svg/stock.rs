@@ -763,7 +763,7 @@ fn draw_corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform,
         let next = ring.iter().cycle().skip(1);
         let corners = ring.iter().zip(next).filter_map(|(shape, next)| {
             let reach = part.radius * corner_reach(shape.directions()[1], next.directions()[0])?;
-            Some((next.start(), reach))
+            part.corners.iter().any(|stretch| touches(stretch, next.start())).then_some((next.start(), reach))
         });
         corners.collect::<Vec<_>>()
     };
@@ -775,6 +775,15 @@ fn draw_corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform,
         canvas.circle(place.to_page(corner), reach * place.scale(), "");
     }
     canvas.close();
+}
+
+/// Distance in mm up to which a stretch of an outline touches a corner.
+const CORNER_DISTANCE: f64 = 0.001;
+
+/// Whether a stretch of an outline begins or ends at a corner.
+fn touches(stretch: &Shape, [x, y]: Point) -> bool {
+    let ends = [stretch.start(), stretch.end()];
+    ends.into_iter().any(|end| libm::hypot(end[0] - x, end[1] - y) <= CORNER_DISTANCE)
 }
 
 /// Returns the distance from a corner at which a round cutter on the right of the outline touches both sides, in radii of the cutter. The

@@ -141,7 +141,7 @@ pub mod general {
         /// that a text such as Z25 gives (PB407)
         keep_out: Option<Box<str>> = "keep-out", OPTIONAL_REGEX, None, "'Clamps.*'", Check;
         /// layers with finished parts, by their whole names: cuts that go through the plate are compared with their outlines
-        /// (PB213 to PB220); a group in the expression names the path that cuts the part: 'Part_(.*)'
+        /// (PB213 to PB223); a group in the expression names the path that cuts the part: 'Part_(.*)'
         part: Option<Box<str>> = "part", OPTIONAL_REGEX, None, "'Part.*'", Check;
         /// mm: how far a cut may miss the outline of a part on either side; at least 0.005
         part_tolerance: f64 = "part-tolerance", PART_TOLERANCE, 0.02, "0.02", Check;

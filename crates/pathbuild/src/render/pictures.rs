@@ -2,7 +2,8 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
-use pathbuild_diagnostic::{Code, Diagnostic, Value};
+use pathbuild_diagnostic::messages::part as messages;
+use pathbuild_diagnostic::{Code, Diagnostic, Message, Value};
 use pathbuild_view::{FindingPlace, Places, Scene, cutout_svg, has_stock, stock_cutout_svg};
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::files::write_error;
@@ -40,8 +41,7 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
         }
         let scene = known.as_ref()?.1.as_ref()?;
         let has_corners = diagnostic.code() == Code::UnreachableCorner;
-        // The message of PB214 has the program's coordinates.
-        let is_in_program = diagnostic.code() == Code::GougedNeighbour;
+        let is_in_program = IN_PROGRAM.contains(&diagnostic.message);
         let zero = scene.paths.first().filter(|_| is_in_program).map_or([0.0; 2], |path| path.zero);
         Some(stock_cutout_svg(scene, &spot(diagnostic, None, zero)?, has_corners, index))
     };
@@ -54,6 +54,14 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
     };
     diagnostics.iter().enumerate().map(picture).collect()
 }
+
+/// Messages with the program's coordinates.
+const IN_PROGRAM: [&Message; 4] = [
+    &messages::GOUGED_NEIGHBOUR,
+    &messages::NEIGHBOURS_BAR_CUT_AWAY,
+    &messages::DISPLACED_PATH,
+    &messages::CUT_IN_LOOSE_WASTE,
+];
 
 /// The file of a drawing, the name of a path in it, and the path's scene if the path cuts anything.
 type StockScene<'d> = ((&'d Utf8Path, &'d str), Option<Scene>);
@@ -69,6 +77,8 @@ fn part_and_path(diagnostic: &Diagnostic) -> Option<(&Utf8Path, &str)> {
             | Code::UnreachableCorner
             | Code::LoosePart
             | Code::BarCutAway
+            | Code::DisplacedPath
+            | Code::CutInLooseWaste
     );
     Some((drawing(diagnostic)?, diagnostic.path.as_deref()?)).filter(|_| is_about_part)
 }
