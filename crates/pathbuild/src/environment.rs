@@ -134,7 +134,7 @@ pub(crate) fn refusal(workspace: &Workspace) -> Option<String> {
     }
     let is_unreadable = matches!(env::var(CACHE_DIR_VARIABLE), Err(VarError::NotUnicode(_)));
     is_unreadable
-        .then(|| workspace.phrase("{}: it is not UTF-8", "{}: das ist nicht in UTF-8", CACHE_DIR_VARIABLE))
+        .then(|| workspace.phrase("{}: it is not UTF-8", "{}: das ist kein UTF-8", CACHE_DIR_VARIABLE))
 }
 
 /// Returns the directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, or else the user's cache directory, which `config.toml` may name;

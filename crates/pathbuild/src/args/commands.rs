@@ -545,7 +545,7 @@ german! {
     "Before the change: a directory, a drawing, a Git revision, or a G-code program",
         "Vor der Änderung: ein Verzeichnis, eine Zeichnung, eine Git-Revision oder ein G-Code-Programm";
     "After the change: the same, or a path if OLD is a program (default: working directory)",
-        "Nach der Änderung: ebenso, zu einem Programm auch ein Pfad; sonst das Arbeitsverzeichnis";
+        "Nach der Änderung: ebenso, bei einem Programm auch ein Pfad; sonst das Arbeitsverzeichnis";
     "G-code programs", "G-Code-Programme";
     "G-code programs, directories with programs, or - for standard input",
         "G-Code-Programme, Verzeichnisse mit Programmen oder - für die Standardeingabe";
@@ -566,7 +566,7 @@ german! {
     "Write a picture of each finding into this directory: a detail of the drawing with the place circled",
         "Schreibt zu jedem Befund ein Bild in dieses Verzeichnis: einen Ausschnitt der Zeichnung mit eingekreister Stelle";
     "Write nothing; report the files on disk that are out of date",
-        "Schreibt nichts; meldet Dateien auf der Platte, die nicht aktuell sind";
+        "Schreibt nichts; meldet vorhandene Dateien, die nicht aktuell sind";
     "With --check: compare only the moves", "Mit --check: vergleicht nur die Bewegungen";
     "Overwrite measured values in _Z.txt", "Überschreibt gemessene Werte in _Z.txt";
     "Write for this post-processor: a built-in name or a file", "Schreibt für diesen Postprozessor: ein eingebauter Name oder eine Datei";
@@ -580,7 +580,7 @@ german! {
     "G-code dialect for checking the post's output, if the post names none",
         "G-Code-Dialekt, in dem die Ausgabe des Postprozessors geprüft wird, wenn er keinen nennt";
     "Date for posts that write one, and for waivers that end",
-        "Datum für Postprozessoren, die eines schreiben, und für Ausnahmen, die enden";
+        "Datum für Postprozessoren, die eines schreiben, und für befristete Ausnahmen";
     "After writing, run the command that the post names", "Führt nach dem Schreiben den Befehl aus, den der Postprozessor nennt";
     "Post-processor: a built-in name or a file", "Postprozessor: ein eingebauter Name oder eine Datei";
     "File to write; without it standard output", "Zieldatei; sonst die Standardausgabe";
@@ -588,7 +588,7 @@ german! {
         "Höhe der Materialoberfläche, für Eilgänge und für Postprozessoren, die sie brauchen; in Programmen von pathbuild steht sie";
     "Largest allowed difference between a measured and a drawn height",
         "Größte erlaubte Differenz zwischen gemessener und gezeichneter Höhe";
-    "Print the lines of `DRAWING_Clean.gcode` that match", "Gibt die Zeilen von `ZEICHNUNG_Clean.gcode` aus, die passen";
+    "Print the lines of `DRAWING_Clean.gcode` that match", "Gibt die Zeilen von `ZEICHNUNG_Clean.gcode` aus, auf die REGEX passt";
     "Take values that are missing in `DRAWING_Z.txt` from a sender's log, one `[PRB:X,Y,Z:1]` for each probe, in order",
         "Nimmt Werte, die in `ZEICHNUNG_Z.txt` fehlen, aus dem Protokoll eines Sendeprogramms: je Z-Probe ein `[PRB:X,Y,Z:1]`, der Reihe nach";
     "Write the files of `[emit] targets` as well", "Schreibt auch die Dateien von `[emit] targets`";
@@ -597,7 +597,7 @@ german! {
         "Zeigt die Bibliothek als Seite, die sich selbst aktualisiert: auf diesem Rechner an Port 8347 oder an ADRESSE (PORT, IP, IP:PORT oder NAME:PORT)";
     "With --serve: show the page in the browser", "Mit --serve: zeigt die Seite im Browser";
     "With --serve: end when the page has been closed", "Mit --serve: endet, wenn die Seite geschlossen worden ist";
-    "Show only texts that match", "Zeigt nur Texte, die passen";
+    "Show only texts that match", "Zeigt nur Texte, auf die REGEX passt";
     "File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture",
         "Zieldatei: .svg, .png, .pdf, .html oder .json (das Bild als Daten); sonst zeigt der Browser das Bild";
     "Show the stock when all moves are done, from above, in a file .svg, .png or .pdf",

@@ -373,7 +373,7 @@ german! {
     "Do not trust the tree: read no file outside of it, and run no command that it names",
         "Traut dem Verzeichnisbaum nicht: liest keine Datei außerhalb und führt keinen dort genannten Befehl aus";
     "Date that waivers are compared with (default: `SOURCE_DATE_EPOCH`, else today in UTC)",
-        "Datum für den Vergleich mit Ausnahmen (sonst `SOURCE_DATE_EPOCH`, sonst heute in UTC)";
+        "Datum, mit dem befristete Ausnahmen verglichen werden (sonst `SOURCE_DATE_EPOCH`, sonst heute in UTC)";
     "Report only findings that are not in this file (default: pathbuild-baseline.txt beside pathbuild.toml)",
         "Zeigt nur Befunde, die nicht in dieser Datei stehen (sonst: pathbuild-baseline.txt neben pathbuild.toml)";
     "Write all findings into the baseline file instead of reporting them",
@@ -387,7 +387,7 @@ german! {
         "eine solche Meldung gibt es nicht: `pathbuild explain` führt alle Codes auf";
     "Use no cached results and cache none", "Verwendet keine gespeicherten Ergebnisse und speichert keine";
     "Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)",
-        "Verzeichnis für gespeicherte Ergebnisse, auch für Kopien des Verzeichnisbaums (auch: `PATHBUILD_CACHE_DIR`)";
+        "Verzeichnis für gespeicherte Ergebnisse, das sich Kopien des Verzeichnisbaums teilen (auch: `PATHBUILD_CACHE_DIR`)";
     "With the faulty text underlined, help and notes", "Mit unterstrichenem Text, Hilfe und Hinweisen";
     "One line each", "Je eine Zeile";
     "One JSON object a line", "Je Zeile ein JSON-Objekt";

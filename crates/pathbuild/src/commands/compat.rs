@@ -122,7 +122,7 @@ pub(crate) fn translate(arguments: &[String], lang: Lang) -> Result<Translation,
     if parsed.lacks_correction() {
         return Err(say(
             "{} is missing: the largest allowed difference between a measured and a drawn height in mm, as in /m0.5",
-            "{} fehlt: die größte erlaubte Differenz zwischen gemessener und gezeichneter Höhe in mm, etwa /m0,5",
+            "{} fehlt: die größte erlaubte Differenz zwischen gemessener und gezeichneter Höhe in mm, etwa /m0.5",
             "/m",
         ));
     }
