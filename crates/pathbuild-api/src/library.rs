@@ -368,7 +368,7 @@ fn revision_files<'w>(
     if workspace.working_directory.as_str().is_empty() {
         let [en, de] = [
             "the library has no directory on disk, so it has no revisions",
-            "die Bibliothek hat kein Verzeichnis auf der Platte und deshalb keine Revisionen",
+            "die Bibliothek hat kein Verzeichnis auf dem Datenträger und deshalb keine Revisionen",
         ];
         return Err(Error::Refused(workspace.choose(en, de).to_owned()));
     }

@@ -349,7 +349,7 @@ impl Source {
 }
 
 pub(crate) fn utf8(path: PathBuf, lang: Option<Lang>) -> Result<Utf8PathBuf, Error> {
-    let [en, de] = ["{}: the name is not UTF-8", "{}: der Name ist nicht in UTF-8"];
+    let [en, de] = ["{}: the name is not UTF-8", "{}: der Name ist kein UTF-8"];
     Utf8PathBuf::from_path_buf(path).map_err(|path| refusal(lang, en, de, &path.to_string_lossy()))
 }
 

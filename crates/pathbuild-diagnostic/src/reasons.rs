@@ -42,7 +42,7 @@ words! {
     /// A built-in post inserts a file, although it has no directory.
     NO_DIRECTORY_OF_POST: "this post has no directory", "dieser Postprozessor hat kein Verzeichnis";
     /// The file is not UTF-8 text.
-    NOT_UTF_8: "it is not UTF-8", "sie ist nicht in UTF-8";
+    NOT_UTF_8: "it is not UTF-8", "sie ist kein UTF-8";
     /// A cache file belongs to another user, or is not a regular file.
     NO_OWN_FILE: "it is not a regular file of this user", "es ist keine gewöhnliche Datei dieses Benutzers";
     /// A cache file is larger than any that pathbuild writes.

@@ -70,7 +70,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
             Ok(_) => {
                 context.printer.status(context.choose(
                     "the configuration, its post-processor or its baseline is missing or invalid: nothing is checked until this is fixed",
-                    "die Konfiguration, ihr Postprozessor oder ihre Baseline fehlt oder ist fehlerhaft: es wird erst weiter geprüft, wenn das behoben ist",
+                    "die Konfiguration, ihr Postprozessor oder ihre Liste bekannter Befunde fehlt oder ist fehlerhaft: es wird erst weiter geprüft, wenn das behoben ist",
                 ));
                 while Sources::of(&Context::of(cli).0) == sources {
                     if server.as_ref().is_some_and(Server::is_over) {

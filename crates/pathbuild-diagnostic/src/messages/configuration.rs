@@ -233,7 +233,7 @@ messages! {
     /// A configuration in a subdirectory, which has no effect because the run has no configuration.
     UNUSED_WITHOUT_ANY: UnusedConfiguration {
         en: "this configuration does not apply: the run uses none, because there is no pathbuild.toml in the directory where it starts, or above it",
-        de: "diese Konfiguration gilt nicht: der Lauf verwendet keine, weil in seinem Ausgangsverzeichnis und darüber keine liegt",
+        de: "diese Konfiguration gilt nicht: der Lauf verwendet keine, weil es in seinem Ausgangsverzeichnis und darüber keine pathbuild.toml gibt",
         help_en: "check this directory in a run of its own, or name the intended configuration with --config",
         help_de: "dieses Verzeichnis in einem eigenen Lauf prüfen oder die gemeinte Konfiguration mit --config nennen",
     }
@@ -275,7 +275,7 @@ messages! {
     /// A glob of a table `[[severity-in]]` that matches neither a drawing nor a program.
     GLOB_WITHOUT_FILE: GlobWithoutFile {
         en: "`files` ({glob}) matches no drawing and no program, so it sets no severity",
-        de: "auf `files` ({glob}) passt keine Zeichnung und kein Programm: es legt keinen Schweregrad fest",
+        de: "`files` ({glob}) passt auf keine Zeichnung und kein Programm und legt daher keinen Schweregrad fest",
         help_en: "write the name as seen from pathbuild.toml, with / and without ./: old/** stands for everything in and below the directory old",
         help_de: "den Namen so schreiben, wie er von pathbuild.toml aus heißt, mit / und ohne ./: old/** steht für alles im Verzeichnis old und darunter",
     }
@@ -289,22 +289,22 @@ messages! {
     /// Note: a waiver would apply, but its last day has passed.
     WAIVER_ENDED: InvalidConfiguration {
         en: "accepted until {until} by {place}; the date of this run is {date} ({source})",
-        de: "hingenommen bis {until} durch {place}; das Datum dieses Laufs ist {date} ({source})",
+        de: "laut {place} hingenommen bis {until}; das Datum dieses Laufs ist {date} ({source})",
     }
     /// Note: a tool is deeper in the material than when the finding was accepted.
     WAIVER_DEEPER: InvalidConfiguration {
         en: "accepted up to a depth of {accepted} mm by {place}; here it is {depth} mm",
-        de: "hingenommen bis zu einer Tiefe von {accepted} mm durch {place}; hier sind es {depth} mm",
+        de: "laut {place} hingenommen bis zu einer Tiefe von {accepted} mm; hier sind es {depth} mm",
     }
     /// Note: a waiver written by an older version accepts a tool in the material without stating the depth.
     WAIVER_WITHOUT_DEPTH: InvalidConfiguration {
         en: "accepted by {place}, which does not state the depth: accept the finding again",
-        de: "hingenommen durch {place}, aber ohne Tiefe: den Befund noch einmal hinnehmen",
+        de: "laut {place} hingenommen, aber ohne Angabe der Tiefe: den Befund noch einmal hinnehmen",
     }
     /// Note: a waiver with a last day does not apply because the date of the run is unknown.
     WAIVER_WITHOUT_DATE: InvalidConfiguration {
         en: "accepted until {until} by {place}, which does not hold here because this run has no date",
-        de: "hingenommen bis {until} durch {place}; das gilt hier nicht, weil dieser Lauf kein Datum hat",
+        de: "laut {place} hingenommen bis {until}; das gilt hier nicht, weil dieser Lauf kein Datum hat",
     }
     /// Note: the configuration sets a severity until a date.
     SEVERITY_UNTIL: InvalidConfiguration {

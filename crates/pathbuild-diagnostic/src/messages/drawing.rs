@@ -99,14 +99,14 @@ messages! {
     /// A line type without a meaning.
     UNKNOWN_LINE_TYPE: UnknownLineType {
         en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
-        de: "Linientyp {line_type} hat auf einem Pfadlayer keine Bedeutung; Elemente damit: {count}",
+        de: "Linientyp {line_type} hat auf einem Pfadlayer keine Bedeutung; betroffene Elemente: {count}",
         help_en: "use one of {known} (each also with 2, X2 or TINY added), or define the name under [line-types] in pathbuild.toml",
         help_de: "einen von {known} verwenden (jeweils auch mit angehängtem 2, X2 oder TINY) oder den Namen unter [line-types] in pathbuild.toml festlegen",
     }
     /// A line type without a meaning, with a suggestion.
     LINE_TYPE_LIKE_ANOTHER: UnknownLineType {
         en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
-        de: "Linientyp {line_type} hat auf einem Pfadlayer keine Bedeutung; Elemente damit: {count}",
+        de: "Linientyp {line_type} hat auf einem Pfadlayer keine Bedeutung; betroffene Elemente: {count}",
         help_en: "if it means {like}, add this line under [line-types] in pathbuild.toml: \"{line_type}\" = \"{like}\"",
         help_de: "wenn {like} gemeint ist, unter [line-types] in pathbuild.toml diese Zeile einfügen: \"{line_type}\" = \"{like}\"",
     }
@@ -115,12 +115,12 @@ messages! {
         en: "line type {line_type} has no meaning on {element}; elements like this: {count}",
         de: "{element} mit Linientyp {line_type} hat keine Bedeutung; Elemente dieser Art: {count}",
         help_en: "on circles, use CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT or PHANTOM; on lines and arcs, use any line type except PHANTOM",
-        help_de: "auf Kreisen CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT oder PHANTOM verwenden, auf Linien und Bögen jeden Linientyp außer PHANTOM",
+        help_de: "bei Kreisen CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT oder PHANTOM verwenden, bei Linien und Bögen jeden Linientyp außer PHANTOM",
     }
     /// Support bars on a drilled hole.
     BARS_ON_HOLE: UnknownLineType {
         en: "BORDER and CENTER have no meaning on a drilled hole",
-        de: "BORDER und CENTER haben auf einem Bohrloch keine Bedeutung",
+        de: "BORDER und CENTER haben bei einem Bohrloch keine Bedeutung",
         help_en: "use CONTINUOUS (down to B) or DIVIDE (down to D): a circle of the cutter's diameter is drilled and leaves no support bars",
         help_de: "CONTINUOUS (bis B) oder DIVIDE (bis D) verwenden: ein Kreis mit dem Durchmesser des Fräsers wird gebohrt und lässt keine Stützstege",
     }
@@ -192,8 +192,8 @@ messages! {
     }
     /// A circle only slightly larger than the cutter.
     NEARLY_DRILLED: NearlyDrilled {
-        en: "the circle's diameter of {diameter} mm is only {difference} mm larger than the cutter's, O{tool}: it is not drilled, but milled along a helix of {radius} mm radius",
-        de: "der Kreisdurchmesser {diameter} mm ist nur {difference} mm größer als der des Fräsers, O{tool}: er wird nicht gebohrt, sondern auf einer Helix von {radius} mm Radius gefräst",
+        en: "the circle's diameter of {diameter} mm is only {difference} mm larger than the cutter's, O{tool}: the circle is not drilled, but milled along a helix of {radius} mm radius",
+        de: "der Kreisdurchmesser {diameter} mm ist nur {difference} mm größer als der des Fräsers, O{tool}: der Kreis wird nicht gebohrt, sondern auf einer Helix von {radius} mm Radius gefräst",
         help_en: "draw it with a diameter of {tool} mm to drill it; `hole-margin` under [warnings] sets the limit",
         help_de: "zum Bohren mit {tool} mm Durchmesser zeichnen; `hole-margin` unter [warnings] setzt die Grenze",
     }
@@ -275,7 +275,7 @@ messages! {
     /// A path that is embedded twice by segments on top of each other.
     SUBPATH_TWICE: LeftoverElement {
         en: "path {path} is embedded twice, by two segments on top of each other: it is milled twice here",
-        de: "Pfad {path} ist doppelt eingebettet, durch zwei Segmente aufeinander: er wird hier zweimal gefräst",
+        de: "Pfad {path} ist doppelt eingebettet, durch zwei aufeinanderliegende Segmente: er wird hier zweimal gefräst",
         help_en: "delete one of the two segments, or move it to where the second one belongs",
         help_de: "eines der beiden Segmente löschen oder dorthin schieben, wo das zweite Teil hingehört",
     }
@@ -289,14 +289,14 @@ messages! {
     /// A polyline or spline whose points all lie in one place.
     CURVE_WITHOUT_LENGTH: LeftoverElement {
         en: "{entity} has no length: all of its points coincide, so it draws nothing",
-        de: "{entity} hat keine Länge: alle Punkte liegen auf derselben Stelle, und nichts wird dadurch gezeichnet",
+        de: "{entity} hat keine Länge: alle Punkte fallen zusammen, sodass nichts zu sehen ist",
         help_en: "delete it, or draw it again",
         help_de: "löschen oder neu zeichnen",
     }
     /// A milled line or arc that is far shorter than the cutter is wide.
     CUT_HARDLY_LONG: LeftoverElement {
         en: "{element} here is only {length} mm long: the cutter plunges and mills hardly anything",
-        de: "hier ist {element} nur {length} mm lang: der Fräser taucht hier ein und fräst fast nichts",
+        de: "hier ist {element} nur {length} mm lang: der Fräser taucht ein und fräst fast nichts",
         help_en: "delete it and join its neighbours; as long as it is there, it is milled with its own depth or that of the path",
         help_de: "löschen und die Nachbarn verbinden; solange es da ist, gilt hier die Tiefe aus dem eigenen Text oder die des Pfads",
     }
@@ -333,7 +333,7 @@ messages! {
         en: "a layer with clamps is frozen or off, but its clamps still apply",
         de: "ein Layer mit Spannmitteln ist gefroren oder ausgeschaltet, die Spannmittel gelten trotzdem",
         help_en: "make it visible, or move clamps that no longer exist to a layer that `keep-out` does not match",
-        help_de: "sichtbar machen oder Spannmittel, die es nicht mehr gibt, auf einen Layer legen, den `keep-out` nicht nennt",
+        help_de: "sichtbar machen oder Spannmittel, die es nicht mehr gibt, auf einen Layer legen, auf den `keep-out` nicht passt",
     }
     /// An open outline of a clamp.
     OUTLINE_OPEN: InvalidKeepOut {
@@ -459,7 +459,7 @@ messages! {
         en: "the section {found} comes after ENTITIES, where its contents would be ignored",
         de: "auf den Abschnitt ENTITIES folgt ein Abschnitt {found}; sein Inhalt würde nicht beachtet",
         help_en: "open the drawing in a CAD program and save it again: the order is HEADER, TABLES, BLOCKS, ENTITIES, each at most once",
-        help_de: "die Zeichnung in einem CAD-Programm öffnen und neu speichern: Die Reihenfolge ist HEADER, TABLES, BLOCKS, ENTITIES, jeder höchstens einmal",
+        help_de: "die Zeichnung in einem CAD-Programm öffnen und neu speichern: die Reihenfolge ist HEADER, TABLES, BLOCKS, ENTITIES, jeder Abschnitt höchstens einmal",
     }
     /// A section that comes twice.
     SECTION_TWICE: InvalidDxf {
@@ -513,7 +513,7 @@ messages! {
     /// A coordinate or length that is too large, or a length of zero.
     TOO_LARGE: InvalidDxf {
         en: "{entity} lies or reaches more than 1,000,000 mm from the origin, or its size is 0",
-        de: "{entity} liegt oder reicht weiter als 1.000.000 mm vom Nullpunkt, oder seine Größe ist 0",
+        de: "{entity} liegt mehr als 1.000.000 mm vom Nullpunkt entfernt, reicht so weit oder hat die Größe 0",
         help_en: "draw near the origin, at true size: move the entity or its block, or delete the entity",
         help_de: "nahe am Nullpunkt und in wahrer Größe zeichnen: das Element oder seinen Block verschieben, oder das Element löschen",
     }
@@ -534,7 +534,7 @@ messages! {
     /// Bytes of a text that are invalid in the encoding of the file.
     UNDECODABLE: DoubtfulEncoding {
         en: "the file is in {encoding}, in which some bytes of this text are invalid",
-        de: "die Datei ist in {encoding} kodiert, worin einige Bytes dieses Textes ungültig sind",
+        de: "die Datei ist in {encoding} kodiert; einige Bytes dieses Textes sind darin ungültig",
         help_en: "save the drawing as R2007 or later; special characters in texts and layer names may be wrong",
         help_de: "die Zeichnung als R2007 oder neuer speichern; Sonderzeichen in Texten und Layernamen können falsch sein",
     }
@@ -549,8 +549,8 @@ messages! {
     FOREIGN: UnsupportedCurve {
         en: "{entity} is left out: a path consists of lines, arcs, circles, polylines and texts",
         de: "{entity} wird ausgelassen: ein Pfad besteht aus Linien, Bögen, Kreisen, Polylinien und Texten",
-        help_en: "draw it with such elements (many CAD programs can explode it), or move it to a layer that is not a path",
-        help_de: "mit solchen Elementen zeichnen (viele CAD-Programme können es auflösen) oder auf einen Layer legen, der kein Pfad ist",
+        help_en: "draw it with such elements (many CAD programs can explode it), or move it to a layer that is not a path layer",
+        help_de: "mit solchen Elementen zeichnen (viele CAD-Programme können das Objekt auflösen) oder auf einen Layer legen, der kein Pfadlayer ist",
     }
     /// An ELLIPSE or SPLINE that is left out, because `approximate-curves` is not set.
     NOT_APPROXIMATED: UnsupportedCurve {
@@ -562,7 +562,7 @@ messages! {
     /// The first polyline, block or curve that is left out because of `compatible`. Reported once per drawing.
     NOT_COMPATIBLE: UnsupportedCurve {
         en: "polylines, blocks and curves on path layers are left out, as in PathDxf2GCode; the first is {entity}",
-        de: "Polylinien, Blöcke und Kurven auf Pfadlayern werden wie in PathDxf2GCode ausgelassen; zuerst {entity}",
+        de: "Polylinien, Blöcke und Kurven auf Pfadlayern werden wie in PathDxf2GCode ausgelassen; das erste solche Element: {entity}",
         help_en: "explode them into lines and arcs, or remove `compatible` so that they are milled",
         help_de: "in Linien und Bögen auflösen oder `compatible` weglassen, damit sie gefräst werden",
     }
@@ -583,7 +583,7 @@ messages! {
     /// A spline given by fit points instead of control points.
     SPLINE_BY_FIT_POINTS: UnsupportedCurve {
         en: "{entity} is left out: it has fit points, but no control points",
-        de: "{entity} wird ausgelassen: er hat Passpunkte, aber keine Kontrollpunkte",
+        de: "{entity} wird ausgelassen: er hat Anpassungspunkte, aber keine Kontrollpunkte",
         help_en: "draw it as a spline with control points, or as a polyline with arcs",
         help_de: "als Spline mit Kontrollpunkten zeichnen oder als Polylinie mit Bögen",
     }
@@ -634,7 +634,7 @@ messages! {
         en: "{entity} is marked invisible, but is still used",
         de: "{entity} ist als unsichtbar markiert, gilt aber trotzdem",
         help_en: "show all hidden objects in the CAD and delete what is not meant to be milled",
-        help_de: "im CAD alle verborgenen Objekte anzeigen und löschen, was nicht gefräst werden soll",
+        help_de: "im CAD alle ausgeblendeten Objekte anzeigen und löschen, was nicht gefräst werden soll",
     }
     /// An entity in a block that is inserted on a frozen layer.
     INSERTED_FROZEN: LayerNotVisible {

@@ -6,7 +6,7 @@ messages! {
         en: "cannot read the file: {reason}",
         de: "die Datei ist nicht lesbar: {reason}",
         help_en: "check the name, and that the CAD has not locked the file",
-        help_de: "den Namen prüfen, und ob das CAD die Datei gesperrt hat",
+        help_de: "prüfen, ob der Name stimmt und ob das CAD die Datei gesperrt hat",
     }
     /// A directory that the system refuses to list.
     UNLISTABLE: UnreadableFile {
@@ -93,35 +93,35 @@ messages! {
     /// A program that would take more memory than the limit permits.
     TOO_MUCH_MEMORY: LimitReached {
         en: "this path has {count} moves, which take about {size} bytes of memory; the limit is {limit}",
-        de: "dieser Pfad hat {count} Bewegungen, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
+        de: "dieser Pfad hat {count} Bewegungen, die etwa {size} Bytes Speicher brauchen; die Grenze ist {limit}",
         help_en: "check infeed I and depth B (a wrong I gives thousands of passes); or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I und Tiefe B prüfen (ein falsches I ergibt tausende Durchgänge); oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// `.gitignore` and `.ignore` files whose total size exceeds the limit; their directory is skipped.
     TOO_MANY_RULES: LimitReached {
         en: "the .gitignore and .ignore files below {directory} add up to more than {limit} bytes: the directory is skipped",
-        de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Byte: das Verzeichnis wird übergangen",
+        de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Bytes: das Verzeichnis wird übergangen",
         help_en: "name a deeper directory, or raise `{key}` under [limits] in pathbuild.toml: together, these files may be 16 times as large as that limit",
         help_de: "ein tieferes Verzeichnis nennen oder `{key}` unter [limits] in pathbuild.toml erhöhen: zusammen dürfen diese Dateien 16-mal so groß sein wie diese Grenze",
     }
     /// A line of output that is longer than any reader accepts, including pathbuild itself.
     OUTPUT_LINE_TOO_LONG: LimitReached {
         en: "line {line} of {name} has {length} bytes, which exceeds the limit of {limit}; nothing is written",
-        de: "Zeile {line} von {name} hat {length} Byte und überschreitet damit die Grenze von {limit}; es wird nichts geschrieben",
+        de: "Zeile {line} von {name} hat {length} Bytes und überschreitet damit die Grenze von {limit}; es wird nichts geschrieben",
         help_en: "shorten the comment Q; with many probes, use a `z-model` other than \"plane\": each formula then uses only four probes",
         help_de: "den Kommentar Q kürzen; bei vielen Proben ein anderes `z-model` als \"plane\" wählen: jede Formel verwendet dann nur vier Proben",
     }
     /// A program that is too large to write.
     OUTPUT_TOO_LARGE: LimitReached {
         en: "this program is larger than {limit} bytes; it is not written",
-        de: "dieses Programm ist größer als {limit} Byte; es wird nicht geschrieben",
+        de: "dieses Programm ist größer als {limit} Bytes; es wird nicht geschrieben",
         help_en: "check infeed I, depth B and the length of comments Q; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I, Tiefe B und die Länge der Kommentare Q prüfen; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A setup sheet, a probing program or a file of measured values that is too large to write.
     FILE_TOO_LARGE: LimitReached {
         en: "{name} is larger than {limit} bytes; neither it nor the files that belong to it are written",
-        de: "{name} ist größer als {limit} Byte; weder diese Datei noch die zugehörigen werden geschrieben",
+        de: "{name} ist größer als {limit} Bytes; weder diese Datei noch die zugehörigen werden geschrieben",
         help_en: "if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
@@ -144,7 +144,7 @@ messages! {
         en: "cannot remove {name}: {reason}",
         de: "{name} kann nicht entfernt werden: {reason}",
         help_en: "check the directory's permissions, and whether another program has the file open",
-        help_de: "Rechte des Verzeichnisses prüfen, und ob ein anderes Programm die Datei offen hat",
+        help_de: "die Rechte des Verzeichnisses prüfen, und ob ein anderes Programm die Datei geöffnet hat",
     }
     /// A file name that would change the meaning of a make rule.
     UNNAMEABLE: CannotWrite {
@@ -165,12 +165,12 @@ messages! {
         en: "cannot write {name}: {reason}",
         de: "{name} kann nicht geschrieben werden: {reason}",
         help_en: "check the directory's permissions and the free space, and whether another program has the file open; nothing was written under that name",
-        help_de: "die Rechte des Verzeichnisses und den freien Speicherplatz prüfen, und ob ein anderes Programm die Datei offen hat; unter diesem Namen wurde nichts geschrieben",
+        help_de: "die Rechte des Verzeichnisses und den freien Speicherplatz prüfen, und ob ein anderes Programm die Datei geöffnet hat; unter diesem Namen wurde nichts geschrieben",
     }
     /// A G-code program with more steps than the limit permits.
     PROGRAM_TOO_LONG: LimitReached {
         en: "this program has more than {count} steps, which take about {size} bytes of memory; the limit is {limit}",
-        de: "dieses Programm hat mehr als {count} Schritte, die etwa {size} Byte Speicher brauchen; die Grenze ist {limit}",
+        de: "dieses Programm hat mehr als {count} Schritte, die etwa {size} Bytes Speicher brauchen; die Grenze ist {limit}",
         help_en: "check the repetitions (L or K) and the step Q of drilling cycles; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Wiederholungen (L oder K) und Schrittweite Q der Bohrzyklen prüfen; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }

@@ -23,7 +23,7 @@ messages! {
     /// Lower-case words such as `g0 f1000`, where only upper case is accepted.
     SMALL_LETTER: UnknownWord {
         en: "common builds of {dialect} do not read lower-case letters: write {letter}",
-        de: "gängige Versionen von {dialect} lesen keine Kleinbuchstaben: {letter} schreiben",
+        de: "gängige Varianten von {dialect} lesen keine Kleinbuchstaben: {letter} schreiben",
         help_en: "write all words in upper case",
         help_de: "alle Wörter in Großbuchstaben schreiben",
     }
@@ -37,14 +37,14 @@ messages! {
     /// A word that the post does not write and that is not interpreted, in a program read in the post's dialect.
     FOREIGN_WORD: ForeignWord {
         en: "{word} is not checked: the post for {dialect} does not write it, and its effect is not tracked",
-        de: "{word} ist nicht geprüft: der Postprozessor für {dialect} schreibt es nicht, und seine Wirkung wird nicht verfolgt",
+        de: "{word} ist nicht geprüft: der Postprozessor für {dialect} schreibt es nicht, und seine Wirkung wird nicht berücksichtigt",
         help_en: "remove it, or check its effect at the control",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
     /// A word that the post does not write and that is not interpreted, in a program read by means of the post's definition.
     FOREIGN_TO_DEFINITION: ForeignWord {
         en: "{word} is not checked: {post} does not write it, and its effect is not tracked",
-        de: "{word} ist nicht geprüft: {post} schreibt es nicht, und seine Wirkung wird nicht verfolgt",
+        de: "{word} ist nicht geprüft: {post} schreibt es nicht, und seine Wirkung wird nicht berücksichtigt",
         help_en: "remove it, or check its effect at the control",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
@@ -53,7 +53,7 @@ messages! {
         en: "{word} is written as {written}",
         de: "{word} wird als {written} geschrieben",
         help_en: "check that {written} does what the program needs",
-        help_de: "prüfen, ob das Programm stattdessen dies tun darf",
+        help_de: "prüfen, ob {written} bewirkt, was das Programm braucht",
     }
     /// A word of the program that the output of a post lacks.
     WORD_LEFT_OUT: ForeignWord {
@@ -74,7 +74,7 @@ messages! {
         en: "the line begins with `{word}`: {dialect} obeys only lines that begin with G, M or T",
         de: "die Zeile beginnt mit `{word}`: {dialect} führt nur Zeilen aus, die mit G, M oder T beginnen",
         help_en: "write the command at the beginning of the line",
-        help_de: "den Befehl davorsetzen",
+        help_de: "den Befehl an den Anfang der Zeile setzen",
     }
     /// Two commands in one line, in a dialect that obeys only the first.
     SECOND_COMMAND: ConflictingWords {
@@ -212,7 +212,7 @@ messages! {
     /// Brackets nested more deeply than the limit.
     NESTED_TOO_DEEPLY: InvalidExpression {
         en: "brackets are nested more than {most} levels deep; the line is ignored",
-        de: "Klammern sind über mehr als {most} Ebenen verschachtelt; die Zeile bleibt unbeachtet",
+        de: "Klammern sind mehr als {most} Ebenen tief verschachtelt; die Zeile bleibt unbeachtet",
         help_en: "split the expression: assign part of it to a parameter first",
         help_de: "den Ausdruck teilen: einen Teil davon zuerst einem Parameter zuweisen",
     }
@@ -268,7 +268,7 @@ messages! {
     /// A comment style of another dialect.
     FOREIGN_COMMENT: DoubtfulSpelling {
         en: "{dialect} is not known to accept comments with `{sign}`",
-        de: "von {dialect} ist nicht bekannt, dass es Kommentare mit `{sign}` annimmt",
+        de: "es ist nicht bekannt, ob {dialect} Kommentare mit `{sign}` annimmt",
         help_en: "begin comments with {comment}",
         help_de: "Kommentare mit {comment} beginnen",
     }
@@ -345,7 +345,7 @@ messages! {
     /// A macro statement of a control whose macros are not interpreted.
     MACRO_NOT_FOLLOWED: WordNotFollowed {
         en: "pathbuild does not interpret macros of {dialect}; the line is ignored",
-        de: "Makros von {dialect} werden nicht verfolgt; die Zeile bleibt unbeachtet",
+        de: "pathbuild wertet Makros von {dialect} nicht aus; die Zeile bleibt unbeachtet",
         help_en: "check the program at the control, or write the moves out",
         help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
     }
@@ -359,7 +359,7 @@ messages! {
     /// A second `%`, which has no known meaning for XpertMILL.
     SECOND_PERCENT: DoubtfulSpelling {
         en: "`%` begins a program; what it does for {dialect} anywhere else is not known",
-        de: "`%` beginnt ein Programm; was {dialect} weiter unten damit macht, ist nicht bekannt",
+        de: "mit `%` beginnt ein Programm; was {dialect} an anderer Stelle damit macht, ist nicht bekannt",
         help_en: "remove the line",
         help_de: "die Zeile entfernen",
     }
@@ -373,7 +373,7 @@ messages! {
     /// An O word (subroutine or branch) that is not interpreted.
     O_WORD: WordNotFollowed {
         en: "pathbuild does not interpret this O word; the lines below are read once, in the order of the file",
-        de: "dieses O-Wort wird nicht verfolgt; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
+        de: "pathbuild wertet dieses O-Wort nicht aus; die Zeilen darunter werden einmal gelesen, in der Reihenfolge der Datei",
         help_en: "write the moves out, or check the program at the control",
         help_de: "die Bewegungen ausschreiben oder das Programm an der Steuerung prüfen",
     }
@@ -394,7 +394,7 @@ messages! {
     /// A subprogram that calls itself. That call is not interpreted.
     CALLED_BY_ITSELF: WordNotFollowed {
         en: "the subprogram {name} calls itself; this call is left out",
-        de: "das Unterprogramm {name} ruft sich selbst auf; dieser Aufruf wird nicht verfolgt",
+        de: "das Unterprogramm {name} ruft sich selbst auf; dieser Aufruf wird ausgelassen",
         help_en: "write a loop with a number of repetitions instead",
         help_de: "stattdessen eine Schleife mit einer Anzahl von Wiederholungen schreiben",
     }
@@ -408,7 +408,7 @@ messages! {
     /// A `do` loop that LinuxCNC ends too early, because an earlier `while` loop was left by `break`.
     ENDED_BY_EARLIER_BREAK: WordNotFollowed {
         en: "LinuxCNC ends the do loop {name} here, although its condition holds, because a break left a while loop in line {earlier}",
-        de: "LinuxCNC beendet die do-Schleife {name} hier, obwohl ihre Bedingung gilt, weil ein break in Zeile {earlier} eine while-Schleife verlassen hat",
+        de: "LinuxCNC beendet die do-Schleife {name} hier, obwohl ihre Bedingung erfüllt ist, weil ein break in Zeile {earlier} eine while-Schleife verlassen hat",
         help_en: "write a while loop instead of the do loop, or end the earlier loop by its condition",
         help_de: "statt der do-Schleife eine while-Schleife schreiben, oder die frühere Schleife durch ihre Bedingung beenden",
     }
@@ -436,7 +436,7 @@ messages! {
     /// Calls and loops that are nested more deeply than the limit.
     CALLS_TOO_DEEP: WordNotFollowed {
         en: "subprograms and loops are nested more than {most} levels deep: this one is left out",
-        de: "Unterprogramme und Schleifen sind mehr als {most}fach geschachtelt: hier wird nicht weiter verfolgt",
+        de: "Unterprogramme und Schleifen sind mehr als {most} Ebenen tief verschachtelt: diese Ebene wird ausgelassen",
         help_en: "write the innermost moves out",
         help_de: "die innersten Bewegungen ausschreiben",
     }
@@ -450,7 +450,7 @@ messages! {
     /// A command that is not interpreted, although it may affect later moves.
     NOT_FOLLOWED: WordNotFollowed {
         en: "pathbuild does not interpret {word}: from here on, the machine may move differently",
-        de: "{word} wird nicht verfolgt: ab hier kann sich die Maschine anders bewegen",
+        de: "pathbuild wertet {word} nicht aus: ab hier kann sich die Maschine anders bewegen",
         help_en: "check the program at the control, or write the moves out",
         help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
     }
@@ -464,7 +464,7 @@ messages! {
     /// A word that common builds of a control ignore.
     OFF_IN_BUILDS: IgnoredWord {
         en: "common builds of {dialect} ignore {word}",
-        de: "übliche Varianten von {dialect} übergehen {word}",
+        de: "gängige Varianten von {dialect} übergehen {word}",
         help_en: "write the program without it; if the machine's firmware was built with it, accept this warning with `--accept`",
         help_de: "das Programm ohne dieses Wort schreiben; ist die Firmware der Maschine damit übersetzt, die Warnung mit `--accept` hinnehmen",
     }
@@ -525,7 +525,7 @@ messages! {
     /// Coordinates in a line while no motion mode is active.
     NO_MOTION: MissingWord {
         en: "these coordinates have no motion word: none of G0 to G3 is active here",
-        de: "hier stehen Koordinaten ohne Bewegung: keines von G0 bis G3 ist aktiv",
+        de: "diese Koordinaten haben kein Bewegungswort: hier ist keines von G0 bis G3 aktiv",
         help_en: "write G0 or G1 before them",
         help_de: "G0 oder G1 davorsetzen",
     }
@@ -539,7 +539,7 @@ messages! {
     /// A drilling cycle of more moves than the limit.
     TOO_MANY_STROKES: ValueOutOfRange {
         en: "this line drills with {count} moves; pathbuild interprets at most {most}",
-        de: "diese Zeile bohrt mit {count} Bewegungen; pathbuild folgt höchstens {most}",
+        de: "diese Zeile bohrt mit {count} Bewegungen; pathbuild wertet höchstens {most} aus",
         help_en: "correct the depth, the depth of a peck (Q) or the number of holes",
         help_de: "die Tiefe, die Tiefe je Hub (Q) oder die Zahl der Bohrungen berichtigen",
     }
@@ -581,7 +581,7 @@ messages! {
         en: "the position of {system} is unknown; it is assumed to be that of {base}",
         de: "die Lage von {system} ist unbekannt; angenommen wird die von {base}",
         help_en: "rely on lengths and on the overall size only if the program stays within one work offset",
-        help_de: "sich auf Längen und Abmessungen nur verlassen, wenn das Programm in einer Nullpunktverschiebung bleibt",
+        help_de: "sich auf Längen und Abmessungen nur verlassen, wenn das Programm bei einer einzigen Nullpunktverschiebung bleibt",
     }
     /// G10 L2 for the active work offset, which had an unknown position before.
     ORIGIN_UNKNOWN: UnknownOffset {
@@ -602,7 +602,7 @@ messages! {
         en: "there is no {inch} or {mm} before the first move; millimetres are assumed",
         de: "vor der ersten Bewegung fehlt {inch} oder {mm}; Millimeter werden angenommen",
         help_en: "state the unit: the control keeps that of the previous program",
-        help_de: "die Einheit angeben: die Steuerung behält die des vorigen Programms",
+        help_de: "die Einheit angeben: die Steuerung behält sonst die des vorigen Programms",
     }
     /// A cut with an F that was stated before a change of the unit, on a control that may read its number in the new unit.
     FEED_IN_OTHER_UNIT: UnitChanged {
@@ -658,7 +658,7 @@ messages! {
         en: "there is no {words} before the first move that depends on it; {taken} is assumed",
         de: "vor der ersten Bewegung, die davon abhängt, fehlt {words}; {taken} wird angenommen",
         help_en: "state it: the control keeps what the previous program set",
-        help_de: "angeben: die Steuerung behält, was das vorige Programm gesetzt hat",
+        help_de: "das Wort angeben: die Steuerung behält sonst, was das vorige Programm gesetzt hat",
     }
     /// Coordinates without a motion word, as XpertMILL accepts them.
     MOTION_NOT_STATED: MotionNotStated {
@@ -670,7 +670,7 @@ messages! {
     /// A helix in a dialect that may not support it.
     HELIX_DOUBTFUL: DoubtfulArc {
         en: "this is an arc with Z, which {dialect} is not known to accept",
-        de: "das ist ein Bogen mit Z, und es ist nicht bekannt, ob {dialect} das annimmt",
+        de: "das ist ein Bogen mit Z; es ist nicht bekannt, ob {dialect} solche Bögen annimmt",
         help_en: "write short lines instead",
         help_de: "stattdessen kurze Strecken schreiben",
     }
@@ -705,7 +705,7 @@ messages! {
     /// An arc with different radii at its ends.
     RADII_DIFFER: ArcRadiiDiffer {
         en: "the arc begins with the radius {start} and ends with {end}: the difference is {difference} mm more than {dialect} accepts",
-        de: "der Bogen beginnt mit dem Radius {start} und endet mit {end}: der Unterschied ist {difference} mm größer, als {dialect} annimmt",
+        de: "der Bogen beginnt mit dem Radius {start} und endet mit {end}: der Unterschied ist {difference} mm größer, als {dialect} zulässt",
         help_en: "write I and J with more decimals, or check the centre",
         help_de: "I und J mit mehr Nachkommastellen schreiben oder den Mittelpunkt prüfen",
     }
@@ -752,14 +752,14 @@ messages! {
     /// An arc given by its radius that is nearly a half circle, so that the centre is imprecise.
     NEAR_HALF_CIRCLE: DoubtfulArc {
         en: "the centre of this arc with R moves by {shift} mm if R changes by {change} mm, which is the precision of the program's numbers",
-        de: "der Mittelpunkt dieses Bogens mit R wandert um {shift} mm, wenn sich R um {change} mm ändert, und die Zahlen des Programms sind nicht feiner",
+        de: "der Mittelpunkt dieses Bogens mit R wandert um {shift} mm, wenn sich R um {change} mm ändert; genauer sind die Zahlen des Programms nicht",
         help_en: "write the arc with I and J, or with more decimals",
         help_de: "den Bogen mit I und J oder mit mehr Nachkommastellen schreiben",
     }
     /// An arc that is nearly a full circle.
     NEAR_FULL_CIRCLE: DoubtfulArc {
         en: "the arc's ends are only {gap} mm apart: it is run as {degrees} degrees, but their last digit decides between a tiny arc and a full circle",
-        de: "die Enden des Bogens liegen nur {gap} mm auseinander: er wird als {degrees} Grad gefahren, aber ihre letzte Ziffer entscheidet zwischen Bogenstück und Vollkreis",
+        de: "die Enden des Bogens liegen nur {gap} mm auseinander: er wird mit {degrees} Grad gefahren, aber die letzte Ziffer der Koordinaten entscheidet zwischen winzigem Bogen und Vollkreis",
         help_en: "for a full circle, give the arc the same start and end; otherwise remove the arc",
         help_de: "für einen Vollkreis Anfang und Ende gleich schreiben; sonst den Bogen entfernen",
     }
@@ -787,7 +787,7 @@ messages! {
     /// A program that exceeds the limit of pieces into which arcs and ramps are divided to simulate the material.
     TOO_MANY_PIECES: LimitReached {
         en: "to track the material, the arcs and slopes of this program are divided into {count} pieces, which exceeds the limit of {limit}; rapid moves into material are not checked",
-        de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die Grenze von {limit}; Eilgänge ins Material werden nicht geprüft",
+        de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die erlaubten {limit}; Eilgänge ins Material werden nicht geprüft",
         help_en: "correct radii and heights that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Radien und Höhen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }

@@ -11,7 +11,7 @@ messages! {
     /// A pattern that matches several paths, where exactly one is needed.
     SEVERAL_MATCHES: SeveralPaths {
         en: "{pattern} matches several paths: {names}",
-        de: "{pattern} entspricht mehreren Pfaden: {names}",
+        de: "{pattern} passt auf mehrere Pfade: {names}",
         help_en: "name one of them",
         help_de: "einen davon nennen",
     }
@@ -25,14 +25,14 @@ messages! {
     /// Searched directories that contain no drawing.
     NO_DRAWING: NothingFound {
         en: "there is no drawing in {directories}",
-        de: "es gibt keine Zeichnung in {directories}",
+        de: "in {directories} gibt es keine Zeichnung",
         help_en: "name a directory with .dxf files; hidden files and those that .gitignore or .ignore excludes do not count",
         help_de: "ein Verzeichnis mit .dxf-Dateien nennen; versteckte und durch .gitignore oder .ignore ausgeschlossene Dateien zählen nicht",
     }
     /// A searched directory that contains no program.
     NO_PROGRAM: NothingFound {
         en: "there is no G-code program in {directory}",
-        de: "es gibt kein G-Code-Programm in {directory}",
+        de: "in {directory} gibt es kein G-Code-Programm",
         help_en: "name a directory that holds .nc, .ngc, .gcode, .tap, .cnc or .din files, or the program itself; hidden files and those that .ignore excludes do not count",
         help_de: "ein Verzeichnis mit .nc-, .ngc-, .gcode-, .tap-, .cnc- oder .din-Dateien nennen, oder das Programm selbst; versteckte und durch .ignore ausgeschlossene Dateien zählen nicht",
     }
@@ -46,21 +46,21 @@ messages! {
     /// A pattern for clamps that matches no layer of the library.
     NO_CLAMP_LAYER: PatternWithoutLayer {
         en: "`keep-out` ({pattern}) matches no layer in any drawing of the library, so collisions with clamps are not checked",
-        de: "auf `keep-out` ({pattern}) passt kein Layer in irgendeiner Zeichnung der Bibliothek: Spannmittel werden nicht geprüft",
+        de: "`keep-out` ({pattern}) passt in keiner Zeichnung der Bibliothek auf einen Layer: Kollisionen mit Spannmitteln werden nicht geprüft",
         help_en: "correct the pattern, which must match the whole name of a layer, or remove the key",
         help_de: "das Muster berichtigen, das auf den ganzen Namen eines Layers passen muss, oder den Schlüssel entfernen",
     }
     /// A pattern for finished parts that matches no layer of the library.
     NO_PART_LAYER: PatternWithoutLayer {
         en: "`part` ({pattern}) matches no layer in any drawing of the library, so no cut is compared with a finished part",
-        de: "auf `part` ({pattern}) passt kein Layer in irgendeiner Zeichnung der Bibliothek: kein Schnitt wird mit einem fertigen Teil verglichen",
+        de: "`part` ({pattern}) passt in keiner Zeichnung der Bibliothek auf einen Layer: kein Schnitt wird mit einem fertigen Teil verglichen",
         help_en: "correct the pattern, which must match the whole name of a layer, or remove the key",
         help_de: "das Muster berichtigen, das auf den ganzen Namen eines Layers passen muss, oder den Schlüssel entfernen",
     }
     /// A path that the file's name contains, but not the drawing.
     PROMISED_PATH: PromisedPath {
         en: "the file is named after path {name}, but the drawing has nothing on a layer of that name",
-        de: "der Dateiname nennt den Pfad {name}, aber auf einem Layer dieses Namens hat die Zeichnung nichts",
+        de: "der Dateiname nennt den Pfad {name}, die Zeichnung enthält aber nichts auf einem Layer dieses Namens",
         help_en: "rename the layer, or the file",
         help_de: "den Layer oder die Datei umbenennen",
     }
@@ -157,7 +157,7 @@ messages! {
         en: "{name} is missing",
         de: "{name} fehlt",
         help_en: "write it with `pathbuild emit`",
-        help_de: "mit emit schreiben",
+        help_de: "mit `pathbuild emit` schreiben",
     }
     /// A file on disk that differs from what `emit` would write.
     OTHER_OUTPUT: NotCurrent {
@@ -225,7 +225,7 @@ messages! {
     /// A proxy line that names a path which does not exist in the drawing.
     PROXY_OF_NOTHING: ProxyDiffers {
         en: "the proxy line names {name}, which is not a path of this drawing",
-        de: "die Stellvertreterlinie nennt {name}, das kein Pfad dieser Zeichnung ist",
+        de: "die Stellvertreterlinie nennt {name}; so heißt kein Pfad dieser Zeichnung",
         help_en: "name one of the drawing's paths: {names}",
         help_de: "einen der Pfade der Zeichnung nennen: {names}",
     }

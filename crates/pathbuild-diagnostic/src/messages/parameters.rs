@@ -166,8 +166,8 @@ messages! {
     JOINED_MATERIAL: DoubtfulValue {
         en: "M is {material} here, but {other} in path {path} of the same program",
         de: "M ist hier {material}, in Pfad {path} desselben Programms aber {other}",
-        help_en: "join only paths that are milled from one plate, or give both the same M",
-        help_de: "nur Pfade verbinden, die aus einer Platte gefräst werden, oder beiden dasselbe M geben",
+        help_en: "join only paths that are milled from one sheet, or give both the same M",
+        help_de: "nur Pfade verbinden, die aus demselben Blech gefräst werden, oder beiden dasselbe M geben",
     }
     /// Two probes of a path with the same name (L).
     PROBE_NAME_TWICE: DoubtfulValue {
@@ -187,15 +187,15 @@ messages! {
     JOINED_THICKNESS: DoubtfulValue {
         en: "T is {thickness} here, but {other} in path {path} of the same program: rapid moves of one may run through material of the other",
         de: "T ist hier {thickness}, in Pfad {path} desselben Programms aber {other}: Eilgänge des einen können durch Material des anderen führen",
-        help_en: "join only paths whose plates do not overlap on the table, or give both the same T",
-        help_de: "nur Pfade verbinden, deren Platten auf dem Tisch nicht übereinanderliegen, oder beiden dasselbe T geben",
+        help_en: "join only paths whose sheets do not overlap on the table, or give both the same T",
+        help_de: "nur Pfade verbinden, deren Bleche sich auf dem Tisch nicht überlappen, oder beiden dasselbe T geben",
     }
     /// A bottom (B) far below the plate.
     BELOW_PLATE: DoubtfulValue {
         en: "B is {value}: {depth} mm below the plate",
         de: "B ist {value}: {depth} mm unter der Platte",
         help_en: "check B, and that nothing lies there that must not be milled; set `below-plate` under [warnings] to allow more than {limit} mm",
-        help_de: "B prüfen, und ob dort nichts liegt, das nicht gefräst werden darf; mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
+        help_de: "prüfen, ob B stimmt und dort nichts liegt, das nicht gefräst werden darf; mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
     }
     /// A bottom below the plate that was probably meant as a depth.
     BELOW_PLATE_BY_DEPTH: DoubtfulValue {
@@ -298,7 +298,7 @@ messages! {
     /// An embedded path without S: its sweep height T + O is not above the material where it is embedded.
     EMBEDDED_SWEEP_TOO_LOW: ParameterOutOfRange {
         en: "this path has no S: where it is embedded, it sweeps at T + O = {value}, which is not above the material there (T{limit})",
-        de: "dieser Pfad hat kein S: eingebettet liegen seine Leerfahrten auf T + O = {value}, nicht über dem Material dort (T{limit})",
+        de: "dieser Pfad hat kein S: wo er eingebettet ist, liegen seine Leerfahrten auf T + O = {value} und damit nicht über dem Material (T{limit})",
         help_en: "give the path an S",
         help_de: "dem Pfad ein S geben",
     }
@@ -382,7 +382,7 @@ messages! {
     /// A variable in a value that must be a literal.
     VARIABLE_NOT_ALLOWED: VariableNotAllowed {
         en: "{letter} cannot use a variable",
-        de: "{letter} kann keine Variable verwenden",
+        de: "{letter} darf keine Variable enthalten",
         help_en: "write the value itself: N, O and @ are needed before variables have values",
         help_de: "den Wert selbst hinschreiben: N, O und @ werden gebraucht, bevor Variablen Werte haben",
     }
@@ -480,7 +480,7 @@ messages! {
     /// A definition of a variable with a range from a greater to a lesser number.
     REVERSED_RANGE: InvalidVariableDefinition {
         en: "the range \"{definition}\" ends with a smaller number than it begins with",
-        de: "der Bereich \"{definition}\" endet unter seinem Anfang",
+        de: "das Ende des Bereichs \"{definition}\" ist kleiner als sein Anfang",
         help_en: "write the smaller number first",
         help_de: "die kleinere Zahl zuerst schreiben",
     }
@@ -503,14 +503,14 @@ messages! {
         en: "variable \"{variable}\" of path {name} has no value",
         de: "Variable \"{variable}\" des Pfads {name} hat keinen Wert",
         help_en: "add it here, for example :{variable}{example}; the path defines it as {definition}",
-        help_de: "hier hinzufügen, zum Beispiel :{variable}{example}; der Pfad legt sie als {definition} fest",
+        help_de: "den Wert hier angeben, zum Beispiel :{variable}{example}; der Pfad legt sie als {definition} fest",
     }
     /// A subpath that sets an unknown variable.
     VALUE_WITHOUT_DEFINITION: UnknownVariable {
         en: "path {name} has no variable \"{variable}\"",
         de: "Pfad {name} hat keine Variable \"{variable}\"",
         help_en: "use one of the variables of the path: {known}",
-        help_de: "Variablen des Pfads: {known}",
+        help_de: "eine der Variablen des Pfads verwenden: {known}",
     }
     /// A reference to an unknown variable.
     UNKNOWN_REFERENCE: UnknownVariable {

@@ -11,7 +11,7 @@ messages! {
     /// A hole drilled into the part.
     GOUGE_BY_HOLE: GougedPart {
         en: "the hole, O{tool}, goes {depth} mm into the part at {point}",
-        de: "das Bohrloch, O{tool}, gerät bei {point} {depth} mm weit in das Teil",
+        de: "das Bohrloch, O{tool}, ragt bei {point} {depth} mm weit in das Teil",
         help_en: "move the hole, or draw its circle on the layer of the part as well",
         help_de: "das Bohrloch versetzen oder seinen Kreis auch auf dem Layer des Teils zeichnen",
     }
@@ -20,7 +20,7 @@ messages! {
         en: "the cutter, O{tool}, goes {depth} mm into the part of path {other} at {point}; that part lies at {place} in the program",
         de: "der Fräser, O{tool}, gerät bei {point} {depth} mm tief in das Teil von Pfad {other}, das im Programm bei {place} liegt",
         help_en: "place the two parts farther apart, so that the cutter fits between them",
-        help_de: "die beiden Teile weiter auseinandersetzen, sodass der Fräser dazwischen Platz hat",
+        help_de: "die beiden Teile mit größerem Abstand anordnen, sodass der Fräser dazwischen Platz hat",
     }
     /// Material left beside an outline.
     LEFTOVER: LeftoverAtPart {
@@ -53,9 +53,9 @@ messages! {
     /// A part that is held after the cuts of its own path, but loose after the cuts of another path.
     SEVERED_PART: LoosePart {
         en: "after this cut, nothing holds the part of path {other} whose outline begins at {place}: it meets the cuts between the support bars",
-        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {place} beginnt: er trifft auf die Schnitte zwischen den Stützstegen",
+        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {place} beginnt: er verbindet sich mit den Schnitten zwischen den Stützstegen",
         help_en: "place the parts farther apart, or draw support bars on a side where the plate remains",
-        help_de: "die Teile weiter auseinander setzen oder Stützstege auf einer Seite zeichnen, an der die Platte stehen bleibt",
+        help_de: "die Teile mit größerem Abstand anordnen oder Stützstege auf einer Seite zeichnen, an der die Platte stehen bleibt",
     }
     /// Support bars that another cut removes.
     BAR_CUT_AWAY: BarCutAway {

@@ -49,7 +49,7 @@ messages! {
     /// Note: a segment that does not quite meet the way back.
     END_BESIDE_WAY_BACK: NothingContinues {
         en: "{element} ends at {point}, {distance} mm away from the way back, on which the ends must meet exactly: `join-tolerance` does not apply there",
-        de: "{element} endet bei {point}, {distance} mm neben dem Rückweg: auf dem Rückweg müssen sich die Enden treffen, `join-tolerance` gilt dort nicht",
+        de: "{element} endet bei {point}, {distance} mm neben dem Rückweg: dort müssen sich die Enden genau treffen, `join-tolerance` gilt nicht",
     }
     /// Note: an open end on another layer.
     END_ON_OTHER_LAYER: NothingContinues {
@@ -59,7 +59,7 @@ messages! {
     /// Note: a remaining segment that is drawn on top of a traversed one.
     DUPLICATE: NothingContinues {
         en: "{element} at {point} lies on top of one that was already traversed: it is drawn twice",
-        de: "{element} bei {point} liegt auf einem schon durchlaufenen: es ist doppelt gezeichnet",
+        de: "{element} bei {point} liegt auf einem schon durchlaufenen Segment: es ist doppelt gezeichnet",
     }
     /// Note: a curve that was left out (PB111).
     LEFT_OUT_HERE: NothingContinues {
@@ -83,7 +83,7 @@ messages! {
     /// A segment that is not reached because it touches another kind of segment between that segment's ends.
     NO_END_THERE: UnreachedSegments {
         en: "segments not reached: {left}; {element} at {point} touches {other}, which does not end there",
-        de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} liegen {element} und {other} übereinander, ohne dass dort ein Segment endet",
+        de: "nicht alle Segmente wurden erreicht; übrig: {left}; bei {point} trifft {element} auf ein anderes Segment ({other}), das dort nicht endet",
         help_en: "split the line or arc at {point}",
         help_de: "die Linie oder den Bogen bei {point} teilen",
     }
@@ -106,7 +106,7 @@ messages! {
         en: "the path stops at {point}, but its end marker is at {end}",
         de: "der Pfad hört bei {point} auf, seine Endmarke ist aber bei {end}",
         help_en: "move the end marker there, or draw the missing segments between the two points",
-        help_de: "die Endmarke dorthin verschieben oder das Fehlende dazwischen zeichnen",
+        help_de: "die Endmarke dorthin verschieben oder die fehlenden Segmente dazwischen zeichnen",
     }
     /// A path that has no segments.
     EMPTY_PATH: EmptyPath {
@@ -132,49 +132,49 @@ messages! {
     /// Support bars that leave no gap, because the segment is too short.
     NO_GAP_BETWEEN_BARS: NoGapBetweenBars {
         en: "everything is left standing up to D {top}: a length of {length} mm is shorter than P + U, which is {pitch} mm",
-        de: "alles bleibt bis D {top} stehen: eine Länge von {length} mm ist kürzer als P + U mit {pitch} mm",
+        de: "alles bleibt bis D {top} stehen: eine Länge von {length} mm ist kürzer als P + U ({pitch} mm)",
         help_en: "for a gap, lower U, the minimum distance between bars; use line type DIVIDE to mill only to D, and CONTINUOUS to mill through",
         help_de: "für eine Lücke U, den Mindestabstand der Stege, verkleinern; Linientyp DIVIDE fräst nur bis D, CONTINUOUS ganz durch",
     }
     /// Connected segments with support bars that leave no gap, because each of them is too short.
     NO_GAP_IN_RUN: NoGapBetweenBars {
         en: "everything is left standing up to D {top} over a length of {length} mm: each of these {count} connected segments is shorter than P + U, which is {pitch} mm",
-        de: "auf einer Länge von {length} mm bleibt alles bis D {top} stehen: jedes dieser {count} verbundenen Segmente ist kürzer als P + U mit {pitch} mm",
+        de: "auf einer Länge von {length} mm bleibt alles bis D {top} stehen: jedes dieser {count} verbundenen Segmente ist kürzer als P + U ({pitch} mm)",
         help_en: "draw longer lines or arcs, such as a few arcs instead of an ellipse, or lower U; line type CONTINUOUS mills through without bars",
         help_de: "längere Linien oder Bögen zeichnen, etwa wenige Bögen statt einer Ellipse, oder U verkleinern; Linientyp CONTINUOUS fräst ohne Stege durch",
     }
     /// A program that moves into a clamp, reported at the drawn element.
     MOVES_INTO_CLAMP: InsideKeepOut {
         en: "the tool, O{tool}, hits the clamp of layer {layer} {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
-        de: "der Fräser, O{tool}, trifft das Spannmittel von Layer {layer} {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        de: "der Fräser, O{tool}, trifft das Spannmittel auf Layer {layer} {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "raise S to {height} or more (rapids at S are straight), or move the clamp",
         help_de: "S auf {height} oder mehr erhöhen (Eilgänge auf S verlaufen gerade) oder das Spannmittel versetzen",
     }
     /// A program that cuts into a clamp, reported at the drawn element.
     CUTS_INTO_CLAMP: InsideKeepOut {
         en: "the tool, O{tool}, hits the clamp of layer {layer} {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
-        de: "der Fräser, O{tool}, trifft das Spannmittel von Layer {layer} {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        de: "der Fräser, O{tool}, trifft das Spannmittel auf Layer {layer} {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "move the clamp, or keep the cut at least half of O away from its outline",
         help_de: "das Spannmittel versetzen oder den Schnitt mindestens O/2 von seinem Umriss entfernt zeichnen",
     }
     /// A probing program that moves into a clamp, reported at the probe.
     PROBING_INTO_CLAMP: InsideKeepOut {
         en: "in the probing program the tool, O{tool}, hits the clamp of layer {layer} {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
-        de: "im Antastprogramm trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        de: "im Antastprogramm trifft der Fräser, O{tool}, das Spannmittel auf Layer {layer} {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "draw the probe at least half of O away from the outline, or move the clamp; for the straight rapids at S from probe to probe, raise S to {height} or more",
         help_de: "die Probe mindestens O/2 vom Umriss entfernt zeichnen oder das Spannmittel versetzen; für die geraden Eilgänge auf S von Probe zu Probe S auf {height} oder mehr erhöhen",
     }
     /// A path of a joined program that moves into a clamp of another path's drawing.
     JOINED_INTO_CLAMP: InsideKeepOut {
         en: "joined with the other paths, the tool, O{tool}, hits the clamp of layer {layer} in {drawing}, which lies at {clamp} in the program and is {height} mm high: {what}, lowest Z {z}, moves: {count}",
-        de: "mit den anderen Pfaden verbunden trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} in {drawing}, das im Programm bei {clamp} liegt und {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
+        de: "im gemeinsamen Programm trifft der Fräser, O{tool}, das Spannmittel auf Layer {layer} in {drawing}, das dort bei {clamp} liegt und {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "raise S above the clamps, or write a program for each path: the clamps of all drawings are mounted during the whole program",
         help_de: "S über die Spannmittel anheben oder je Pfad ein Programm schreiben: die Spannmittel aller Zeichnungen stehen während des ganzen Programms",
     }
     /// A G-code program that moves into a clamp, reported at the line of the move.
     LINE_INTO_CLAMP: InsideKeepOut {
         en: "here the tool, O{tool}, hits the clamp of layer {layer} at {clamp} of the program, which is {height} mm high: {what}, lowest Z {z}",
-        de: "hier trifft der Fräser, O{tool}, das Spannmittel von Layer {layer} bei {clamp} im Programm, das {height} mm hoch ist: {what}, tiefstes Z {z}",
+        de: "hier trifft der Fräser, O{tool}, das Spannmittel auf Layer {layer} bei {clamp} im Programm, das {height} mm hoch ist: {what}, tiefstes Z {z}",
         help_en: "do not run this program: according to the drawing, the clamp is there; move the clamp, or write the program with higher rapids",
         help_de: "dieses Programm nicht ausführen: laut Zeichnung steht dort das Spannmittel; es versetzen oder das Programm mit höheren Eilgängen neu schreiben",
     }
@@ -275,7 +275,7 @@ messages! {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
         help_en: "give both paths the same T, or embed a component that is drawn for this thickness: both are milled from the same sheet",
-        help_de: "beiden Pfaden dasselbe T geben oder ein Bauteil einbetten, das für diese Dicke gezeichnet ist: beide werden aus derselben Platte gefräst",
+        help_de: "beiden Pfaden dasselbe T geben oder ein Bauteil einbetten, das für diese Dicke gezeichnet ist: beide werden aus demselben Blech gefräst",
     }
     /// A subpath segment that states another T, O or M than the embedded path has.
     PARAMETER_DIFFERS: SubpathParameterDiffers {

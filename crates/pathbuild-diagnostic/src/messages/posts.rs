@@ -118,7 +118,7 @@ messages! {
     /// Macros that contain each other, or are nested more deeply than the limit.
     MACRO_DEPTH: EndlessMacro {
         en: "{section} contains itself, or macros are nested more than {limit} levels deep",
-        de: "{section} enthält sich selbst, oder Makros sind über mehr als {limit} Ebenen verschachtelt",
+        de: "{section} enthält sich selbst, oder Makros sind mehr als {limit} Ebenen tief verschachtelt",
         help_en: "remove the macro that leads back to {section}, or nest macros less deeply",
         help_de: "das Makro entfernen, das zu {section} zurückführt, oder Makros weniger tief verschachteln",
     }
@@ -134,7 +134,7 @@ messages! {
         en: "the post writes far too much text for the number of moves in the program",
         de: "der Postprozessor schreibt viel zu viel Text für die Zahl der Bewegungen im Programm",
         help_en: "look for macros that insert other macros several times: each level multiplies the text",
-        help_de: "nach Makros suchen, die andere mehrmals enthalten",
+        help_de: "nach Makros suchen, die andere mehrmals einsetzen: jede Ebene vervielfacht den Text",
     }
     /// A hole with too many pecks.
     TOO_MANY_PECKS: EndlessMacro {
@@ -261,7 +261,7 @@ messages! {
         en: "{macro} in {section} puts \"{text}\" outside a comment, where the machine would execute it",
         de: "{macro} in {section} setzt \"{text}\" außerhalb eines Kommentars, wo die Maschine es ausführen würde",
         help_en: "write it in a comment in the post, or give the drawing another name",
-        help_de: "es im Postprozessor in einen Kommentar schreiben oder die Zeichnung anders nennen",
+        help_de: "den Text im Postprozessor in einen Kommentar setzen oder die Zeichnung anders nennen",
     }
     /// A program to be wrapped around a cylinder with a radius of 0 or less.
     NO_RADIUS: NothingToPost {
@@ -273,7 +273,7 @@ messages! {
     /// A program wrapped around a cylinder more than once.
     WRAPPED_TWICE: DoubtfulPost {
         en: "wrapped round the cylinder, the program covers {degrees} degrees: it mills some places twice",
-        de: "um den Zylinder gelegt reicht das Programm über {degrees} Grad: es fräst manche Stellen zweimal",
+        de: "um den Zylinder gelegt, reicht das Programm über {degrees} Grad: es fräst manche Stellen zweimal",
         help_en: "keep the width of the drawing within the circumference, 2 x pi x T",
         help_de: "die Breite der Zeichnung innerhalb des Umfangs halten, 2 x Pi x T",
     }
@@ -296,7 +296,7 @@ messages! {
         en: "no spindle speed is known for {operation} (T{index}): the spindle would not turn",
         de: "für {operation} (T{index}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
         help_en: "put S and M3 into the program, or add [tool.NAME] with number = {index}, diameter and spindle to pathbuild.toml; if the spindle is switched by hand, write spindle = \"manual\" outside all tables",
-        help_de: "S und M3 in das Programm aufnehmen oder [tool.NAME] mit number = {index}, diameter und spindle in pathbuild.toml; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen schreiben",
+        help_de: "S und M3 in das Programm aufnehmen oder [tool.NAME] mit number = {index}, diameter und spindle in pathbuild.toml eintragen; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen schreiben",
     }
     /// A program without a known spindle speed and without a tool.
     SPINDLE_UNSTATED: MissingPostValue {
@@ -386,7 +386,7 @@ messages! {
     /// Variables with texts that refer to each other, nested more deeply than the limit.
     VARIABLE_DEPTH: EndlessMacro {
         en: "{text}, line {line}, column {column}: variables in the text of {name} are nested more than {limit} levels deep",
-        de: "{text}, Zeile {line}, Spalte {column}: im Text von {name} sind Variablen tiefer als {limit} verschachtelt",
+        de: "{text}, Zeile {line}, Spalte {column}: im Text von {name} sind Variablen mehr als {limit} Ebenen tief verschachtelt",
     }
     /// A text that exceeds the limit of its length when variables are replaced.
     TEXT_LENGTH: EndlessMacro {
@@ -396,7 +396,7 @@ messages! {
     /// Statements or terms that are nested too deeply.
     TEXT_DEPTH: EndlessMacro {
         en: "{text}, line {line}, column {column}: statements or terms are nested more than {limit} levels deep",
-        de: "{text}, Zeile {line}, Spalte {column}: Anweisungen oder Ausdrücke sind über mehr als {limit} Ebenen verschachtelt",
+        de: "{text}, Zeile {line}, Spalte {column}: Anweisungen oder Ausdrücke sind mehr als {limit} Ebenen tief verschachtelt",
     }
     /// A `~` that does not begin the name of a variable.
     LONE_TILDE: InvalidControlText {
@@ -420,7 +420,7 @@ messages! {
     /// Further content in a statement that is already complete.
     STATEMENT_GOES_ON: InvalidControlText {
         en: "{text}, line {line}, column {column}: the statement must end here",
-        de: "{text}, Zeile {line}, Spalte {column}: hier sollte die Anweisung enden",
+        de: "{text}, Zeile {line}, Spalte {column}: hier muss die Anweisung enden",
     }
     /// A statement with the sign `§`, which is not supported.
     STATEMENT_UNKNOWN: InvalidControlText {
@@ -476,7 +476,7 @@ messages! {
     /// A bitwise operator or a binary format for a number that is not an integer.
     TERM_NOT_WHOLE: InvalidControlText {
         en: "{text}, line {line}, column {column}: bitwise operators and binary formats need a whole number",
-        de: "{text}, Zeile {line}, Spalte {column}: nur ganze Zahlen haben Bits",
+        de: "{text}, Zeile {line}, Spalte {column}: Bitoperatoren und Binärformate brauchen eine ganze Zahl",
     }
     /// A term with an unknown function.
     TERM_FUNCTION: InvalidControlText {
@@ -505,7 +505,7 @@ messages! {
     /// A function in a term, which CAD6 may not support.
     TERM_EXTENSION: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: functions are an extension of pathbuild; CAD6 may not know them",
-        de: "{text}, Zeile {line}, Spalte {column}: Funktionen sind eine Erweiterung von pathbuild; CAD6 kennt sie vielleicht nicht",
+        de: "{text}, Zeile {line}, Spalte {column}: Funktionen sind ein Zusatz von pathbuild; CAD6 kennt sie vielleicht nicht",
     }
     /// A variable that is read after an assignment in the same text.
     READ_AFTER_ASSIGNMENT: DoubtfulControlText {
@@ -622,7 +622,7 @@ messages! {
     /// Output that differs from the program when read back.
     POST_DIFFERS: PostDiffers {
         en: "line {line} of the output differs from the program",
-        de: "Zeile {line} der Ausgabe bewirkt nicht, was das Programm sagt",
+        de: "Zeile {line} der Ausgabe weicht vom Programm ab",
         help_en: "check the post's text for this line; if you take responsibility for the output, set unchecked = true in [post] of pathbuild.toml",
         help_de: "den Text im Postprozessor für diese Zeile prüfen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
     }
@@ -708,7 +708,7 @@ messages! {
     /// Note: a rapid move instead of a cut, or the reverse.
     GOES_AT_ANOTHER_PACE: PostDiffers {
         en: "this move is {found}, but in the program it is {expected}",
-        de: "das ist {found}, im Programm {expected}",
+        de: "diese Bewegung ist {found}, im Programm aber {expected}",
     }
     /// Note: a move with another feed than in the program.
     GOES_WITH_ANOTHER_FEED: PostDiffers {
@@ -762,7 +762,7 @@ messages! {
     /// A program with several work offsets, to be written through a post.
     JOB_SYSTEM: NothingToPost {
         en: "a post cannot write a program that uses several work offsets",
-        de: "ein Programm in mehreren Koordinatensystemen kann kein Postprozessor schreiben",
+        de: "ein Programm mit mehreren Nullpunktverschiebungen kann kein Postprozessor schreiben",
         help_en: "split it into one program for each work offset",
         help_de: "es in ein Programm je Nullpunktverschiebung teilen",
     }
@@ -853,14 +853,14 @@ messages! {
     /// A path with probes that is written through a post.
     POST_WITH_PROBES: UncorrectedHeights {
         en: "the path has Z-probes: written through a post, its heights would stay uncorrected",
-        de: "der Pfad hat Z-Proben: über einen Postprozessor geschrieben blieben seine Höhen unkorrigiert",
+        de: "der Pfad hat Z-Proben: ein Postprozessor würde seine Höhen unkorrigiert schreiben",
         help_en: "run emit without a post, measure, run `pathbuild adjust`, then `pathbuild post DRAWING_Milling.gcode --post POST`",
         help_de: "emit ohne Postprozessor ausführen, messen, `pathbuild adjust` ausführen, dann `pathbuild post ZEICHNUNG_Milling.gcode --post POST`",
     }
     /// A program with correction formulas that were not applied, to be written through a post.
     POST_UNADJUSTED: UncorrectedHeights {
         en: "the program has correction formulas that have not been worked out: written through a post, its heights would stay uncorrected",
-        de: "das Programm hat Korrekturformeln, die noch nicht ausgerechnet sind: über einen Postprozessor geschrieben blieben seine Höhen unkorrigiert",
+        de: "das Programm hat Korrekturformeln, die noch nicht ausgerechnet sind: ein Postprozessor würde seine Höhen unkorrigiert schreiben",
         help_en: "run `pathbuild adjust` first, and take the _Milling.gcode that it writes",
         help_de: "zuerst `pathbuild adjust` ausführen und die _Milling.gcode nehmen, die es schreibt",
     }

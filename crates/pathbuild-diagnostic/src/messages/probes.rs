@@ -144,7 +144,7 @@ messages! {
     /// A formula that is nested too deeply.
     TOO_DEEP: InvalidFormula {
         en: "brackets in the formula are nested more than {limit} levels deep",
-        de: "Klammern in der Formel sind über mehr als {limit} Ebenen verschachtelt",
+        de: "Klammern in der Formel sind mehr als {limit} Ebenen tief verschachtelt",
         help_en: "emit again and use the new program: formulas of pathbuild have only one level",
         help_de: "noch einmal ausgeben und das neue Programm verwenden: Formeln von pathbuild haben nur eine Ebene",
     }

@@ -32,7 +32,7 @@ messages! {
     /// `verify --against`: a move to another point than in the drawing's program.
     DRAWN_ELSEWHERE: MovesDiffer {
         en: "the tool goes to {found}; the drawing says {expected}",
-        de: "das Werkzeug fährt nach {found}; die Zeichnung sagt {expected}",
+        de: "das Werkzeug fährt nach {found}, laut Zeichnung aber nach {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -53,7 +53,7 @@ messages! {
     /// `verify --against`: a move with another feed than in the drawing's program.
     DRAWN_WITH_ANOTHER_FEED: MovesDiffer {
         en: "the feed is {found}; the drawing says {expected}",
-        de: "der Vorschub ist {found}; die Zeichnung sagt {expected}",
+        de: "der Vorschub ist {found}, laut Zeichnung aber {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -95,7 +95,7 @@ messages! {
     /// `verify --against`: a line with words of unknown effect, which the post's definition does not write.
     LINE_NOT_WRITTEN: MovesDiffer {
         en: "the definition writes \"{expected}\" here, but this program has other words, whose effect is unknown",
-        de: "die Definition schreibt hier \"{expected}\", dieses Programm enthält aber etwas anderes, mit Wörtern, deren Wirkung unbekannt ist",
+        de: "die Definition schreibt hier \"{expected}\", dieses Programm enthält aber andere Wörter, deren Wirkung unbekannt ist",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -104,7 +104,7 @@ messages! {
         en: "the moves were not compared with path {path}: with unchecked = true, it is unknown whether the output of {post} mills the drawing",
         de: "die Bewegungen wurden nicht mit dem Pfad {path} verglichen: mit unchecked = true ist nicht bekannt, ob die Ausgabe von {post} die Zeichnung fräst",
         help_en: "remove `unchecked` in pathbuild.toml and emit the program again, or check its moves by hand",
-        help_de: "`unchecked` in der pathbuild.toml entfernen und das Programm neu ausgeben, oder seine Bewegungen selbst prüfen",
+        help_de: "`unchecked` in pathbuild.toml entfernen und das Programm neu ausgeben, oder seine Bewegungen selbst prüfen",
     }
     /// `verify --against`: another program number (O) than that of the drawing's program.
     NUMBERS_DIFFER: MovesDiffer {
@@ -171,29 +171,29 @@ messages! {
     }
     /// The first move in another coordinate system, while the tool is below the surface of the material.
     SYSTEM_FROM_DEPTH: RapidInMaterial {
-        en: "a move from Z {z} to a place in another coordinate system: the material reaches up to Z {surface}",
-        de: "eine Bewegung ab Z {z} zu einer Stelle in einem anderen Koordinatensystem: das Material reicht bis Z {surface}",
+        en: "a move to a place in another coordinate system starts at Z {z}, but the material reaches up to Z {surface}",
+        de: "eine Bewegung zu einer Stelle in einem anderen Koordinatensystem beginnt bei Z {z}, das Material reicht aber bis Z {surface}",
         help_en: "raise the tool above the material first",
         help_de: "das Werkzeug zuerst über das Material heben",
     }
     /// A cut with the spindle on at speed 0 (`M3 S0`).
     SPINDLE_AT_ZERO: SpindleOff {
         en: "this is a cutting move with the spindle at speed 0",
-        de: "das ist eine Fräsbewegung bei Spindeldrehzahl 0",
+        de: "diese Fräsbewegung läuft bei Drehzahl 0",
         help_en: "write the speed with S: `M3 S12000`",
         help_de: "die Drehzahl mit S angeben: `M3 S12000`",
     }
     /// A cut with the spindle on before any S word. Many controls then use the speed of the previous program.
     SPINDLE_WITHOUT_SPEED: SpindleOff {
         en: "this is a cutting move at an unknown spindle speed: the program has no S before it, so the control takes the last one, or 0",
-        de: "das ist eine Fräsbewegung mit unbekannter Drehzahl: das Programm nennt vorher kein S, die Steuerung nimmt daher das letzte oder 0",
+        de: "diese Fräsbewegung läuft mit unbekannter Drehzahl: das Programm nennt vorher kein S, die Steuerung nimmt daher das letzte oder 0",
         help_en: "write the speed with S: `M3 S12000`; if it is set at the machine, accept this warning with `--accept`",
         help_de: "die Drehzahl mit S angeben: `M3 S12000`; wird sie an der Maschine eingestellt, die Warnung mit `--accept` hinnehmen",
     }
     /// An offset by G92 or G52 that is active at the end.
     OFFSET_LEFT_ON: OffsetLeftOn {
         en: "the offset of {word} is still active at the end, so the next program is shifted by it",
-        de: "{word} ist am Ende noch aktiv, das nächste Programm beginnt daher anderswo",
+        de: "die Verschiebung von {word} gilt am Ende noch; das nächste Programm wird daher verschoben gefräst",
         help_en: "write G92.1, or G52 X0 Y0 Z0, before the end",
         help_de: "vor dem Ende G92.1 schreiben oder G52 X0 Y0 Z0",
     }
@@ -328,7 +328,7 @@ messages! {
         en: "the required check `{check}` was not carried out: {reason}",
         de: "die verlangte Prüfung `{check}` fand nicht statt: {reason}",
         help_en: "this check needs {option}",
-        help_de: "nötig: {option}",
+        help_de: "diese Prüfung braucht {option}",
     }
     /// A check of rapid moves that `--require` names but that is incomplete.
     CHECK_INCOMPLETE: UnmadeCheck {
@@ -370,7 +370,7 @@ messages! {
         en: "comments place a corner of the stock at {axis} {one} and at {axis} {other}",
         de: "Kommentare geben eine Ecke des Rohteils mit {axis} {one} und mit {axis} {other} an",
         help_en: "correct the wrong value; until then, the higher one is used",
-        help_de: "den falschen Wert berichtigen: verwendet wurde der höhere",
+        help_de: "den falschen Wert berichtigen; bis dahin gilt der höhere",
     }
     /// Statistics at the end of a program that do not match its moves.
     LENGTH_DIFFERS: Disagreement {
@@ -465,22 +465,22 @@ messages! {
     }
     /// A slanting rapid move in the material, on a control that moves each axis at its own speed.
     BENT_RAPID: DiagonalRapid {
-        en: "a rapid move in X and Y at once below the material's surface: {dialect} does not move in a straight line, so the cutter may leave the groove that was cut",
-        de: "ein Eilgang zugleich in X und Y unter der Oberfläche des Materials: {dialect} fährt nicht gerade und verlässt den gefrästen Weg",
+        en: "a rapid move below the material's surface goes in X and Y at once: {dialect} does not move in a straight line, so the cutter may leave the groove that was cut",
+        de: "ein Eilgang fährt unter der Oberfläche des Materials in X und Y zugleich: {dialect} fährt dabei nicht gerade, und der Fräser kann die gefräste Nut verlassen",
         help_en: "raise the tool above the material first, or move with G1",
         help_de: "das Werkzeug zuerst über das Material heben oder mit G1 fahren",
     }
     /// A cut with the spindle off.
     SPINDLE_OFF: SpindleOff {
         en: "this is a cutting move with the spindle off",
-        de: "das ist eine Fräsbewegung bei stehender Spindel",
+        de: "diese Fräsbewegung läuft bei stehender Spindel",
         help_en: "switch it on with M3 first; programs without any of M3 to M5 are checked for this only if they have S or their tool has a speed in [tool]",
         help_de: "sie vorher mit M3 einschalten; Programme ohne M3 bis M5 werden darauf nur geprüft, wenn sie S enthalten oder ihr Werkzeug in [tool] eine Drehzahl hat",
     }
     /// A program that never switches the spindle on, for a tool with a speed in the tool table.
     SPINDLE_NEVER_STARTED: SpindleOff {
         en: "the program cuts without ever switching the spindle on, although [tool] gives the tool a spindle speed",
-        de: "das Programm fräst, ohne je die Spindel einzuschalten, aber [tool] gibt an, wie Werkzeuge drehen",
+        de: "das Programm fräst, ohne je die Spindel einzuschalten, obwohl [tool] dem Werkzeug eine Drehzahl gibt",
         help_en: "write M3 and S before the cut, or spindle = \"manual\" in pathbuild.toml if the operator switches the spindle",
         help_de: "M3 und S vor den Schnitt schreiben, oder spindle = \"manual\" in pathbuild.toml, wenn der Bediener die Spindel schaltet",
     }
@@ -515,7 +515,7 @@ messages! {
     /// A rapid move down beyond the point at which a probe made contact.
     RAPID_BELOW_CONTACT: ProbeNotRaised {
         en: "this rapid move ends {below} mm below the point at which the probing move before it made contact: the tool hits what it has touched",
-        de: "dieser Eilgang endet {below} mm unter dem Ende der Antastbewegung davor, in dem, was das Werkzeug berührt hat",
+        de: "dieser Eilgang endet {below} mm unter dem Ende der Antastbewegung davor: das Werkzeug stößt in das, was es berührt hat",
         help_en: "raise the tool after contact: G91 G0 Z with a positive number, or a height above the end of the probing move",
         help_de: "das Werkzeug nach der Berührung anheben: G91 G0 Z mit positiver Zahl, oder eine Höhe über dem Ende der Antastbewegung",
     }

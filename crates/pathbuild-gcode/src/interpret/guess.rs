@@ -92,7 +92,7 @@ signs! {
             .iter()
             .any(|word| line.starts_with(word))
     },
-        "it has words of Marlin", "es hat Wörter von Marlin";
+        "it has words of Marlin", "es enthält Wörter von Marlin";
     LinuxCnc |line| contains(line, b"#<"), "it has parameters with names", "es hat Parameter mit Namen";
     LinuxCnc |line| matches!(line, [b'O' | b'o', b'0'..=b'9' | b'<', ..]) && ends_in_keyword(line),
         "it has O words", "es hat O-Wörter";

@@ -325,7 +325,7 @@ macro_rules! statements {
 statements! {
     '=' "{=Name {…}}" |evaluator, _| evaluator.assignment(),
         "gives a variable the result of a statement; later calls see it",
-        "gibt einer Variablen das Ergebnis einer Anweisung; spätere Aufrufe sehen es";
+        "weist einer Variablen das Ergebnis einer Anweisung zu; spätere Aufrufe sehen es";
     '?' "{?Term {…}{…}}" |evaluator, _| evaluator.conditional(),
         "the first statement if the term is not 0, else the second, which may be missing",
         "die erste Anweisung, wenn der Term nicht 0 ist, sonst die zweite, die fehlen darf";

@@ -115,8 +115,8 @@ variables! {
     "MachineToolNo" number ToolNumber, "the tool's number", "die Nummer des Werkzeugs";
     "MillingSpindleRate" number Speed, "revolutions per minute", "Umdrehungen pro Minute";
     "MillingSpindleDir" number Always, "0 clockwise, 1 counter-clockwise", "0 im Uhrzeigersinn, 1 gegen ihn";
-    "ToolControl1" number Always, "1 with flood or mist", "1 mit Kühlmittel oder Nebel";
-    "ToolControl2" number Always, "1 with mist", "1 mit Nebel";
+    "ToolControl1" number Always, "1 with flood or mist", "1 bei Flut- oder Nebelkühlung";
+    "ToolControl2" number Always, "1 with mist", "1 bei Nebelkühlung";
     "FirstContourElement" number Elements,
         "1 for the first element of a contour, and where its feed changes",
         "1 beim ersten Element einer Kontur und wo ihr Vorschub wechselt";

@@ -51,11 +51,11 @@ impl StateKind {
             Self::ToolLength => &Text { en: "tool length", de: "Werkzeuglänge" },
             Self::Spindle => &Text { en: "spindle", de: "Spindel" },
             Self::Coolant => &Text { en: "coolant", de: "Kühlung" },
-            Self::WorkOffset => &Text { en: "work offset", de: "Nullpunkt" },
+            Self::WorkOffset => &Text { en: "work offset", de: "Nullpunktverschiebung" },
             Self::Zero => &Text { en: "zero set by the program", de: "vom Programm gesetzter Nullpunkt" },
             Self::Probe => &Text { en: "probe", de: "Antasten" },
             Self::Stop => &Text { en: "stop", de: "Halt" },
-            Self::Dwell => &Text { en: "dwell", de: "Verweilzeit" },
+            Self::Dwell => &Text { en: "dwell", de: "Wartezeit" },
         }
     }
 

@@ -193,7 +193,7 @@ impl Formatter<'_> {
             (total.rapid.moves, self.choose("rapid", "Eilgang")),
             (total.milling.moves, self.choose("milling", "Fräsen")),
             (total.drilling.moves, self.choose("drilling", "Bohren")),
-            (total.probing, self.choose("probing", "Messen")),
+            (total.probing, self.choose("probing", "Antasten")),
         ];
         let kinds = kinds
             .iter()
@@ -204,7 +204,7 @@ impl Formatter<'_> {
             _ = write!(moves, "; {} {}", grouped(total.arcs), self.choose("of them arcs", "davon Bögen"));
         }
         if facts.unfollowed.is_some() {
-            moves += self.choose("; in the lines that are followed", "; in den verfolgten Zeilen");
+            moves += self.choose("; in the lines that are followed", "; in den ausgewerteten Zeilen");
         }
         moves
     }
@@ -212,7 +212,7 @@ impl Formatter<'_> {
     fn not_followed(&self, line: u32) -> String {
         let [begin, end] = [
             self.choose("not known: line", "unbekannt: Zeile"),
-            self.choose("is not followed", "wird nicht verfolgt"),
+            self.choose("is not followed", "wird nicht ausgewertet"),
         ];
         format!("{begin} {line} {end}")
     }

@@ -49,7 +49,7 @@ pub(crate) fn run(
         WatchEnd::ConfigurationChanged => {
             return Err(context.choose(
                 "the configuration, its post-processor or its baseline has changed",
-                "die Konfiguration, ihr Postprozessor oder ihre Baseline wurde geändert",
+                "die Konfiguration, ihr Postprozessor oder ihre Liste bekannter Befunde wurde geändert",
             ));
         }
         WatchEnd::DirectoriesChanged => {
