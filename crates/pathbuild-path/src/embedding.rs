@@ -388,7 +388,7 @@ impl<'a> SubpathChecker<'a> {
 
     /// Whether the name is only part of a longer word, so that another path is meant.
     fn is_other_name(&self, name: &PathName, value: &str) -> bool {
-        !self.is_compatible && name.is_part_of_word(value)
+        !self.is_compatible && name.is_part_of(value)
     }
 
     /// Returns the path that a segment names.

@@ -274,7 +274,35 @@ impl<'t> ParameterText<'t> {
         if letter.is_literal() && self.value(piece).contains('=') {
             return Some(Diagnostic::new(&messages::VARIABLE_NOT_ALLOWED).with("letter", first));
         }
-        (how == LetterUse::Ignored).then(|| self.no_effect_problem(letter, piece, class))
+        if how == LetterUse::Ignored {
+            return Some(self.no_effect_problem(letter, piece, class));
+        }
+        self.unseparated_parameter_problem(letter, piece, class)
+    }
+
+    /// Returns PB211 for a text value that contains what looks like a parameter of the element: `Qslot,B1`. Every other value with such an ending is
+    /// an error.
+    fn unseparated_parameter_problem(
+        self,
+        letter: Letter,
+        piece: &LetterValue,
+        class: ElementClass,
+    ) -> Option<Diagnostic> {
+        // Commas separate the values of a variable, and the other signs have rules of their own.
+        if !letter.is_text() || matches!(letter, Letter::Embed | Letter::At | Letter::Variable) {
+            return None;
+        }
+        let is_separator = |character: char| ",;:/".contains(character) || is_special_space(character);
+        let is_parameter = |part: &&str| {
+            let mut characters = part.chars();
+            let letter = characters.next().and_then(Letter::new).filter(|letter| !letter.is_text());
+            letter.is_some_and(|letter| {
+                class.use_of(letter).counts() && parse_number(characters.as_str()).is_some()
+            })
+        };
+        let parameter = self.value(piece).split(is_separator).skip(1).find(is_parameter)?;
+        let problem = Diagnostic::new(&messages::UNSEPARATED_PARAMETER).with("letter", letter.as_char());
+        Some(problem.quoting("value", self.value(piece)).quoting("parameter", parameter))
     }
 
     /// Returns PB202 for a word among parameters: `B2 tief`.
@@ -666,6 +694,11 @@ fn drawn_code(text: ParameterText<'_>, piece: &LetterValue) -> Diagnostic {
         .quoting("sign", format!("{sign}{value}"))
         .quoting("code", code)
         .quoting("shown", text.piece_text(piece))
+}
+
+/// Whether a character looks like a space, but does not separate parameters.
+pub(crate) fn is_special_space(character: char) -> bool {
+    character.is_whitespace() && !character.is_ascii()
 }
 
 /// Parses a number: an optional sign, digits, and at most one decimal point or comma. `None` for anything else, including exponents, and

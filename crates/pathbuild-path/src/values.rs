@@ -12,8 +12,8 @@ use crate::language::DoubtThresholds;
 use crate::letter::{ElementClass, Letter, LetterUse, Letters};
 use crate::look_alikes;
 use crate::text::{
-    LetterValue, ParameterText, ValueKind, equals_sign_mistake, is_variable_without_value, is_without_value,
-    mistake_in_text, unit_mistake,
+    LetterValue, ParameterText, ValueKind, equals_sign_mistake, is_special_space, is_variable_without_value,
+    is_without_value, mistake_in_text, unit_mistake,
 };
 use crate::variables::Interpolation;
 
@@ -210,12 +210,14 @@ fn not_a_number(letter: Letter, value: &str) -> Diagnostic {
     }
     let is_integer = letter == Letter::N;
     let message = match is_integer {
-        _ if value.contains('\u{a0}') => &messages::NON_BREAKING_SPACE,
+        _ if value.contains(is_special_space) => &messages::SPECIAL_SPACE,
         true => &messages::NOT_AN_INTEGER,
         false => &messages::NOT_A_NUMBER,
     };
-    let visible = value.replace('\u{a0}', "\u{2423}");
-    Diagnostic::new(message).with("letter", letter.as_char()).quoting("value", visible)
+    let visible = value.replace(is_special_space, "\u{2423}");
+    let example = if POSITIVE.contains(&letter) || POSITIVE_BARS.contains(&letter) { "0.3" } else { "-0.3" };
+    let problem = Diagnostic::new(message).with("letter", letter.as_char()).quoting("value", visible);
+    problem.quoting("example", example)
 }
 
 /// Recognises a number with characters that look like others, or with letters instead of digits.

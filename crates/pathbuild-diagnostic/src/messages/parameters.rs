@@ -162,6 +162,13 @@ messages! {
         help_en: "write a feed in mm/min, for example {example}",
         help_de: "einen Vorschub in mm/min schreiben, zum Beispiel {example}",
     }
+    /// A text value that contains what looks like a further parameter.
+    UNSEPARATED_PARAMETER: DoubtfulValue {
+        en: "{parameter} belongs to the text of {letter}, \"{value}\", and sets nothing",
+        de: "{parameter} gehört zum Text von {letter}, \"{value}\", und bewirkt nichts",
+        help_en: "separate parameters by spaces; if {parameter} is part of the text, write it without the sign before it",
+        help_de: "Parameter durch Leerzeichen trennen; gehört {parameter} zum Text, das Zeichen davor weglassen",
+    }
     /// Joined paths with different materials (M).
     JOINED_MATERIAL: DoubtfulValue {
         en: "M is {material} here, but {other} in path {path} of the same program",
@@ -334,8 +341,8 @@ messages! {
     NOT_A_NUMBER: NotANumber {
         en: "{letter} needs a number, not \"{value}\"",
         de: "{letter} braucht eine Zahl, nicht \"{value}\"",
-        help_en: "write digits with at most one decimal point or comma, and a sign if needed, for example {letter}-0.3",
-        help_de: "Ziffern mit höchstens einem Dezimalpunkt oder -komma schreiben, wenn nötig mit Vorzeichen, zum Beispiel {letter}-0.3",
+        help_en: "write digits with at most one decimal point or comma, and a sign if needed, for example {letter}{example}",
+        help_de: "Ziffern mit höchstens einem Dezimalpunkt oder -komma schreiben, wenn nötig mit Vorzeichen, zum Beispiel {letter}{example}",
     }
     /// A number that is followed by a unit, such as `O3mm`.
     NUMBER_WITH_UNIT: NotANumber {
@@ -365,10 +372,10 @@ messages! {
         help_en: "separate them with spaces: write \"{text}\"",
         help_de: "mit Leerzeichen trennen: \"{text}\"",
     }
-    /// A non-breaking space, which does not separate parameters.
-    NON_BREAKING_SPACE: NotANumber {
-        en: "{letter} needs a number, not \"{value}\": \u{2423} is a non-breaking space, which separates nothing",
-        de: "{letter} braucht eine Zahl, nicht \"{value}\": \u{2423} ist ein geschütztes Leerzeichen und trennt nicht",
+    /// A space other than that of the keyboard, such as a non-breaking one: it does not separate parameters.
+    SPECIAL_SPACE: NotANumber {
+        en: "{letter} needs a number, not \"{value}\": \u{2423} is a special space, which separates nothing",
+        de: "{letter} braucht eine Zahl, nicht \"{value}\": \u{2423} ist ein besonderes Leerzeichen und trennt nicht",
         help_en: "type an ordinary space instead",
         help_de: "dafür ein gewöhnliches Leerzeichen schreiben",
     }

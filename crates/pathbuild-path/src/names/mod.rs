@@ -145,11 +145,10 @@ impl PathName {
         if self.0.is_ascii() { self.0.to_ascii_uppercase() } else { self.0.to_uppercase() }
     }
 
-    /// Whether letters or digits directly adjoin the name in a text, so that another name is meant.
-    pub(crate) fn is_part_of_word(&self, text: &str) -> bool {
-        text.split_once(self.as_str()).is_some_and(|(before, behind)| {
-            before.ends_with(char::is_alphanumeric) || behind.starts_with(char::is_alphanumeric)
-        })
+    /// Whether a text without spaces has letters or digits beside the name, so that it means another name, or a parameter that is not separated.
+    pub(crate) fn is_part_of(&self, text: &str) -> bool {
+        let is_meant = |rest: &str| rest.contains(char::is_alphanumeric);
+        text.split_once(self.as_str()).is_some_and(|(before, behind)| is_meant(before) || is_meant(behind))
     }
 
     /// Whether a regular expression of E or --restrict matches anywhere in the name. It respects case.

@@ -126,11 +126,7 @@ impl ProxyLine {
     /// Returns the path that the line represents; `None` if `>` is not followed by a path name.
     pub fn name(&self, language: &Language) -> Option<PathName> {
         let (value, _) = self.value(Letter::Embed)?;
-        language
-            .path_pattern
-            .first_in(value)
-            .map(|(name, _)| name)
-            .filter(|name| !name.is_part_of_word(value))
+        language.path_pattern.first_in(value).map(|(name, _)| name).filter(|name| !name.is_part_of(value))
     }
 
     /// Returns the value of a letter. `None` if it refers to variables, which belong to the project that the line is copied into.

@@ -197,7 +197,7 @@ fn a_segment_names_a_path_and_no_more() {
     assert_eq!(named("Mx"), ["PB501"]);
 }
 
-/// Letters and digits directly after a name belong to it; PathDxf2GCode ignores them.
+/// A text with letters or digits beside a name means another name, or a parameter; PathDxf2GCode ignores them.
 #[test]
 fn a_name_that_goes_on_is_another() {
     let named = |segment: &str, is_compatible| {
@@ -207,11 +207,21 @@ fn a_name_that_goes_on_is_another() {
         (error, codes(&judge.warnings(call)))
     };
     let (error, warning) = (Some("PB502".to_owned()), vec!["PB502".to_owned()]);
-    for name in [">1111.1PA", ">1111.1P2", ">1111.1Pä", ">91111.1P", ">A1111.1P"] {
+    for name in [
+        ">1111.1PA",
+        ">1111.1P2",
+        ">1111.1Pä",
+        ">91111.1P",
+        ">A1111.1P",
+        ">1111.1P,H3",
+        ">1111.1P;:D2",
+        ">1111.1P\u{a0}H3",
+        ">1111.1P(A)",
+    ] {
         assert_eq!(named(name, false), (error.clone(), vec![]), "{name}");
         assert_eq!(named(name, true), (None, warning.clone()), "{name}");
     }
-    for name in [">1111.1P,", ">1111.1P(A)", ">'1111.1P'"] {
+    for name in [">1111.1P,", ">1111.1P.", ">'1111.1P'"] {
         assert_eq!(named(name, false), (None, warning.clone()), "{name}");
     }
     assert_eq!(named(">1111.1P Mx", false), (None, vec![]));

@@ -99,19 +99,37 @@ fn a_remark_is_no_parameter() {
 }
 
 #[test]
-fn a_non_breaking_space_is_named() {
-    let found = messages_with_help(&compile(&path(P, "mill 0,0 20,0 \"B1\u{a0}F100\"\nend 20,0")).found);
-    assert_one(
-        &found,
-        "PB205 B needs a number, not \"1\u{2423}F100\": \u{2423} is a non-breaking space",
-        "an ordinary space instead",
-    );
+fn a_special_space_is_named() {
+    for space in ['\u{a0}', '\u{202f}', '\u{2009}'] {
+        let drawn = format!("mill 0,0 20,0 \"B1{space}F100\"\nend 20,0");
+        assert_one(
+            &messages_with_help(&compile(&path(P, &drawn)).found),
+            "PB205 B needs a number, not \"1\u{2423}F100\": \u{2423} is a special space",
+            "an ordinary space instead",
+        );
+    }
+}
+
+#[test]
+fn a_parameter_in_a_text_value_is_doubted() {
+    for text in ["Qslot,B1", "Qslot;F100", "Q2/I0,5", "Qa:B-1", "Qslot\u{a0}B1", "Qslot,left,B1"] {
+        assert_one(&of_text(text, ElementClass::Mill), "PB211 ", "without the sign before it");
+    }
+    for text in ["Qslot,left", "QB1", "Qslot B1", "Qslot,T2", "Qslot,Bx", "Qslot,Q1", "Qslot.B1"] {
+        assert_eq!(of_text(text, ElementClass::Mill), [""; 0], "{text}");
+    }
+    assert_one(&of_text("LA,T2.5", ElementClass::Probe), "PB211 T2.5 belongs to the text of L", "before it");
 }
 
 #[test]
 fn a_value_above_0_has_an_example() {
     let found = messages_with_help(&compile(&path(P, "mill 0,0 20,0 \"F0\"\nend 20,0")).found);
     assert_one(&found, "PB203 F is 0", "for example F150");
+    let example = |text: &str| {
+        messages_with_help(&compile(&path(P, &format!("mill 0,0 20,0 {text:?}\nend 20,0"))).found)
+    };
+    assert_one(&example("W1x"), "PB205 W needs a number", "for example W0.3");
+    assert_one(&example("B1x"), "PB205 B needs a number", "for example B-0.3");
 }
 
 #[test]

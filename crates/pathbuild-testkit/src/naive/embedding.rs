@@ -108,11 +108,11 @@ impl<'m> Visit<'m> {
         let name = match &subpath.name {
             SubpathName::Missing { .. } => return self.stop(at("PB501", &[])),
             SubpathName::Invalid { value } => return self.stop(at("PB502", &[value])),
-            SubpathName::Found { name, has_more: Some(value) } if is_part_of_word(value, name.as_str()) => {
+            SubpathName::Found { name, has_more: Some(value) } if has_more_words(value, name.as_str()) => {
                 return self.stop(at("PB502", &[value]));
             }
             SubpathName::Found { name, has_more } => {
-                // Text after the name is only a warning.
+                // Other characters beside the name are only a warning.
                 self.found.extend(has_more.as_ref().map(|value| at("PB502", &[value])));
                 name
             }
@@ -224,11 +224,10 @@ impl Model {
     }
 }
 
-/// Whether a letter or digit directly adjoins the name in the text after `>`.
-fn is_part_of_word(value: &str, name: &str) -> bool {
+/// Whether the text after `>` has a letter or digit beside the name.
+fn has_more_words(value: &str, name: &str) -> bool {
     let at = value.find(name).unwrap_or_default();
-    let (before, behind) = (value[..at].chars().last(), value[at + name.len()..].chars().next());
-    [before, behind].into_iter().flatten().any(char::is_alphanumeric)
+    value[..at].chars().chain(value[at + name.len()..].chars()).any(char::is_alphanumeric)
 }
 
 fn allows(definition: &Definition, value: &str) -> bool {
