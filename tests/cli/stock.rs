@@ -5,6 +5,7 @@
     reason = "small numbers of moves and points"
 )]
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
@@ -544,4 +545,32 @@ fn copy(from: &Path, to: &Path) {
         let file = entry.unwrap().path();
         std::fs::copy(&file, to.join(file.file_name().unwrap())).unwrap();
     }
+}
+
+/// Returns the number of moves and pieces of moves that the picture of an arc in the plane G18 shows, and of different colours. The arc begins and ends
+/// 1 mm below the surface, 20 mm apart.
+fn shown_of_an_upright_arc(word: &str) -> [usize; 2] {
+    let program = format!(
+        "G17 G21 G90 G94\nS9000 M3\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG18\n{word} X20 Z-1 I10 K0\nG17\nG0 Z5\nM5\nM30\n"
+    );
+    let place = Place::new().file("a.nc", program);
+    let run = place.run("view a.nc --dialect linuxcnc --stock --cutter 3 --surface 0 -o a.svg");
+    assert!(matches!(run.status, Some(0 | 1)), "{run}");
+    let svg = place.read("a.svg");
+    let cuts = svg.split_once("clip-path=\"url(#stock)\"").unwrap().1.split_once("</g>").unwrap().0;
+    let lines: Vec<&str> = cuts.lines().filter(|line| line.contains("stroke=\"#")).collect();
+    let color = |line: &&str| line.split_once("stroke=\"").unwrap().1[..7].to_owned();
+    let colors: BTreeSet<String> = lines.iter().map(color).collect();
+    [lines.iter().map(|line| line.matches('M').count()).sum(), colors.len()]
+}
+
+#[test]
+fn an_arc_in_an_upright_plane_is_as_deep_as_it_dips() {
+    let [pieces, colors] = shown_of_an_upright_arc("G2");
+    assert!(pieces >= 64 && colors > 20, "the arc dips: {pieces} {colors}");
+    let [pieces, colors] = shown_of_an_upright_arc("G3");
+    assert!(
+        pieces < 8 && colors < 8,
+        "the arc leaves the material at once, and only its ends cut: {pieces} {colors}"
+    );
 }

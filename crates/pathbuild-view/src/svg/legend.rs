@@ -11,7 +11,10 @@ use crate::scene::{Finding, MoveKind, Point, Scene};
 use pathbuild_diagnostic::Lang;
 
 /// Line height in px.
-const LINE_HEIGHT: f64 = 17.0;
+pub(super) const LINE_HEIGHT: f64 = 17.0;
+
+/// Left edge of the legend in px.
+const LEFT: f64 = 40.0;
 
 /// Letter size and width of the lines of findings, in px.
 const LETTER_SIZE: f64 = 11.0;
@@ -33,6 +36,8 @@ pub(super) struct Legend<'a> {
     pub(super) listed: usize,
     /// The stock, if the picture shows it instead of the moves.
     stock: Option<&'a MilledStock<'a>>,
+    /// Height in px of the lines that the colours of the stock need in addition to their first one.
+    overhang: f64,
 }
 
 impl<'a> Legend<'a> {
@@ -47,6 +52,7 @@ impl<'a> Legend<'a> {
             findings,
             listed,
             stock: None,
+            overhang: 0.0,
         }
     }
 
@@ -56,12 +62,13 @@ impl<'a> Legend<'a> {
         depths: &'a Depths,
         shown: VisibleParts,
     ) -> Self {
-        Self { stock: Some(stock), ..Self::new(stock.scene, frame, depths, shown) }
+        let overhang = stock.legend_overhang(shown, [LEFT, 0.0], Frame::WIDTH);
+        Self { stock: Some(stock), overhang, ..Self::new(stock.scene, frame, depths, shown) }
     }
 
     /// Returns the lower edge of the page in px.
     pub(super) fn bottom(&self) -> f64 {
-        self.top + 5.0 * LINE_HEIGHT + self.findings.len() as f64 * LINE_HEIGHT
+        self.top + self.overhang + 5.0 * LINE_HEIGHT + self.findings.len() as f64 * LINE_HEIGHT
     }
 
     /// Draws the legend. `hidden` are the numbers of elements that do not fit in the picture.
@@ -92,7 +99,7 @@ impl<'a> Legend<'a> {
         }
         self.draw_scale_bar(canvas, self.top + 3.0 * LINE_HEIGHT);
         if let Some(stock) = self.stock {
-            stock.legend(canvas, self.shown, [40.0, self.top + 4.0 * LINE_HEIGHT], Frame::WIDTH);
+            stock.legend(canvas, self.shown, [LEFT, self.top + 4.0 * LINE_HEIGHT], Frame::WIDTH);
         } else {
             draw_depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE_HEIGHT]);
             let left = 40.0 + DEPTHS_WIDTH;
@@ -105,7 +112,7 @@ impl<'a> Legend<'a> {
             );
         }
         for (row, (finding, line)) in self.findings.iter().enumerate() {
-            let y = self.top + (5.0 + row as f64) * LINE_HEIGHT;
+            let y = self.top + self.overhang + (5.0 + row as f64) * LINE_HEIGHT;
             let style = match finding {
                 Some(finding) => {
                     let color = if finding.is_error { ERROR_COLOUR } else { WARNING_COLOUR };

@@ -13,6 +13,7 @@ use pathbuild_motion::{Axes, Move, MoveShape, Pace, Position, Step};
 
 use super::canvas::{Anchor, Canvas, INK_COLOUR, mm, svg_number};
 use super::frame::{Frame, PageTransform, VisibleParts, widen};
+use super::legend::LINE_HEIGHT;
 use super::moves::path_data;
 use super::symbols;
 use crate::scene::{FinishedPart, MoveKind, Point, Scene, SceneMove, ScenePath, Shape, ToolSpan};
@@ -99,13 +100,21 @@ impl Piece {
     fn of(self, way: &Move) -> Move {
         match self {
             Self::Whole => *way,
-            Self::Part { number, count } => way.piece(number.into(), count.into()),
+            Self::Part { number, count } => {
+                let part = way.piece(number.into(), count.into());
+                if is_upright(way) { Move { shape: MoveShape::Line, ..part } } else { part }
+            }
             Self::Bottom => {
                 let bottom = if way.from.z() < way.to.z() { way.from } else { way.to };
                 Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }
             }
         }
     }
+}
+
+/// Whether a move is an arc in a plane other than XY: seen from above, a straight line, whose height changes along it.
+fn is_upright(way: &Move) -> bool {
+    matches!(way.shape, MoveShape::Arc(arc) if arc.plane.axes() != [0, 1])
 }
 
 /// A stroke to paint. Higher strokes are painted first, and an edge before the cuts at the same height.
@@ -374,7 +383,20 @@ impl<'s> MilledStock<'s> {
     }
 
     /// Draws the meaning of the colours, from `left` to `right` and continuing on further lines.
-    pub(super) fn legend(&self, canvas: &mut Canvas, shown: VisibleParts, [left, mut y]: Point, right: f64) {
+    pub(super) fn legend(&self, canvas: &mut Canvas, shown: VisibleParts, at: Point, right: f64) {
+        for LegendEntry { at: [x, y], color, name } in self.legend_entries(shown, at, right) {
+            let style = format!("fill=\"{color}\" stroke=\"{EDGE_COLOUR}\" stroke-width=\"0.5\"");
+            canvas.path(&format!("M{} {}h12v10h-12Z", svg_number(x), svg_number(y - 9.0)), &style);
+            canvas.text([x + 17.0, y], 10.5, Anchor::Start, &format!("fill=\"{INK_COLOUR}\""), &name);
+        }
+    }
+
+    /// Returns the height in px of the legend's lines after the first one.
+    pub(super) fn legend_overhang(&self, shown: VisibleParts, [left, top]: Point, right: f64) -> f64 {
+        self.legend_entries(shown, [left, top], right).last().map_or(0.0, |entry| entry.at[1] - top)
+    }
+
+    fn legend_entries(&self, shown: VisibleParts, [left, mut y]: Point, right: f64) -> Vec<LegendEntry> {
         let [top, low] = self.range;
         let has = |kind| self.strokes.iter().any(|stroke| stroke.kind == kind);
         let has_part = |is_such: fn(&FinishedPart) -> bool| {
@@ -436,17 +458,26 @@ impl<'s> MilledStock<'s> {
             ),
         ];
         let mut x = left;
-        for (_, color, name) in all.into_iter().filter(|(is_there, ..)| *is_there) {
+        let present = all.into_iter().filter(|(is_there, ..)| *is_there);
+        let entries = present.map(|(_, color, name)| {
             let width = 38.0 + 6.6 * name.chars().count() as f64;
             if x + width > right {
-                (x, y) = (left, y + 17.0);
+                (x, y) = (left, y + LINE_HEIGHT);
             }
-            let style = format!("fill=\"{color}\" stroke=\"{EDGE_COLOUR}\" stroke-width=\"0.5\"");
-            canvas.path(&format!("M{} {}h12v10h-12Z", svg_number(x), svg_number(y - 9.0)), &style);
-            canvas.text([x + 17.0, y], 10.5, Anchor::Start, &format!("fill=\"{INK_COLOUR}\""), name);
+            let at = [x, y];
             x += width;
-        }
+            LegendEntry { at, color, name: name.to_owned() }
+        });
+        entries.collect()
     }
+}
+
+/// A colour of the legend, with its meaning.
+struct LegendEntry {
+    /// Start of the baseline, in px.
+    at: Point,
+    color: String,
+    name: String,
 }
 
 /// The two pictures that show how a change affects the stock.
@@ -568,32 +599,37 @@ struct StrokeBuilder {
 }
 
 impl StrokeBuilder {
-    /// Adds the strokes that a cut paints. A slope is divided into steps, each of which has the height of its upper end.
+    /// Adds the strokes that a cut paints. A slope is divided into pieces, each of which has the height of its upper end; so is an arc that bulges up or
+    /// down. Only level cuts have an edge: those of neighbouring slopes would cover each other's surfaces.
     fn cut(&mut self, at: MovePiece, way: &Move, setting: &CuttingConditions, step: f64) {
         let [from, to] = [way.from.z(), way.to.z()];
-        let low = from.min(to);
+        let [.., Some((low, high))] = way.extent() else { return };
         if low >= setting.top {
             return;
         }
         let bottom = MovePiece { piece: Piece::Bottom, ..at };
         if way.is_vertical() {
             self.add(bottom, low, setting, true);
-        } else if (from - to).abs() < step / 4.0 {
-            self.add(at, from.max(to), setting, true);
+        } else if high - low < step / 4.0 {
+            self.add(at, high, setting, rounded(low) == rounded(high));
         } else {
+            let count = if is_upright(way) { SLOPE_STEPS } else { (high - low) / step };
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
                 reason = "at most the number of steps"
             )]
-            let count = ((from - to).abs() / step).ceil().clamp(1.0, SLOPE_STEPS) as u16;
+            let count = count.ceil().clamp(1.0, SLOPE_STEPS) as u16;
             for (number, way) in (0..).zip(way.split(count.into())) {
                 let z = way.from.z().max(way.to.z());
                 if z < setting.top {
                     self.add(MovePiece { piece: Piece::Part { number, count }, ..at }, z, setting, false);
                 }
             }
-            self.add(bottom, low, setting, false);
+            let end = from.min(to);
+            if end < setting.top {
+                self.add(bottom, end, setting, false);
+            }
         }
     }
 
