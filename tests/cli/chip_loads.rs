@@ -1,4 +1,4 @@
-//! Tests chip loads outside the limits of `[tool]` (PB790), in drawings and programs, and the shape of a tool in `verify`.
+//! Tests chip loads outside the limits of `[tool]` (PB790) and cuts deeper than its cutting edges (PB792), in drawings and programs, and the shape of a tool in `verify`.
 
 use crate::support::{Place, Run};
 use pathbuild_testkit::sheet;
@@ -93,6 +93,52 @@ fn feeds_of_a_native_program_are_compared() {
         .file("a.gcode", program.replace("F600.000 X", "F601.000 X"));
     let run = faster.run("verify a.gcode --format concise");
     assert!(run.stderr.contains("0.0301 mm per tooth is above 0.03: feed 601 mm/min"), "{run}");
+}
+
+/// Returns the findings of `check` about cuts deeper than the tool's edges of 5.2 mm, in a plate of 5 mm.
+fn too_deep(start: &str, elements: &str, tool: &str) -> Vec<String> {
+    let drawing = format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 F150 MX {start}\"\n{elements}\nend 40,0\n");
+    let configuration = format!("rapid = 1000\nsweep-height = 8\n{TOOL}length = 5.2\n{tool}");
+    let place = Place::new()
+        .file("pathbuild.toml", configuration)
+        .file("1234.1P.dxf", sheet(&drawing).unwrap().to_dxf());
+    let run = place.run("check 1234.1P.dxf --format concise");
+    run.stderr
+        .lines()
+        .chain(run.stdout.lines())
+        .filter(|line| line.contains("PB792"))
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn cuts_of_a_drawing_are_no_deeper_than_the_edges_of_the_tool() {
+    const LINES: &str = "mill 0,0 20,0\nmill 20,0 40,0";
+    assert_eq!(too_deep("B-0.2", LINES, ""), [""; 0], "as deep as the edges are long");
+    let found = too_deep("B-0.21", LINES, "");
+    assert!(found.len() == 1 && found[0].contains("5.21 mm deep"), "once for the path: {found:?}");
+    assert!(found[0].contains("only 5.2 mm long"), "{found:?}");
+    let own = too_deep("B0", "mill 0,0 20,0\nmill 20,0 40,0 \"B-0.3\"", "");
+    assert!(own.len() == 1 && own[0].contains("Z-0.3 is 5.3 mm deep"), "{own:?}");
+    assert_eq!(too_deep("B-0.3 D4", "mark 0,0 40,0", ""), [""; 0], "marks go down to D");
+    assert_eq!(too_deep("B-0.3", LINES, "shape = \"slot\"\n"), [""; 0]);
+}
+
+#[test]
+fn cuts_of_a_program_are_no_deeper_than_the_edges_of_the_tool() {
+    let found = |z: &str, options: &str| {
+        let program = format!(
+            "G17 G21 G90 G94\nT4 M6\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F20\nG1 X20\nG1 Z{z}\nG1 X0\nG0 Z5\nM5\nM30\n"
+        );
+        let run = verify(&format!("{TOOL}length = 4\n"), &program, options);
+        let found = run.stderr.lines().filter(|line| line.contains("PB792"));
+        found.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(found("-4.005", "--surface 0"), [""; 0], "within rounding");
+    let deep = found("-4.01", "--surface 0");
+    assert!(deep.len() == 1 && deep[0].starts_with("a.nc:8:"), "{deep:?}");
+    assert_eq!(found("-4.01", "--surface -0.1"), [""; 0]);
+    assert_eq!(found("-4.01", ""), [""; 0], "the surface is unknown");
 }
 
 /// Whether `verify` reports a rapid move back along a cut, at its depth and `offset` mm beside its centre line.

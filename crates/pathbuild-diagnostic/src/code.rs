@@ -276,6 +276,7 @@ codes! {
     789 CycleLeftOn "cycle-left-on" Warning "a drilling cycle that is still on after a tool change";
     790 DoubtfulChipLoad "doubtful-chip-load" Warning "a chip load outside the limits of `[tool]`";
     791 StopAtDepth "stop-at-depth" Warning "a stop for the operator with the cutter in the material";
+    792 CutDeeperThanEdges "cut-deeper-than-edges" Warning "a cut deeper than the cutting edges of its tool are long";
 }
 
 impl Code {

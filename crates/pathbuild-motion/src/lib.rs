@@ -4,10 +4,12 @@
 //! statistics. Everything is absolute and in millimetres. This crate knows neither drawings nor texts.
 
 mod chip_load;
+mod cutting_length;
 mod geometry;
 mod step;
 
 pub use chip_load::ChipLoad;
+pub use cutting_length::check_cutting_length;
 pub use geometry::{Arc, Axes, Course, Plane, Position, WrittenArc, is_full_turn, turn_angle, widest_chord};
 pub use step::{
     Action, Change, Coolant, Corners, Group, Move, MoveShape, NamedPosition, Pace, Spindle, StatedWord, Step,

@@ -44,6 +44,8 @@ pub struct PathTool {
     pub is_named: bool,
     /// The chip load that the user allows.
     pub chip_load: Option<ChipLoad>,
+    /// Length in mm of the cutting edges, which no cut should exceed; `None` to check nothing.
+    pub cutting_length: Option<f64>,
     /// Whether the tool is a slot cutter, which cuts slots that the outlines of parts do not show.
     pub is_slot_cutter: bool,
 }

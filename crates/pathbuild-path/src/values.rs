@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
 use crate::approx::{above, at_least};
-use pathbuild_motion::ChipLoad;
+use pathbuild_motion::{ChipLoad, check_cutting_length};
 
 use crate::language::DoubtThresholds;
 use crate::letter::{ElementClass, Letter, LetterUse, Letters};
@@ -357,6 +357,21 @@ pub(crate) fn check_mark(
         .with("example", thickness - thickness.min(USUAL_MARK_DEPTH));
     let says = if is_own { own } else { path };
     Some((says.underline(Letter::D, problem), !is_own))
+}
+
+/// Returns the finding about a cut with this bottom in mm that is deeper than the cutting edges of the tool are long, and whether the bottom is the
+/// path's value of `letter` rather than the cut's own.
+pub(crate) fn check_cutting_depth(
+    bottom: f64,
+    letter: Letter,
+    own: &Values<'_>,
+    path: &Values<'_>,
+    length: Option<f64>,
+) -> Option<(Diagnostic, bool)> {
+    let problem = check_cutting_length(length?, bottom, path.number(Letter::T).number()?)?;
+    let is_own = own.has(letter);
+    let says = if is_own { own } else { path };
+    Some((says.underline(letter, problem), !is_own))
 }
 
 /// A usual depth of a mark in mm, for help.

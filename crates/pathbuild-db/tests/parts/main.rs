@@ -69,7 +69,13 @@ impl PartTest<'_> {
     fn database(&self, files: &[(&str, &str)]) -> Database {
         let tool = |path: &str, diameter: f64| {
             let is_slot_cutter = path.ends_with('S') && (diameter - 2.0).abs() < 1e-9;
-            Some(PathTool { name: "mill".into(), is_named: false, chip_load: None, is_slot_cutter })
+            Some(PathTool {
+                name: "mill".into(),
+                is_named: false,
+                chip_load: None,
+                cutting_length: None,
+                is_slot_cutter,
+            })
         };
         let system = Arc::new(MemorySystem::default());
         for (name, text) in files {

@@ -295,6 +295,13 @@ messages! {
         help_en: "lower F, raise the speed, or change `chip-load` of the tool ({least} to {most}); otherwise the tool may break",
         help_de: "F senken, die Drehzahl erhöhen oder `chip-load` des Werkzeugs ändern ({least} bis {most}); sonst kann das Werkzeug brechen",
     }
+    /// A cut that is deeper than the cutting edges of its tool are long.
+    CUT_DEEPER_THAN_EDGES: CutDeeperThanEdges {
+        en: "a cut down to Z{bottom} is {depth} mm deep, but the cutting edges of the tool are only {length} mm long",
+        de: "ein Schnitt bis Z{bottom} ist {depth} mm tief, die Schneiden des Werkzeugs sind aber nur {length} mm lang",
+        help_en: "use a tool with longer cutting edges, cut less deep, or correct `length` of the tool in pathbuild.toml",
+        help_de: "ein Werkzeug mit längeren Schneiden nehmen, weniger tief fräsen oder `length` des Werkzeugs in pathbuild.toml berichtigen",
+    }
     /// A default sweep height that is not above T.
     DEFAULT_SWEEP_TOO_LOW: ParameterOutOfRange {
         en: "the sweep height {value} used for this path is not greater than T, which is {limit}",

@@ -18,7 +18,7 @@ use crate::bind::uncut_runs::{SupportSegment, uncut_runs};
 use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape, diagnostic_point};
 use crate::geometry::{Curve, Line};
-use crate::language::Language;
+use crate::language::{Language, PathTool};
 use crate::letter::{ElementClass, Letter, LetterUse, Letters};
 use crate::path::{
     CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath, SubpathName, SubpathValue,
@@ -27,7 +27,7 @@ use crate::path::{
 use crate::raw::{DrawingFaults, Faults, RawPath};
 use crate::read::{Ring, RingPart, rings};
 use crate::text::{LetterValue, ParameterText, TextId};
-use crate::values::{GivenNumber, Values, check_doubts, check_limits, check_mark};
+use crate::values::{GivenNumber, Values, check_cutting_depth, check_doubts, check_limits, check_mark};
 use crate::variables::{Bindings, Interpolation};
 
 /// The outcome of binding a path that may have errors: as much of the path as is known, and the problems with its values.
@@ -62,7 +62,8 @@ struct Binder<'a> {
     interpolation: Interpolation<'a>,
     /// The values in the path's own text.
     values: Values<'a>,
-    chip_load: Option<ChipLoad>,
+    /// The configured tool of the path.
+    tool: Option<PathTool>,
     segments: Vec<Segment>,
     cuts: Vec<CutParameters>,
     holes: Vec<Hole>,
@@ -72,6 +73,8 @@ struct Binder<'a> {
     by_text: HashMap<TextId, Vec<usize>>,
     /// Whether the path's D was reported as doubtful for marks.
     has_doubtful_marks: bool,
+    /// Whether the path's B or D was reported as deeper than the cutting edges of the tool.
+    has_deep_cuts: bool,
     has_thin_bars: bool,
     /// Whether any segment with support bars has a gap between them.
     has_gap: bool,
@@ -123,7 +126,7 @@ impl<'a> Binder<'a> {
             language,
             interpolation,
             values,
-            chip_load: None,
+            tool: None,
             segments: Vec::new(),
             cuts: Vec::new(),
             holes: Vec::new(),
@@ -131,6 +134,7 @@ impl<'a> Binder<'a> {
             problems: Vec::new(),
             by_text: HashMap::new(),
             has_doubtful_marks: false,
+            has_deep_cuts: false,
             has_thin_bars: false,
             has_gap: false,
             gapless: None,
@@ -260,14 +264,14 @@ impl<'a> Binder<'a> {
             problems.push(self.values.underline(Letter::E, problem));
         }
         problems.extend(check_limits(&self.values, &self.values, ElementClass::PathStart));
-        self.chip_load = self
+        self.tool = self
             .values
             .number(Letter::O)
             .number()
-            .and_then(|diameter| self.language.tools.chip_load(self.raw.name.as_str(), diameter));
+            .and_then(|diameter| self.language.tools.of(self.raw.name.as_str(), diameter));
         let doubts = &self.language.doubts;
         let class = ElementClass::PathStart;
-        problems.extend(check_doubts(&self.values, &self.values, class, doubts, self.chip_load));
+        problems.extend(check_doubts(&self.values, &self.values, class, doubts, self.chip_load()));
         for problem in problems {
             self.report_at_start(problem);
         }
@@ -296,7 +300,25 @@ impl<'a> Binder<'a> {
             }
             _ => {}
         }
+        self.check_cutting_depth(scope, cut.depth(), bottom);
         Some(bottom)
+    }
+
+    /// Reports a cut that is deeper than the cutting edges of the tool are long; of cuts that use the path's value, only the first.
+    fn check_cutting_depth(&mut self, scope: &Scope<'_>, letter: Letter, bottom: f64) {
+        let length = self.tool.as_ref().and_then(|tool| tool.cutting_length);
+        match check_cutting_depth(bottom, letter, scope.values, &self.values, length) {
+            Some((problem, false)) => self.report(scope.at, problem),
+            Some((problem, true)) if !self.has_deep_cuts => {
+                self.has_deep_cuts = true;
+                self.report_at_start(problem);
+            }
+            _ => {}
+        }
+    }
+
+    fn chip_load(&self) -> Option<ChipLoad> {
+        self.tool.as_ref()?.chip_load
     }
 
     fn path_number(&self, letter: Letter) -> Option<f64> {
@@ -322,7 +344,7 @@ impl<'a> Binder<'a> {
         let mut problems = std::mem::take(&mut values.problems);
         problems.append(&mut check_limits(&values, &self.values, class));
         let doubts = &self.language.doubts;
-        problems.append(&mut check_doubts(&values, &self.values, class, doubts, self.chip_load));
+        problems.append(&mut check_doubts(&values, &self.values, class, doubts, self.chip_load()));
         for problem in problems {
             self.report(at, problem);
         }

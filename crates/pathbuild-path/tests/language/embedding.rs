@@ -111,7 +111,7 @@ fn the_tool_is_that_of_the_embedding_path() {
             let is_inner = path == "1111.1P";
             let name = if is_inner { of_inner } else { "mill" };
             let (name, is_named) = (name.into(), is_named && is_inner);
-            Some(PathTool { name, is_named, chip_load: None, is_slot_cutter: false })
+            Some(PathTool { name, is_named, chip_load: None, cutting_length: None, is_slot_cutter: false })
         });
         let outer = project("T5 O3 I1 B0 Mx", &format!(">1111.1P O{inner_tool}"));
         let inner = path(&format!("T5 O{inner_tool} I1 B0 Mx"), "mill 0,0 20,0\nend 20,0");

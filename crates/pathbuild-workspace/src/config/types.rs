@@ -277,6 +277,11 @@ impl Tool {
         Some(ChipLoad { flutes: self.flutes?, speed: self.spindle, least: from, most: to })
     }
 
+    /// Returns the length in mm of the cutting edges that no cut should exceed; `None` for a slot cutter, which cuts below the surface.
+    pub fn cutting_length(&self) -> Option<f64> {
+        self.length.filter(|_| self.shape != CutterShape::Slot)
+    }
+
     /// Returns the direction of rotation; `None` if the operator chooses it.
     pub fn turning(&self) -> Option<Turning> {
         self.direction.or(self.spindle.map(|_| Turning::Clockwise))

@@ -48,6 +48,7 @@ fn path_tools(context: &Workspace) -> PathTools {
         name: (&*tool.name).into(),
         is_named: tool.paths.is_some(),
         chip_load: tool.chip_load(),
+        cutting_length: tool.cutting_length(),
         is_slot_cutter: tool.shape == types::CutterShape::Slot,
     };
     let tools: Vec<PathTool> = context.settings.tables.tools.value.iter().map(tool).collect();

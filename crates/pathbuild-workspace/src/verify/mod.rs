@@ -18,15 +18,15 @@ use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    BentRapidRules, BlindRapidRules, ChipLoadRules, ClampCollisions, CornerRules, DepthRules, DirectionRules,
-    DrawingComparison, LengthRules, Machine, MachineRules, PostWords, StatedStatistics, Stock, WordRules,
-    coarse_arc_finding, verify,
+    BentRapidRules, BlindRapidRules, ChipLoadRules, ClampCollisions, CornerRules, CuttingLengthRules,
+    DepthRules, DirectionRules, DrawingComparison, LengthRules, Machine, MachineRules, PostWords,
+    StatedStatistics, Stock, WordRules, coarse_arc_finding, verify,
 };
 use pathbuild_motion::{Action, Move, Pace, Step};
 use pathbuild_post::ToolTable;
 use serde::{Deserialize, Serialize};
 
-use crate::config::types::{Requirement, SpindleControl};
+use crate::config::types::{Requirement, SpindleControl, Tool};
 use crate::config::{Settings, number, positive};
 use crate::post_processor::{PostArguments, PostProcessor, known_words, machine, tool_table};
 use crate::program::{DefinitionTranslation, Program, ReadingOptions};
@@ -463,7 +463,11 @@ impl<'v> Examination<'v> {
             words: against.is_none().then(|| WordRules::new(&self.words, program.dialect)),
             clamps: against.and_then(|against| against.clamp_collisions(program.dialect)),
         };
-        let mut chip_loads = ChipLoadRules::new(self.sources.chip_loads());
+        let tools = self.sources.cutting_tools();
+        let loads = tools.iter().map(|(line, tool)| (*line, tool.and_then(Tool::chip_load)));
+        let mut chip_loads = ChipLoadRules::new(loads.collect());
+        let edges = tools.iter().map(|(line, tool)| (*line, tool.and_then(Tool::cutting_length)));
+        let mut cutting_lengths = CuttingLengthRules::new(edges.collect(), self.sources.stock());
         // The comparison with a drawing reports wrong directions and wrong tool lengths itself.
         let mut directions = self.milled.is_none().then(|| DirectionRules::new(self.sources.directions()));
         let mut lengths =
@@ -477,6 +481,7 @@ impl<'v> Examination<'v> {
                 nominal.step(step);
                 evidence.step(step);
                 chip_loads.step(step);
+                cutting_lengths.step(step);
                 if let Some(directions) = &mut directions {
                     directions.step(step);
                 }
@@ -507,6 +512,7 @@ impl<'v> Examination<'v> {
         found.extend(coarse_arc_finding(program.code(), program.dialect));
         found.extend(written.limits);
         found.extend(chip_loads.finish());
+        found.extend(cutting_lengths.finish());
         let is_switched = verifier.settings.general.spindle.value != SpindleControl::Manual
             && !matches!(program.dialect, Dialect::Xpertmill | Dialect::Native);
         found.extend(

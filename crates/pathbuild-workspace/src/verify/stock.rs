@@ -7,7 +7,7 @@ use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{BlindRapids, Cutter, DepthRules, Stock, StockSpan};
-use pathbuild_motion::{ChipLoad, Turning};
+use pathbuild_motion::Turning;
 
 use super::against::ReferenceProgram;
 use super::checks::{Assumption, Origin, Outcome, RapidValues, Reason};
@@ -322,19 +322,17 @@ impl<'s> Sources<'s> {
         self.tools().get(entry)
     }
 
-    /// Returns the chip loads allowed for the tools, each with the line from which the tool cuts. Empty for XpertMILL, whose layers are not tools,
-    /// and for a program with subprograms and several tools, in which the tool of a line depends on the caller.
-    pub(super) fn chip_loads(&self) -> Vec<(u32, Option<ChipLoad>)> {
+    /// Returns the configured tools that cut, each with the line from which it cuts. Empty for a program with subprograms and several tools, in which
+    /// the tool of a line depends on the caller.
+    pub(super) fn cutting_tools(&self) -> Vec<(u32, Option<&'s Tool>)> {
         if self.program.dialect == Dialect::Xpertmill || self.header.has_calls && self.header.tools.len() > 1
         {
             return Vec::new();
         }
         let native = self.native_entry();
-        let load = |tool: &CuttingTool| {
-            let entry = if self.is_numbered() { self.entry(tool) } else { native };
-            (tool.line, entry.and_then(Tool::chip_load))
-        };
-        self.header.tools.iter().map(load).collect()
+        let entry =
+            |tool: &CuttingTool| (tool.line, if self.is_numbered() { self.entry(tool) } else { native });
+        self.header.tools.iter().map(entry).collect()
     }
 
     /// Returns the directions of rotation of the tools, each with the line from which the tool cuts. Where the tool is not known, as in programs
