@@ -69,7 +69,7 @@ messages! {
         en: "this cut removes {lost} of the {length} mm of a support bar of path {other}; that bar stands at {point} in the program (bars: {count})",
         de: "dieser Schnitt nimmt {lost} von {length} mm eines Stützstegs von Pfad {other} weg, der im Programm bei {point} steht (Stege: {count})",
         help_en: "place the paths farther apart, or end this cut higher than D of the bar",
-        help_de: "die Pfade weiter auseinander setzen oder diesen Schnitt höher als D des Stegs enden lassen",
+        help_de: "die Pfade mit größerem Abstand anordnen oder diesen Schnitt höher als D des Stegs enden lassen",
     }
     /// Two ends of an outline that almost meet.
     OUTLINE_GAP: DoubtfulOutline {
@@ -116,9 +116,9 @@ messages! {
     /// Two paths that cut the same part, but are embedded at different places.
     DISPLACED_PATH: DisplacedPath {
         en: "paths {name} and {other} cut the same part, but place it up to {distance} mm apart: in the program, its outline begins at {point} and at {place}",
-        de: "die Pfade {name} und {other} fräsen dasselbe Teil, setzen es aber bis zu {distance} mm auseinander: sein Umriss beginnt im Programm bei {point} und bei {place}",
+        de: "die Pfade {name} und {other} fräsen dasselbe Teil, aber um bis zu {distance} mm gegeneinander versetzt: sein Umriss beginnt im Programm bei {point} und bei {place}",
         help_en: "embed the paths relative to each other as they lie in their drawing; two copies of the part must be O or more apart",
-        help_de: "die Pfade so zueinander einbetten, wie sie in ihrer Zeichnung liegen; zwei Exemplare des Teils müssen mindestens um O auseinander liegen",
+        help_de: "die Pfade so zueinander einbetten, wie sie in ihrer Zeichnung liegen; zwei Exemplare des Teils müssen mindestens um O auseinanderliegen",
     }
     /// A cut in a piece of waste that nothing holds any more.
     CUT_IN_LOOSE_WASTE: CutInLooseWaste {

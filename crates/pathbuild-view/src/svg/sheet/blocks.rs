@@ -140,7 +140,7 @@ fn manual_changes(tools: &[SheetTool], changes: &[usize], lang: Lang) -> String 
     let listed = listed.chain(more).collect::<Vec<_>>().join(", ");
     lang.choose(
         format!("Program stops for changes of the cutter by hand ({count}): {listed}; Z0 is set again after each"),
-        format!("Das Programm hält für Fräserwechsel von Hand an ({count}): {listed}; nach jedem wird Z0 neu gesetzt"),
+        format!("Das Programm hält für Werkzeugwechsel von Hand an ({count}): {listed}; nach jedem wird Z0 neu gesetzt"),
     )
 }
 
