@@ -74,7 +74,7 @@ impl<'i> Interpreter<'i> {
 
     /// Executes a block and appends its steps to `out`.
     pub(super) fn block(&mut self, block: &Block<'_>) {
-        for comment in block.comments {
+        for comment in &block.comments {
             self.check_active(block, comment.text);
             self.take_stated(block, comment.text);
             self.step(block, Action::Comment(block.text_of(comment.text).into()));

@@ -41,7 +41,7 @@ impl Interpreter<'_> {
                 }
             }
         }
-        for setting in block.settings {
+        for setting in &block.settings {
             let (value, _) = self.value(block, setting.value, setting.span)?;
             let target = match setting.target {
                 Target::Numbered(code) => {

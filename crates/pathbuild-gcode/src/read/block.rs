@@ -1,7 +1,7 @@
 //! The parts of a line of G-code.
 
 use std::borrow::Cow;
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
@@ -152,29 +152,61 @@ pub struct Block<'a> {
     pub line: u32,
     /// The line without its line break.
     pub text: &'a [u8],
+    pub(super) parts: &'a LineParts,
+}
+
+/// The parts of a line, each in the order of the text. The reader reuses them for the next line to avoid allocations.
+#[derive(Debug, Default)]
+pub struct LineParts {
     /// Block number (N).
     pub number: Option<Number>,
     /// Whether the line begins with `/`, so that a switch on the machine can skip it.
     pub optional: bool,
-    /// Words in the order of the text.
-    pub words: &'a [Word],
-    /// Assignments to parameters in the order of the text. They take effect after all values of the line have been read.
-    pub settings: &'a [Assignment],
-    /// Comments in the order of the text.
-    pub comments: &'a [Comment],
-    /// Formulas in the order of the text.
-    pub formulas: &'a [Formula],
+    /// The words.
+    pub words: Vec<Word>,
+    /// Assignments to parameters. They take effect after all values of the line have been read.
+    pub settings: Vec<Assignment>,
+    /// The comments.
+    pub comments: Vec<Comment>,
+    /// The correction formulas.
+    pub formulas: Vec<Formula>,
     /// The O word, if the line has one.
     pub o_word: Option<OWord>,
     /// The values in brackets after the O word.
-    pub arguments: &'a [Code],
-    pub(super) code: &'a [Op],
+    pub arguments: Vec<Code>,
+    pub(super) code: Vec<Op>,
+}
+
+impl LineParts {
+    pub(super) fn clear(&mut self) {
+        self.number = None;
+        self.optional = false;
+        self.words.clear();
+        self.settings.clear();
+        self.comments.clear();
+        self.formulas.clear();
+        self.o_word = None;
+        self.arguments.clear();
+        self.code.clear();
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.words.is_empty() && self.settings.is_empty() && self.number.is_none()
+    }
+}
+
+impl Deref for Block<'_> {
+    type Target = LineParts;
+
+    fn deref(&self) -> &LineParts {
+        self.parts
+    }
 }
 
 impl<'a> Block<'a> {
     /// Returns the operations of an expression in this block, with operands first.
     pub fn code(&self, code: Code) -> &'a [Op] {
-        &self.code[code.range()]
+        &self.parts.code[code.range()]
     }
 
     /// Returns a part of the line.
@@ -189,7 +221,7 @@ impl<'a> Block<'a> {
 
     /// Returns the formula of the word with this index.
     pub fn formula(&self, word: usize) -> Option<&'a Formula> {
-        self.formulas.iter().find(|formula| formula.word as usize == word)
+        self.parts.formulas.iter().find(|formula| formula.word as usize == word)
     }
 }
 

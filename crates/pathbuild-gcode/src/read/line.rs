@@ -4,7 +4,7 @@ use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
 
-use super::block::{Assignment, Code, Comment, Formula, Number, OWord, Op, Span, Value, Word, decode};
+use super::block::{LineParts, Span, Value, Word, decode};
 use super::number;
 use super::problems::{Problems, SourcePosition};
 use crate::dialect::{Rules, Slash, Spelling};
@@ -12,38 +12,6 @@ use crate::dialect::{Rules, Slash, Spelling};
 /// Error for a line that cannot be read, whose reason has been reported.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct UnreadableLine;
-
-/// The parts of the current line. They are reused for the next line to avoid allocations.
-#[derive(Debug, Default)]
-pub(super) struct LineParts {
-    pub(super) number: Option<Number>,
-    pub(super) optional: bool,
-    pub(super) words: Vec<Word>,
-    pub(super) settings: Vec<Assignment>,
-    pub(super) comments: Vec<Comment>,
-    pub(super) formulas: Vec<Formula>,
-    pub(super) o_word: Option<OWord>,
-    pub(super) arguments: Vec<Code>,
-    pub(super) code: Vec<Op>,
-}
-
-impl LineParts {
-    pub(super) fn clear(&mut self) {
-        self.number = None;
-        self.optional = false;
-        self.words.clear();
-        self.settings.clear();
-        self.comments.clear();
-        self.formulas.clear();
-        self.o_word = None;
-        self.arguments.clear();
-        self.code.clear();
-    }
-
-    pub(super) fn is_empty(&self) -> bool {
-        self.words.is_empty() && self.settings.is_empty() && self.number.is_none()
-    }
-}
 
 /// Reads words as long as they have the simplest form. Returns the offset of the first byte that does not belong to such a word.
 #[inline]

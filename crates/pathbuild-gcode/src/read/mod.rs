@@ -12,8 +12,8 @@ mod reader;
 mod word;
 
 pub use block::{
-    Assignment, Binary, Block, Code, Comment, CommentStyle, Formula, Function, Number, OWord, OWordKind, Op,
-    Span, Target, Value, Word, quote,
+    Assignment, Binary, Block, Code, Comment, CommentStyle, Formula, Function, LineParts, Number, OWord,
+    OWordKind, Op, Span, Target, Value, Word, quote,
 };
 pub use problems::{Problems, SourcePosition};
 pub(crate) use reader::Place;

@@ -4,8 +4,8 @@ use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
 
-use super::block::{Block, Comment, CommentStyle, Span, end_of_line};
-use super::line::{Line, LineParts, plain_words};
+use super::block::{Block, Comment, CommentStyle, LineParts, Span, end_of_line};
+use super::line::{Line, plain_words};
 use super::problems::{Problems, SourcePosition};
 use super::word::plain_formula;
 use crate::dialect::{LineLength, Percent, Rules};
@@ -115,19 +115,7 @@ impl<'t> BlockReader<'t> {
                 break line;
             }
         };
-        Some(Block {
-            line: self.line,
-            text,
-            number: self.parts.number,
-            optional: self.parts.optional,
-            words: &self.parts.words,
-            settings: &self.parts.settings,
-            comments: &self.parts.comments,
-            formulas: &self.parts.formulas,
-            o_word: self.parts.o_word,
-            arguments: &self.parts.arguments,
-            code: &self.parts.code,
-        })
+        Some(Block { line: self.line, text, parts: &self.parts })
     }
 
     /// Ends the program at this point (M2, M30). The lines after it are not read; they are reported unless they are `%`, blank or a comment.
@@ -238,7 +226,9 @@ impl<'t> BlockReader<'t> {
             self.check_real_time(line);
         }
         if let Some(at) = memchr(b'\r', line) {
-            self.report_return(line, at);
+            // Controls that end the line at a carriage return obey the rest, even if it is in a comment.
+            let at = SourcePosition { line: self.line, text: line, span: Span::new(at, at + 1) };
+            self.problems.add(&say::RETURN_IN_LINE, at, |d| d);
             return false;
         }
         let start = match self.percent(line) {
@@ -322,12 +312,6 @@ impl<'t> BlockReader<'t> {
         self.problems.add(&say::REAL_TIME_CHARACTER, at, |d| {
             d.quoting("dialect", dialect).quoting("found", found).with("effect", effect)
         });
-    }
-
-    /// Reports a carriage return within a line: controls that end the line there obey the rest, even if it is in a comment.
-    fn report_return(&mut self, line: &[u8], at: usize) {
-        let at = SourcePosition { line: self.line, text: line, span: Span::new(at, at + 1) };
-        self.problems.add(&say::RETURN_IN_LINE, at, |d| d);
     }
 
     fn check_length(&mut self, line: &[u8]) {

@@ -4,11 +4,11 @@ use memchr::{memchr, memchr2};
 use pathbuild_diagnostic::messages::gcode as say;
 
 use super::block::{
-    Assignment, Binary, Code, Comment, CommentStyle, Formula, Number, OWord, OWordKind, Op, Span, Target,
-    Value, Word, decode,
+    Assignment, Binary, Code, Comment, CommentStyle, Formula, LineParts, Number, OWord, OWordKind, Op, Span,
+    Target, Value, Word, decode,
 };
 use super::expression::Syntax;
-use super::line::{Line, LineParts, UnreadableLine};
+use super::line::{Line, UnreadableLine};
 use super::number::{self, UnusualNotation};
 use crate::dialect::{Blanks, Grammar, NotationSupport, Spelling};
 

@@ -456,7 +456,7 @@ pub fn coarse_arc_finding(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
     let mut reader = BlockReader::new(text, dialect.rules());
     let (mut finest, mut first) = (0, None);
     while let Some(block) = reader.next_block() {
-        for word in block.words {
+        for word in &block.words {
             if is_inch(word) {
                 return None;
             }
