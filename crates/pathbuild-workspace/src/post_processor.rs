@@ -80,21 +80,12 @@ impl PostProcessor {
             (None, Origin::File(_), Some(directory)) => (&*configured.value.name, directory),
             (None, ..) => (&*configured.value.name, &*context.working_directory),
         };
+        let (settings, system) = (&context.settings, &context.system);
         if name == NATIVE {
             return Ok(None);
         }
-        Self::load(context, name, base, arguments).map(Some)
-    }
-
-    fn load(
-        context: &Workspace,
-        name: &str,
-        base: &Utf8Path,
-        arguments: PostArguments,
-    ) -> Result<Self, Vec<Diagnostic>> {
-        let (settings, system) = (&context.settings, &context.system);
         if !is_file_name(name) {
-            return Self::built_in(settings, system, name, arguments);
+            return Self::built_in(settings, system, name, arguments).map(Some);
         }
         let file = relative(&join(base, name), context);
         let limit = settings.limits.file_size.value;
@@ -102,7 +93,7 @@ impl PostProcessor {
             .read(&file, limit)
             .map_err(|error| vec![error.diagnostic(limit, "file-size").in_file(&file)])?;
         let post = PostDefinition::read(&bytes, &file)?;
-        Ok(Self::new(settings, system, (post, bytes, Some(file)), arguments))
+        Ok(Some(Self::new(settings, system, (post, bytes, Some(file)), arguments)))
     }
 
     fn built_in(
@@ -293,6 +284,11 @@ impl PostProcessor {
             }
             _ => Ok(output),
         }
+    }
+
+    /// Returns the part of a program's cache key that identifies the post-processor.
+    pub(crate) fn cache_key(&self) -> String {
+        format!("emit {:?} {}", self.file(), blake3::hash(&self.identity()).to_hex())
     }
 
     /// Returns everything that a program's text depends on besides drawings and general options, for its provenance.

@@ -95,14 +95,17 @@ impl Request {
         if let Some(refusal) = self.missing_post(workspace).filter(|_| post_processor.is_none()) {
             return Err(Failure::Usage(refusal.to_owned()));
         }
-        let emitter = Emitter { request: self, inputs, post_processor: post_processor.as_ref() };
+        let post_processor = post_processor.as_ref();
+        let emitter = Emitter { request: self, inputs, post_processor };
         let uses_cache = session.is_traced() && self.uses_cache();
         if !uses_cache {
             session.prefetch(inputs, &|_| false);
         }
         let mut matches = session.match_arguments(inputs);
         let memo = if uses_cache {
-            Memo::open(session, ResultKind::Emit, &emitter.query(), inputs, &mut matches)
+            // Drawings and settings are keyed separately, and nothing else affects a program.
+            let query = post_processor.map_or_else(|| "emit".to_owned(), PostProcessor::cache_key);
+            Memo::open(session, ResultKind::Emit, &query, inputs, &mut matches)
         } else {
             Memo::default()
         };
@@ -174,7 +177,7 @@ impl Emitter<'_> {
         let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
         build_and_settle(session, jobs, task, self.post_processor);
         for answer in &mut plans {
-            self.complete_inputs(answer);
+            complete_inputs(answer, task);
         }
         Ok(Run { selection, plans, diagnostics })
     }
@@ -200,7 +203,6 @@ impl Emitter<'_> {
             task: *task,
             post_processor: self.post_processor,
             join: join.as_deref(),
-            out_dir: session.out_dir(),
             targets: &selection.targets,
             covered: &|| &selection.covered,
             directories: &selection.directories,
@@ -220,58 +222,10 @@ impl Emitter<'_> {
         let mut delivered: Vec<ProgramOutcome> =
             plans.into_iter().filter_map(|plan| plan.value.outcome()).collect();
         delivered.extend(older);
-        self.report_not_current(workspace, &delivered, &mut diagnostics);
+        if task.is_comparison() {
+            report_not_current(workspace, &delivered, &mut diagnostics);
+        }
         Emission { delivered, removed, outdated, diagnostics: session.with_hints(diagnostics) }
-    }
-
-    /// Adds PB528 for each file that a comparison found missing or different, unless an error about this file is reported already.
-    fn report_not_current(
-        &self,
-        workspace: &Workspace,
-        outcomes: &[ProgramOutcome],
-        diagnostics: &mut Vec<Diagnostic>,
-    ) {
-        if !self.request.task.is_comparison() {
-            return;
-        }
-        let mut by_file: HashMap<&Utf8Path, Vec<&Diagnostic>> = HashMap::new();
-        for diagnostic in &*diagnostics {
-            if let Some(file) = &diagnostic.file {
-                by_file.entry(file).or_default().push(diagnostic);
-            }
-        }
-        let is_known = |finding: &Diagnostic| {
-            let known = finding.file.as_deref().and_then(|file| by_file.get(file));
-            known.is_some_and(|known| workspace.has_error(known.iter().copied()))
-        };
-        let findings = outcomes.iter().flat_map(ProgramOutcome::not_current);
-        let new: Vec<Diagnostic> = findings.filter(|finding| !is_known(finding)).collect();
-        diagnostics.extend(new);
-    }
-
-    /// Returns the part of the cache key that identifies the post-processor: drawings and settings are keyed separately, and nothing else affects a
-    /// program.
-    fn query(&self) -> String {
-        let Some(post_processor) = self.post_processor else { return "emit".to_owned() };
-        let identity = blake3::hash(&post_processor.identity()).to_hex();
-        format!("emit {:?} {identity}", post_processor.file())
-    }
-
-    /// Completes the recorded inputs of a plan with the files that its program inserts and the generated files.
-    fn complete_inputs(&self, answer: &mut Answer<Plan>) {
-        let Some(inputs) = &mut answer.inputs else { return };
-        let job = answer.value.remaining_job();
-        let outcome = job.and_then(|job| job.outcome.as_ref());
-        let problems = outcome.into_iter().flat_map(|outcome| &outcome.problems);
-        inputs.is_transient |= answer.value.problems().chain(problems).any(is_transient);
-        let (Some(job), Some(outcome)) = (job, outcome) else { return };
-        inputs.further.clone_from(&outcome.inserted);
-        if outcome.is_complete(job.files.len()) {
-            inputs.outputs = outcome.generated(self.request.task);
-        } else {
-            // A program refused by the post-processor may be accepted after other files change; a failed write may succeed in another run.
-            inputs.is_transient |= !outcome.is_refused;
-        }
     }
 }
 
@@ -279,6 +233,40 @@ struct Run {
     selection: TargetSelection,
     plans: Vec<Answer<Plan>>,
     diagnostics: Vec<Diagnostic>,
+}
+
+/// Completes the recorded inputs of a plan with the files that its program inserts and the generated files.
+fn complete_inputs(answer: &mut Answer<Plan>, task: Task) {
+    let Some(inputs) = &mut answer.inputs else { return };
+    let job = answer.value.remaining_job();
+    let outcome = job.and_then(|job| job.outcome.as_ref());
+    let problems = outcome.into_iter().flat_map(|outcome| &outcome.problems);
+    inputs.is_transient |= answer.value.problems().chain(problems).any(is_transient);
+    let (Some(job), Some(outcome)) = (job, outcome) else { return };
+    inputs.further.clone_from(&outcome.inserted);
+    if outcome.is_complete(job.files.len()) {
+        inputs.outputs = outcome.generated(task);
+    } else {
+        // A program refused by the post-processor may be accepted after other files change; a failed write may succeed in another run.
+        inputs.is_transient |= !outcome.is_refused;
+    }
+}
+
+/// Adds PB528 for each file that a comparison found missing or different, unless an error about this file is reported already.
+fn report_not_current(workspace: &Workspace, outcomes: &[ProgramOutcome], diagnostics: &mut Vec<Diagnostic>) {
+    let mut by_file: HashMap<&Utf8Path, Vec<&Diagnostic>> = HashMap::new();
+    for diagnostic in &*diagnostics {
+        if let Some(file) = &diagnostic.file {
+            by_file.entry(file).or_default().push(diagnostic);
+        }
+    }
+    let is_known = |finding: &Diagnostic| {
+        let known = finding.file.as_deref().and_then(|file| by_file.get(file));
+        known.is_some_and(|known| workspace.has_error(known.iter().copied()))
+    };
+    let findings = outcomes.iter().flat_map(ProgramOutcome::not_current);
+    let new: Vec<Diagnostic> = findings.filter(|finding| !is_known(finding)).collect();
+    diagnostics.extend(new);
 }
 
 fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answer<Plan>]) {

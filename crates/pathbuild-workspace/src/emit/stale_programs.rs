@@ -91,7 +91,6 @@ pub(super) struct EarlierPrograms<'a> {
     pub(super) post_processor: Option<&'a PostProcessor>,
     /// Name of the program into which all paths are joined; `None` for one program per path.
     pub(super) join: Option<&'a str>,
-    pub(super) out_dir: Option<Utf8PathBuf>,
     /// All paths of the run.
     pub(super) targets: &'a [Target],
     /// Returns the drawings whose paths were all considered.
@@ -154,7 +153,8 @@ impl<'a> EarlierPrograms<'a> {
 
     /// Finds the stale programs: among all files of the searched directories, and among former files of the jobs in other directories.
     fn find_stale_programs(&'a self, diagnostics: &mut Vec<Diagnostic>) -> Vec<StaleProgram> {
-        let directories: &[Utf8PathBuf] = match &self.out_dir {
+        let out_dir = self.session.out_dir();
+        let directories: &[Utf8PathBuf] = match &out_dir {
             Some(directory) if !self.directories.is_empty() => std::slice::from_ref(directory),
             _ => self.directories,
         };
@@ -208,7 +208,7 @@ impl<'a> EarlierPrograms<'a> {
     fn of_target(&self, target: Target, listings: &mut Listings) -> Vec<Utf8PathBuf> {
         let db = self.session.db();
         let (drawing, path) = (target.file(db).path(db), &**target.name(db));
-        let directory = output_directory(self.out_dir.as_deref(), drawing);
+        let directory = output_directory(self.session.out_dir().as_deref(), drawing);
         let stems = [drawing.file_stem().unwrap_or_default(), path];
         let drawing = drawing.file_name().unwrap_or_default();
         let is_of_target = |program: &Utf8PathBuf| {
@@ -225,7 +225,7 @@ impl<'a> EarlierPrograms<'a> {
     /// Returns the program into which the targets were joined earlier.
     fn of_joined(&self, first: Target, name: &str, post_processor: &PostProcessor) -> Option<Utf8PathBuf> {
         let db = self.session.db();
-        let directory = output_directory(self.out_dir.as_deref(), first.file(db).path(db));
+        let directory = output_directory(self.session.out_dir().as_deref(), first.file(db).path(db));
         let program = join(&directory, program_name(name, post_processor));
         provenance(self.session, &program).map(|_| program)
     }
@@ -243,7 +243,6 @@ pub(super) fn has_stale_adjusted_program(
         task: Task::Compare { moves_only: false },
         post_processor,
         join: None,
-        out_dir: None,
         targets: &[],
         covered: &|| &[],
         directories: &[],
@@ -473,7 +472,8 @@ type Title = (Utf8PathBuf, String);
 
 impl KnownTitles {
     fn new(run: &EarlierPrograms<'_>) -> Self {
-        let EarlierPrograms { session, out_dir, jobs, .. } = run;
+        let EarlierPrograms { session, jobs, .. } = run;
+        let out_dir = session.out_dir();
         let all_covered = (run.covered)();
         let db = session.db();
         let place = |drawing: &Utf8Path| output_directory(out_dir.as_deref(), drawing);

@@ -198,7 +198,6 @@ impl WrittenPrograms {
             task: Task::Write { force: false },
             post_processor,
             join: None,
-            out_dir: session.out_dir(),
             targets: &targets,
             covered: &|| &drawings,
             directories: scope.directories,
