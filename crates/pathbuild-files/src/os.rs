@@ -69,7 +69,7 @@ impl System for OsSystem {
             if is_directory { &mut listing.directories } else { &mut listing.files }.push(name);
             ControlFlow::Continue(())
         })?;
-        record_debris(directory, temporary);
+        listed_directories().entry(directory.to_owned()).or_insert(temporary);
         Ok(listing)
     }
 
@@ -232,11 +232,6 @@ fn file_contains(path: &Utf8Path, bytes: &[u8]) -> bool {
 /// Temporary files that were found by the first listing of each directory. Each directory is searched at most once per run; a listing made for
 /// another purpose serves as that search.
 static LISTED_DEBRIS: LazyLock<Mutex<HashMap<Utf8PathBuf, Vec<Utf8PathBuf>>>> = LazyLock::new(Mutex::default);
-
-/// Records the temporary files found while listing a directory.
-fn record_debris(directory: &Utf8Path, temporary: Vec<Utf8PathBuf>) {
-    listed_directories().entry(directory.to_owned()).or_insert(temporary);
-}
 
 /// Removes temporary files in a directory that were left by processes that no longer run.
 fn remove_debris(directory: &Utf8Path) {

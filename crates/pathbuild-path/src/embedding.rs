@@ -325,10 +325,6 @@ impl Restriction {
         Ok(Self { parent: Regex::new(parent)?, child: Regex::new(child)? })
     }
 
-    fn applies_to(&self, parent: &PathName) -> bool {
-        parent.is_match(&self.parent)
-    }
-
     fn child(&self) -> &Regex {
         &self.child
     }
@@ -365,7 +361,7 @@ impl<'a> SubpathChecker<'a> {
         language: &'a Language,
         is_compatible: bool,
     ) -> Self {
-        let restriction = || restrictions.iter().find(|rule| rule.applies_to(&outer.name));
+        let restriction = || restrictions.iter().find(|rule| outer.name.is_match(&rule.parent));
         let rule = match &outer.embeds_only {
             Some(own) => Rule::Own(own, Regex::new(own).ok()),
             None if outer.unknown.contains(Letter::E) => Rule::Any,

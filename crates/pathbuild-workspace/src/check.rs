@@ -332,7 +332,8 @@ fn check_drawing(
     let names = names.unwrap_or_else(|| path_names(db, file));
     let mut diagnostics = Vec::new();
     let mut reached = vec![file];
-    let mut traces = own_trace(checker.is_traced(), file);
+    let own = Trace { files: vec![file], lookups: Vec::new() };
+    let mut traces = if checker.is_traced() { vec![own] } else { Vec::new() };
     for name in names {
         let (targets, warning) = if with_all_values {
             checker.combined_targets(file, name)
@@ -368,11 +369,6 @@ fn combine_result(
     reached.dedup();
     diagnostics.extend(reached.iter().flat_map(|file| check_file(db, *file)).cloned());
     DrawingResult { names: names.to_vec(), diagnostics, ..DrawingResult::default() }
-}
-
-/// Returns the inputs of a drawing's result that do not depend on its paths: the drawing itself. Empty if inputs are not traced.
-fn own_trace(is_traced: bool, file: SourceFile) -> Vec<Trace> {
-    if is_traced { vec![Trace { files: vec![file], lookups: Vec::new() }] } else { Vec::new() }
 }
 
 /// Upper bound on the combinations of values that are checked per path.

@@ -68,7 +68,7 @@ pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(),
     }
     let is_there = |(file, _): &&(Utf8PathBuf, &[u8])| file.as_std_path().symlink_metadata().is_ok();
     let old: Vec<Diagnostic> =
-        files.iter().filter(is_there).map(|(file, _)| already_exists_error(file)).collect();
+        files.iter().filter(is_there).map(|(file, _)| write_error(file, Value::Prose(&IS_THERE))).collect();
     if !old.is_empty() {
         return Err(old);
     }
@@ -92,10 +92,6 @@ fn create_new(file: &Utf8Path, content: &[u8]) -> std::io::Result<()> {
 /// Writes the content, and closes the file on return: it is passed by value because Windows does not remove open files.
 fn write_whole(mut file: fs::File, content: &[u8]) -> std::io::Result<()> {
     file.write_all(content)
-}
-
-fn already_exists_error(file: &Utf8Path) -> Diagnostic {
-    write_error(file, Value::Prose(&IS_THERE))
 }
 
 /// Atomically replaces a report or a baseline. Refuses the names of drawings, configurations and programs, whether or not the

@@ -48,7 +48,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
             // An editor may remove the configuration before it writes the new one.
             true if is_lost => {
                 if let Some(server) = &server {
-                    server.halt(&[], lost_configuration_message(&context));
+                    server.halt(&[], context.choose("pathbuild.toml is missing", "pathbuild.toml fehlt"));
                 }
                 Ok(ExitStatus::Usage)
             }
@@ -121,10 +121,6 @@ fn return_to_working_directory(cli: &Cli, home: &Utf8Path, server: Option<&Serve
 fn change_directory(home: &Utf8Path) -> bool {
     // `home` is empty if the system could not determine the working directory.
     home.as_str().is_empty() || std::env::set_current_dir(home).is_ok()
-}
-
-fn lost_configuration_message(context: &Context) -> &'static str {
-    context.choose("pathbuild.toml is missing", "pathbuild.toml fehlt")
 }
 
 /// The files that a configuration consists of, with their contents.

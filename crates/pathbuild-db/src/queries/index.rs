@@ -229,9 +229,9 @@ impl FileIndex {
         let DrawnParts { parts, mut problems, .. } = parts.unwrap_or_default();
         lower_to_warnings(db, &mut problems);
         diagnostics.append(&mut problems);
+        cuts.sort_unstable_by(|one, other| one.name.cmp(&other.name));
         let is_complete = cuts.len() == paths.len();
-        let parts = (has_parts || !cuts.is_empty())
-            .then(|| Arc::new(FileParts { parts, cuts: in_name_order(cuts), is_complete }));
+        let parts = (has_parts || !cuts.is_empty()).then(|| Arc::new(FileParts { parts, cuts, is_complete }));
         // `collect` would reuse the allocation of `paths`, which is fifty times as large as needed.
         let mut shared = Vec::with_capacity(paths.len());
         shared.extend(paths.into_iter().map(Arc::new));
@@ -287,11 +287,6 @@ impl FileIndex {
     pub(super) fn fingerprint(&self) -> Option<Fingerprint> {
         self.content.fingerprint
     }
-}
-
-fn in_name_order(mut cuts: Vec<PathCuts>) -> Vec<PathCuts> {
-    cuts.sort_unstable_by(|one, other| one.name.cmp(&other.name));
-    cuts
 }
 
 impl PartialEq for FileIndex {

@@ -330,6 +330,8 @@ const DWELL: &str = "G04 P4";
 /// Writes the probing program, which probes at one point after the other and dwells after each.
 pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptions) -> String {
     let clearance = f3(program.sweep_height);
+    // If the tool makes no contact, G38.2 raises an alarm; with G38.3, which PathDxf2GCode writes, the machine continues.
+    let probing = if program.compatible { "G38.3" } else { "G38.2" };
     let remarks = options.remarks(program);
     let mut text = String::from("%\n");
     for line in first_lines(program, provenance) {
@@ -346,7 +348,7 @@ pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptio
         }
         at = probe.at;
         _ = writeln!(text, "G00 Z{}", f3(probe.height + program.tool));
-        _ = writeln!(text, "{} Z0 F{}\n{DWELL}\nG00 Z{clearance}", probing_code(program), f3(probe.feed));
+        _ = writeln!(text, "{probing} Z0 F{}\n{DWELL}\nG00 Z{clearance}", f3(probe.feed));
     }
     _ = writeln!(text, "G00 X0.000 Y0.000\nG00 Z{clearance}\nM30\n%");
     text
@@ -377,11 +379,6 @@ fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
         return name;
     }
     format!("{name} @ [{}|{}]", f3(probe.at.x), f3(probe.at.y))
-}
-
-/// Returns the code for probing. If the tool makes no contact, G38.2 raises an alarm; with G38.3, which PathDxf2GCode writes, the machine continues.
-fn probing_code(program: &Program) -> &'static str {
-    if program.compatible { "G38.3" } else { "G38.2" }
 }
 
 /// The settings with which comments are written.

@@ -120,10 +120,6 @@ impl PostWords {
         self.definition.is_some()
     }
 
-    fn has_other(&self, word: &str) -> bool {
-        self.others.contains(word)
-    }
-
     fn foreign_word(&self, word: String, dialect: Dialect, is_strict: bool) -> Diagnostic {
         let severity = if is_strict { Severity::Error } else { Severity::Warning };
         let found = match &self.definition {
@@ -136,10 +132,6 @@ impl PostWords {
     /// Whether the post writes a word, with its code multiplied by ten.
     pub fn has(&self, letter: char, code: u16) -> bool {
         self.codes.contains(&(letter, code))
-    }
-
-    fn has_systems(&self) -> bool {
-        (540..600).any(|code| self.has('G', code))
     }
 }
 
@@ -232,7 +224,7 @@ impl<'w> WordRules<'w> {
 
     /// Checks a word that was omitted when the program was translated by the definition of its post.
     pub fn check_omitted_word(&mut self, line: u32, word: &str) {
-        if !self.words.has_other(word) {
+        if !self.words.others.contains(word) {
             self.report_name(line, word.to_owned());
         }
     }
@@ -271,7 +263,7 @@ impl<'w> WordRules<'w> {
         self.words.has(word.letter, word.code)
             || match word.effect {
                 WordEffect::Followed => true,
-                WordEffect::System => !self.is_strict && self.words.has_systems(),
+                WordEffect::System => !self.is_strict && (540..600).any(|code| self.words.has('G', code)),
                 WordEffect::Place | WordEffect::Call => !self.is_strict,
                 WordEffect::NotFollowed => false,
             }

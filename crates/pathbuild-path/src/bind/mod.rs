@@ -492,7 +492,7 @@ impl Binder<'_> {
         }
         // A faulty text may hide the name of the embedded path, so it is not required.
         if values.is_unknown(Letter::Embed)
-            || values.text(Letter::Embed) == Some("") && has_unreadable_pieces(&values)
+            || values.text(Letter::Embed) == Some("") && values.unread != Letters::default()
         {
             return Some((order, SegmentKind::Sweep { height: None }));
         }
@@ -592,11 +592,6 @@ pub(crate) fn group_missing(problems: &mut Vec<Diagnostic>) {
         kept[first].arguments.push(("count", further.into()));
     }
     *problems = kept;
-}
-
-/// Whether a text contains pieces that do not begin with a letter.
-fn has_unreadable_pieces(values: &Values<'_>) -> bool {
-    values.unread != Letters::default()
 }
 
 /// An element for which values are looked up.

@@ -141,7 +141,7 @@ impl<'a> Walker<'a> {
             if let Some(segment) = self.next().or_else(|| self.next_within_tolerance()) {
                 self.take(segment);
             } else if let Some(marker) = self.turn_marker() {
-                self.retrace_until(Self::has_next)
+                self.retrace_until(|walk| walk.next().is_some())
                     .map_err(|()| Some(self.turn_found_nothing(marker).into()))?;
             } else if self.is_at_end() {
                 return Err(self
@@ -295,10 +295,6 @@ impl<'a> Walker<'a> {
                 return Ok(());
             }
         }
-    }
-
-    fn has_next(&mut self) -> bool {
-        self.next().is_some()
     }
 
     fn is_at_end(&self) -> bool {

@@ -90,7 +90,7 @@ impl Parser<'_> {
         while let Some(operator) = self.operator(operators) {
             let start = self.at - operator.len();
             let right = self.binary(level + 1)?;
-            kinds[usize::from(is_bitwise(operator))] = true;
+            kinds[usize::from(matches!(operator, "&" | "|" | "^"))] = true;
             value = apply(operator, value, right)
                 .ok_or_else(|| Fault::new(&posts::TERM_NOT_WHOLE, start..self.at))?;
         }
@@ -200,10 +200,6 @@ impl Parser<'_> {
         self.expect(')')?;
         Ok(arguments)
     }
-}
-
-fn is_bitwise(operator: &str) -> bool {
-    matches!(operator, "&" | "|" | "^")
 }
 
 fn truth(is_true: bool) -> f64 {

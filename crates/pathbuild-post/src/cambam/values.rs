@@ -45,7 +45,9 @@ impl Writer<'_> {
             Value::ToolRadius => Some(self.length(tool.diameter / 2.0)),
             Value::ToolProfile => Some("EndMill".to_owned()),
             Value::MopTag | Value::ToolComment => Some(String::new()),
-            Value::MoveAxis(register) | Value::ArcOffset(register) => self.register_value(register),
+            Value::MoveAxis(register) | Value::ArcOffset(register) => {
+                self.move_values.get(register).map(|value| self.number_format().format(value))
+            }
             Value::ArcRadius => self.arc_value(|arc| arc.radius),
             Value::ArcStart => self.arc_value(|arc| arc.start),
             Value::ArcEnd => self.arc_value(|arc| arc.end),
@@ -57,10 +59,6 @@ impl Writer<'_> {
             }
             Value::StockSize(_) | Value::StockCorner(_) | Value::ToolLength | Value::ToolVeeAngle => None,
         }
-    }
-
-    fn register_value(&self, register: Register) -> Option<String> {
-        self.move_values.get(register).map(|value| self.number_format().format(value))
     }
 
     fn arc_value(&self, value: fn(&ArcValues) -> f64) -> Option<String> {

@@ -70,10 +70,6 @@ impl<'a> TomlReader<'a> {
         self.key_index = Some(LazyCell::new(Box::new(move || KeyIndex::new(&schema()))));
     }
 
-    fn table_of_key(&self, name: &str) -> Option<KeyPlace<'_>> {
-        self.key_index.as_ref()?.find(name)
-    }
-
     /// Reads a table. Keys that `read` does not take are reported.
     pub(super) fn table<T>(
         &mut self,
@@ -276,7 +272,7 @@ impl<'a> Table<'_, '_, 'a> {
     /// Returns the diagnostic for an unknown key. It suggests the table that has such a key, or a similar key.
     fn unknown_key(&self, name: &str, span: Range<usize>) -> Diagnostic {
         let fault = |message| self.reader.fault(message, span.clone());
-        let home = self.reader.table_of_key(name);
+        let home = self.reader.key_index.as_ref().and_then(|index| index.find(name));
         if let Some(home) = home.filter(|home| home.is_exact) {
             return misplaced_key(fault, &home, &messages::KEY_OF_TABLE, &messages::KEY_OF_TOP);
         }

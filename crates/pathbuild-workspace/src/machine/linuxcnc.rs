@@ -49,7 +49,8 @@ const FORMAT: &str = "LinuxCNC";
 static UNIT: Text = Text { en: "mm or inch", de: "mm oder inch" };
 
 pub(super) fn length_unit(text: &str) -> Option<LengthUnit> {
-    named_unit(&entries(text).ok()?.take("TRAJ/LINEAR_UNITS")?.value)
+    let mut entries = entries(text).ok().filter(|_| is_ini(text))?;
+    named_unit(&entries.take("TRAJ/LINEAR_UNITS")?.value)
 }
 
 fn named_unit(name: &str) -> Option<LengthUnit> {

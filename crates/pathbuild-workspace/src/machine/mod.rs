@@ -110,11 +110,6 @@ pub enum Quantity {
     Text(String),
 }
 
-/// Returns the unit of lengths in an ini file of `LinuxCNC`, which also applies to tool tables. `None` for other texts.
-fn machine_unit(text: &str) -> Option<LengthUnit> {
-    if linuxcnc::is_ini(text) { linuxcnc::length_unit(text) } else { None }
-}
-
 /// Returns the unit of the tool tables among the texts: `named` if given, otherwise the unit of an ini file among the texts.
 ///
 /// # Errors
@@ -125,7 +120,7 @@ pub fn table_unit(
 ) -> Result<Option<LengthUnit>, Box<Diagnostic>> {
     let mut unit = named;
     for (file, text) in texts {
-        let Some(stated) = machine_unit(text) else { continue };
+        let Some(stated) = linuxcnc::length_unit(text) else { continue };
         if *unit.get_or_insert(stated) != stated {
             return Err(Box::new(Diagnostic::new(&say::UNITS_CONTRADICT).in_file(file)));
         }

@@ -285,7 +285,9 @@ impl<'a> RunFacts<'a> {
         let searched = traces().flat_map(|trace| &trace.lookups).flat_map(|lookup| &lookup.directories);
         Self {
             db,
-            read: read.map(|file| (file.path(db).clone(), unchanged_content(db, *file))).collect(),
+            read: read
+                .map(|file| (file.path(db).clone(), content(db, *file).filter(|_| !db.has_drifted(*file))))
+                .collect(),
             searched: searched.map(|directory| &**directory).collect(),
             written: fresh
                 .iter()
@@ -314,10 +316,6 @@ impl<'a> RunFacts<'a> {
         names.sort_unstable();
         names.into_iter().eq(fact.names.iter().map(|name| &**name))
     }
-}
-
-fn unchanged_content(db: &Database, file: SourceFile) -> Option<Content> {
-    content(db, file).filter(|_| !db.has_drifted(file))
 }
 
 /// The result of checking a drawing, or only of reading it.

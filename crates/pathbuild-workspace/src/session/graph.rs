@@ -296,7 +296,8 @@ fn target_graph(db: &Database, target: Target) -> TargetGraph {
         node.is_example = index == 0 && is_asked_with_examples && !node.bindings.is_empty();
         nodes.push(node);
     }
-    let number = number_instances(reached);
+    let number: HashMap<Instance<'_>, usize> =
+        reached.reached.iter().enumerate().map(|(index, step)| (step.instance, index)).collect();
     let too_many_paths = too_many_paths(reached);
     let beyond = if too_many_paths.is_empty() { Code::NestingTooDeep } else { Code::LimitReached };
     let end = |to| match to {
@@ -315,10 +316,6 @@ fn target_graph(db: &Database, target: Target) -> TargetGraph {
 fn too_many_paths(closure: &Closure<'_>) -> Vec<Diagnostic> {
     let is_limit = |problem: &&Diagnostic| *problem.message == files::TOO_MANY_PATHS;
     closure.diagnostics.iter().filter(is_limit).cloned().collect()
-}
-
-fn number_instances<'db>(closure: &Closure<'db>) -> HashMap<Instance<'db>, usize> {
-    closure.reached.iter().enumerate().map(|(index, step)| (step.instance, index)).collect()
 }
 
 fn node(db: &Database, instance: Instance<'_>) -> Node {

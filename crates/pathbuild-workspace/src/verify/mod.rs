@@ -581,7 +581,9 @@ impl<'v> Examination<'v> {
             // Doubts about the words that a definition writes are reported when a program is written through it.
             let is_own = self.program.by_definition.is_none();
             doubts.retain(|doubt| {
-                doubt.is_error() && is_own || is_of_modes(doubt) || is_about_decimal_point(doubt)
+                doubt.is_error() && is_own
+                    || matches!(doubt.code(), Code::UnitsNotStated | Code::ModesNotStated)
+                    || doubt.message.key == NO_DECIMAL_POINT.key
             });
         } else if self.verifier.against.is_some() {
             let unsaid = doubts.iter_mut().filter(|doubt| is_absent_from_drawing(doubt));
@@ -590,16 +592,6 @@ impl<'v> Examination<'v> {
         }
         doubts
     }
-}
-
-/// Whether the doubt is about a unit, distance mode or plane that the program does not state.
-fn is_of_modes(doubt: &Diagnostic) -> bool {
-    matches!(doubt.code(), Code::UnitsNotStated | Code::ModesNotStated)
-}
-
-/// Whether the doubt is about a length without a decimal point, which some controls read in thousandths.
-fn is_about_decimal_point(doubt: &Diagnostic) -> bool {
-    doubt.message.key == NO_DECIMAL_POINT.key
 }
 
 /// Whether the doubt concerns words that the drawing's program does not contain. Two kinds never do: doubts about arcs, because the drawing does not

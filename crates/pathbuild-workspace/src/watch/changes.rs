@@ -20,7 +20,7 @@ use crate::session::{Session, is_ignore_file};
 /// A watcher of a library's directories, which collects changes in batches.
 pub(super) struct Watcher {
     signals: Receiver<Signal>,
-    bell: WakeHandle,
+    pub(super) bell: WakeHandle,
     source: Box<dyn notify::Watcher>,
     debounce: Duration,
     /// The files of the configuration and of the post-processor, as the paths that events report.
@@ -127,10 +127,6 @@ impl Watcher {
     ) -> Vec<(Utf8PathBuf, String)> {
         let refused = self.directories.follow(&mut *self.source, session, files);
         refused.into_iter().map(|(file, error)| (file, error.to_string())).collect()
-    }
-
-    pub(super) fn wake_handle(&self) -> WakeHandle {
-        self.bell.clone()
     }
 
     /// Waits for changes. Due changes take precedence over wake-ups, which a page may request without end.

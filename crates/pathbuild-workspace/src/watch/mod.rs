@@ -84,7 +84,7 @@ const DRAWINGS_PER_POLL: usize = 64;
 
 impl WatchLoop<'_> {
     fn run(mut self) -> WatchEnd {
-        self.listener.set_wake_handle(self.watcher.wake_handle());
+        self.listener.set_wake_handle(self.watcher.bell.clone());
         self.begin();
         loop {
             match self.watcher.next(&self.library) {

@@ -2,7 +2,7 @@
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::{gcode, posts};
-use pathbuild_diagnostic::{Code, Diagnostic, Note, Severity};
+use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::path_of_title;
@@ -132,7 +132,9 @@ fn rewrite_and_report(
     if context.has_error(&*diagnostics) {
         return Err(Vec::new());
     }
-    show_notes(context, &output.notes);
+    for note in &output.notes {
+        context.printer.status(note.text(context.lang()));
+    }
     let Some(to) = to else {
         context.printer.result_bytes(&output.text);
         return Ok(());
@@ -266,10 +268,4 @@ fn complete_tools_of_job(
     let unknown = job.set_cutter(&path, diameter, &tools);
     let by_number = complete_tools(job, &tools);
     if unknown.is_empty() { by_number } else { unknown }
-}
-
-fn show_notes(context: &Context, notes: &[Note]) {
-    for note in notes {
-        context.printer.status(format_args!("{}", note.text(context.lang())));
-    }
 }

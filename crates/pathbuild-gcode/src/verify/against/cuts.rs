@@ -190,7 +190,8 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
         leaves
             && self.chain.peck_fraction(&plunge).is_some()
             && highest <= plunge.movement.from.z() + slack
-            && is_plunge_or_stands(movement)
+            && matches!(movement.pace, Pace::Feed(_))
+            && (is_plunge(movement) || movement.is_standstill())
             && is_near(&movement.to.at, &plunge.movement.to.at, slack)
     }
 
@@ -363,11 +364,6 @@ fn is_plunge(movement: &Move) -> bool {
         && matches!(movement.shape, MoveShape::Line)
         && is_straight
         && movement.to.z() < movement.from.z()
-}
-
-/// Whether a cut goes straight down, or nowhere.
-fn is_plunge_or_stands(movement: &Move) -> bool {
-    matches!(movement.pace, Pace::Feed(_)) && (is_plunge(movement) || movement.is_standstill())
 }
 
 /// An expected plunge that the program has partly made.

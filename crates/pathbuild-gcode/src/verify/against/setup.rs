@@ -145,7 +145,7 @@ impl<'w> Setup<'w> {
     fn check_change(&mut self, line: u32, change: Change, problems: &mut Problems) {
         match change {
             Change::ToolLength(ToolLength::Other) => report_extra_word(line, "G43, G44".to_owned(), problems),
-            Change::ToolLength(ToolLength::OfTool(_)) if !self.has_length_of_tool() => {
+            Change::ToolLength(ToolLength::OfTool(_)) if self.tools.length_fit() != LengthFit::Fits => {
                 self.reported.length = true;
                 problems.add_at_line(&say::LENGTHS_DIFFER, line, |d| d);
             }
@@ -175,10 +175,6 @@ impl<'w> Setup<'w> {
             Change::Plane(_) => report_extra_word(line, "G18, G19".to_owned(), problems),
             Change::Parameter => report_extra_word(line, "#".to_owned(), problems),
         }
-    }
-
-    fn has_length_of_tool(&self) -> bool {
-        self.tools.length_fit() == LengthFit::Fits
     }
 
     fn check_selected_tool(&mut self, line: u32, number: u32, problems: &mut Problems) {
