@@ -1,37 +1,38 @@
 //! Writes pictures and pages to a file, or shows them in the browser.
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::{Diagnostic, Text, Value, shown};
 #[cfg(feature = "pictures")]
 use pathbuild_diagnostic::{Sentence, reasons::reason};
+use pathbuild_diagnostic::{Text, Value, shown};
 use pathbuild_workspace::files::write_error;
+use pathbuild_workspace::findings::Findings;
 
 use super::output_state;
 use crate::context::Context;
+use crate::exit::ExitStatus;
 
-/// Writes a file and reports that it was written.
-///
-/// # Errors
-/// The content cannot be generated or written.
+/// Writes a picture or page to a file, or without a file shows it in the browser. Returns the exit status, which also depends on the findings.
 pub(super) fn deliver(
     context: &Context,
-    file: &Utf8Path,
+    file: Option<&Utf8Path>,
     bytes: Result<Vec<u8>, Value>,
-) -> Result<(), Box<Diagnostic>> {
-    let written = bytes.and_then(|bytes| context.system.write(file, &bytes));
-    let written = written.map_err(|reason| Box::new(write_error(file, reason)))?;
+    findings: &Findings,
+) -> ExitStatus {
+    let delivered = bytes.and_then(|bytes| match file {
+        Some(file) => write(context, file, &bytes),
+        None => open_page(context, &bytes),
+    });
+    match delivered {
+        Ok(()) => ExitStatus::of(findings),
+        Err(reason) => context.fail(vec![write_error(file.unwrap_or(Utf8Path::new(BROWSER)), reason)]),
+    }
+}
+
+fn write(context: &Context, file: &Utf8Path, bytes: &[u8]) -> Result<(), Value> {
+    let written = context.system.write(file, bytes)?;
     let state = output_state(context, file, written);
     context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
     Ok(())
-}
-
-/// Shows a page in the browser.
-///
-/// # Errors
-/// The page cannot be generated or shown.
-pub(super) fn show(context: &Context, page: Result<Vec<u8>, Value>) -> Result<(), Box<Diagnostic>> {
-    let shown = page.and_then(|page| open_page(context, &page));
-    shown.map_err(|reason| Box::new(write_error(Utf8Path::new(BROWSER), reason)))
 }
 
 /// Text that replaces the file name in errors about the browser.

@@ -6,7 +6,7 @@ use pathbuild_workspace::emit::{SheetOutcome, sheet_bytes, sheet_of};
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::session::Session;
 
-use super::picture_output::{deliver, show};
+use super::picture_output::deliver;
 use crate::args::SheetArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -44,12 +44,5 @@ pub fn run(context: &Context, args: &SheetArgs) -> ExitStatus {
     context.show(&findings);
     let Some(sheet) = sheet else { return ExitStatus::Errors };
     let bytes = sheet_bytes(&sheet, format, context.lang());
-    let delivered = match &args.output {
-        Some(file) => deliver(context, file, bytes),
-        None => show(context, bytes),
-    };
-    match delivered {
-        Err(problem) => context.fail(vec![*problem]),
-        Ok(()) => ExitStatus::of(&findings),
-    }
+    deliver(context, args.output.as_deref(), bytes, &findings)
 }

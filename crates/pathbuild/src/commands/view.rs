@@ -13,7 +13,7 @@ use pathbuild_workspace::session::{NamedPaths, Session};
 use pathbuild_workspace::verify::VerifyOptions;
 use pathbuild_workspace::{Failure, program};
 
-use super::picture_output::{deliver, show};
+use super::picture_output::deliver;
 use crate::args::ViewArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -33,10 +33,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
     if output.shown.stock && !has_stock(&scene) {
         return report_missing_stock(context, &findings);
     }
-    if let Err(problem) = output.deliver(context, scene) {
-        return context.fail(vec![*problem]);
-    }
-    ExitStatus::of(&findings)
+    deliver(context, output.file.as_deref(), output.format.bytes(scene, output.shown), &findings)
 }
 
 /// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown.
@@ -128,41 +125,32 @@ enum Format {
 }
 
 impl Format {
-    #[cfg(feature = "pictures")]
     fn of(extension: &str) -> Option<Self> {
         Some(match extension {
             "svg" => Self::Svg,
             "json" => Self::Json,
+            #[cfg(feature = "pictures")]
             "png" => Self::Png,
+            #[cfg(feature = "pictures")]
             "pdf" => Self::Pdf,
+            #[cfg(feature = "pictures")]
             "html" => Self::Html,
             _ => return None,
         })
     }
 
-    #[cfg(not(feature = "pictures"))]
-    fn of(extension: &str) -> Option<Self> {
-        Some(match extension {
-            "svg" => Self::Svg,
-            "json" => Self::Json,
-            _ => return None,
-        })
-    }
-
-    #[cfg(feature = "pictures")]
     fn names(context: &Context) -> &str {
-        context.choose(
-            "the name must end in .svg, .png, .pdf, .html or .json",
-            "der Name muss auf .svg, .png, .pdf, .html oder .json enden",
-        )
-    }
-
-    #[cfg(not(feature = "pictures"))]
-    fn names(context: &Context) -> &str {
-        context.choose(
-            "the name must end in .svg or .json: this pathbuild was built without the feature `pictures`",
-            "der Name muss auf .svg oder .json enden: dieses pathbuild ist ohne das Feature `pictures` gebaut",
-        )
+        if cfg!(feature = "pictures") {
+            context.choose(
+                "the name must end in .svg, .png, .pdf, .html or .json",
+                "der Name muss auf .svg, .png, .pdf, .html oder .json enden",
+            )
+        } else {
+            context.choose(
+                "the name must end in .svg or .json: this pathbuild was built without the feature `pictures`",
+                "der Name muss auf .svg oder .json enden: dieses pathbuild ist ohne das Feature `pictures` gebaut",
+            )
+        }
     }
 
     fn is_picture(self) -> bool {
@@ -222,17 +210,5 @@ impl Output {
     fn browser(context: &Context, _: VisibleParts) -> Result<Self, String> {
         let needs = context.choose("view needs -o FILE", "view braucht -o DATEI");
         Err(format!("{needs}: {}", Format::names(context)))
-    }
-
-    /// Writes the scene to the file or shows it in the browser.
-    ///
-    /// # Errors
-    /// The scene cannot be written or shown.
-    fn deliver(&self, context: &Context, scene: Scene) -> Result<(), Box<Diagnostic>> {
-        let bytes = self.format.bytes(scene, self.shown);
-        match &self.file {
-            Some(file) => deliver(context, file, bytes),
-            None => show(context, bytes),
-        }
     }
 }
