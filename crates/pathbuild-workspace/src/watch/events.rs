@@ -55,6 +55,9 @@ pub trait Listener {
     fn options_missing(&self, _: &str) {}
 }
 
+/// Ignores all events.
+impl Listener for () {}
+
 /// The result of the first check.
 #[derive(Debug)]
 pub struct FirstCheck {

@@ -45,6 +45,7 @@ pub(crate) fn run(
     let here = Inputs { inputs: vec![".".to_owned()] };
     let inputs = if is_everything { &here } else { &*args.inputs };
     let request = Request { inputs, emits: args.emit, lists: page.is_some(), polls: args.poll };
+    let page = page.unwrap_or_else(|| Box::new(()));
     Ok(match request.run(context, &WatchPrinter { context, page, is_configuration_current }) {
         WatchEnd::ConfigurationChanged => {
             return Err(context.choose(
@@ -88,11 +89,11 @@ pub(crate) fn run(
     })
 }
 
-/// Listener that prints the first check as `check` does, then one line per changed file. It forwards all events to the page, if one is
-/// served.
+/// Listener that prints the first check as `check` does, then one line per changed file. It forwards all events to the page, which is the
+/// unit value if none is served.
 struct WatchPrinter<'a> {
     context: &'a Context,
-    page: Option<Box<dyn Listener + 'a>>,
+    page: Box<dyn Listener + 'a>,
     is_configuration_current: &'a dyn Fn() -> bool,
 }
 
@@ -116,15 +117,11 @@ impl Listener for WatchPrinter<'_> {
     }
 
     fn set_wake_handle(&self, bell: WakeHandle) {
-        if let Some(page) = &self.page {
-            page.set_wake_handle(bell.clone());
-        }
+        self.page.set_wake_handle(bell);
     }
 
     fn drawings_found(&self, session: &mut Session<'_>, drawings: &[SourceFile], problems: &[Diagnostic]) {
-        if let Some(page) = &self.page {
-            page.drawings_found(session, drawings, problems);
-        }
+        self.page.drawings_found(session, drawings, problems);
     }
 
     fn drawings_checked(
@@ -133,21 +130,15 @@ impl Listener for WatchPrinter<'_> {
         drawings: &[SourceFile],
         post_processor: Option<&PostProcessor>,
     ) {
-        if let Some(page) = &self.page {
-            page.drawings_checked(session, drawings, post_processor);
-        }
+        self.page.drawings_checked(session, drawings, post_processor);
     }
 
     fn woken(&self, session: &mut Session<'_>) {
-        if let Some(page) = &self.page {
-            page.woken(session);
-        }
+        self.page.woken(session);
     }
 
     fn first_check_done(&self, beginning: &FirstCheck) {
-        if let Some(page) = &self.page {
-            page.first_check_done(beginning);
-        }
+        self.page.first_check_done(beginning);
         let FirstCheck { drawings, paths, findings, time, .. } = beginning;
         let context = self.context;
         context.show(findings);
@@ -170,9 +161,7 @@ impl Listener for WatchPrinter<'_> {
     }
 
     fn batch_done(&self, update: &Update) {
-        if let Some(page) = &self.page {
-            page.batch_done(update);
-        }
+        self.page.batch_done(update);
         let context = self.context;
         let (new, gone) = (&update.new, update.fixed.len());
         context.show(&Findings { diagnostics: new.clone(), ..Findings::default() });
