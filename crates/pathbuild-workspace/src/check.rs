@@ -192,7 +192,7 @@ impl Request<'_> {
             }
             let paths = open.iter().map(|target| (session.file(&target.drawing), target.names.as_deref()));
             let paths: Vec<(SourceFile, Option<&[PathName]>)> = paths.collect();
-            let checked = check_paths(session, &paths, self.with_all_values);
+            let checked = check_drawings(session, &paths, self.with_all_values);
             checked.into_iter().map(|(result, traces)| result.with_inputs(traces)).collect()
         };
         let each = memo.get_or(&targets, CheckTarget::subject, |_, result| Some(result), check);
@@ -297,21 +297,11 @@ fn leak<T>(value: T) {
 /// Number of drawings checked between evictions of parsed data.
 const BATCH: usize = 512;
 
-/// Checks all paths of the drawings. Returns the result of each drawing with its inputs.
-pub fn check_drawings(
-    session: &mut Session<'_>,
-    files: &[SourceFile],
-    with_all_values: bool,
-) -> Vec<(DrawingResult, Vec<Trace>)> {
-    let targets: Vec<NamedDrawing<'_>> = files.iter().map(|file| (*file, None)).collect();
-    check_paths(session, &targets, with_all_values)
-}
-
 /// A drawing with the paths in it to check; `None` means all.
-type NamedDrawing<'a> = (SourceFile, Option<&'a [PathName]>);
+pub type NamedDrawing<'a> = (SourceFile, Option<&'a [PathName]>);
 
-/// Like [`check_drawings`], for drawings that may be requested with only some of their paths.
-fn check_paths(
+/// Checks paths of drawings. Returns the result of each drawing with its inputs.
+pub fn check_drawings(
     session: &mut Session<'_>,
     targets: &[NamedDrawing<'_>],
     with_all_values: bool,

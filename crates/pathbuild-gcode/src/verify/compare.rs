@@ -111,7 +111,7 @@ pub(crate) fn is_same_move(found: &Move, expected: &Move, tolerance: &Tolerance)
     let (ours, theirs) = (Stretch::whole(*found), Stretch::whole(*expected));
     ours.end_together(&theirs, tolerance.place)
         && check_pace(found, expected, tolerance).is_ok()
-        && check_shape(&ours, 1.0, &theirs, 1.0, 0.0, tolerance).is_ok()
+        && check_shape(&ours, &theirs, 1.0, 0.0, tolerance).is_ok()
 }
 
 impl Difference {
@@ -254,7 +254,7 @@ fn step(
 ) -> Result<(), DifferenceKind> {
     check_pace(&ours.movement, &theirs.movement, tolerance)?;
     if ours.end_together(theirs, tolerance.place) {
-        check_shape(ours, 1.0, theirs, 1.0, theirs.radius_error(), tolerance)?;
+        check_shape(ours, theirs, 1.0, theirs.radius_error(), tolerance)?;
         found.finish_move();
         expected.finish_move();
         return Ok(());
@@ -288,7 +288,7 @@ pub(super) fn meeting_fraction(
     if !is_near(&[x, y, 0.0], &[end[0], end[1], 0.0], slack) || libm::fabs(z - end[2]) > height {
         return Err(DifferenceKind::Place);
     }
-    check_shape(shorter, 1.0, longer, share, radius_error, tolerance)?;
+    check_shape(shorter, longer, share, radius_error, tolerance)?;
     Ok(share)
 }
 
@@ -307,11 +307,10 @@ pub(super) fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> R
     }
 }
 
-/// Compares two stretches from their starts up to the given fractions. `radius_error`, the difference in mm between the radii of the expected
+/// Compares a stretch with another one up to a fraction of the latter. `radius_error`, the difference in mm between the radii of the expected
 /// stretch, extends the tolerance, because the centre of that stretch is not known more exactly.
 pub(super) fn check_shape(
     one: &Stretch,
-    one_end: f64,
     other: &Stretch,
     other_end: f64,
     radius_error: f64,
@@ -324,7 +323,7 @@ pub(super) fn check_shape(
     let slack = ARC_SLACK * tolerance.place + chord + radius_error;
     let agrees = |share: f64| {
         let at = |stretch: &Stretch, end: f64| stretch.point(stretch.begin + share * (end - stretch.begin));
-        is_near(&at(one, one_end), &at(other, other_end), slack)
+        is_near(&at(one, 1.0), &at(other, other_end), slack)
     };
     if [0.25, 0.5, 0.75].into_iter().all(agrees) { Ok(()) } else { Err(DifferenceKind::Shape) }
 }

@@ -82,9 +82,10 @@ impl Canvas {
         self.raw(&format!("<title>{}</title>", escaped(text)));
     }
 
-    pub(super) fn clip(&mut self, id: &str, [[x, y], [right, bottom]]: [Point; 2]) {
+    /// Adds a clip path named `frame`.
+    pub(super) fn clip(&mut self, [[x, y], [right, bottom]]: [Point; 2]) {
         self.raw(&format!(
-            "<clipPath id=\"{id}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>",
+            "<clipPath id=\"frame\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>",
             svg_number(x),
             svg_number(y),
             svg_number(right - x),

@@ -4,7 +4,6 @@
 //! shows its lowest cut. All sizes are exact at any scale.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_gcode::interpret::Program;
@@ -315,19 +314,7 @@ impl<'s> MilledStock<'s> {
     }
 
     fn blanks(&self, canvas: &mut Canvas, place: &PageTransform, id: &str) {
-        let mut all = String::new();
-        for ([low, high], _) in &self.blanks {
-            let ([left, bottom], [right, top]) = (place.to_page(*low), place.to_page(*high));
-            _ = write!(
-                all,
-                "M{} {}H{}V{}H{}Z",
-                svg_number(left),
-                svg_number(top),
-                svg_number(right),
-                svg_number(bottom),
-                svg_number(left)
-            );
-        }
+        let all: String = self.blanks.iter().map(|(corners, _)| rectangle(place, *corners)).collect();
         canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{all}\"/></clipPath>"));
         canvas.path(&all, &format!("fill=\"{UNTOUCHED_COLOUR}\""));
     }
@@ -863,6 +850,13 @@ fn draw_defects(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform,
     }
 }
 
+/// Returns the path of a rectangle, given by its lower left and upper right corner.
+fn rectangle(place: &PageTransform, corners: [Point; 2]) -> String {
+    let [[left, bottom], [right, top]] =
+        corners.map(|corner| place.to_page(corner)).map(|corner| corner.map(svg_number));
+    format!("M{left} {top}H{right}V{bottom}H{left}Z")
+}
+
 /// Defines a clip path for the outside of a part: a frame around the rings of the part. The rings run with their material on the left.
 fn clip_outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, reach: f64, id: &str) {
     let mut corners = None;
@@ -870,16 +864,7 @@ fn clip_outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform,
         widen(&mut corners, shape.extent());
     }
     let [low, high] = corners.unwrap_or_default();
-    let ([left, bottom], [right, top]) =
-        (place.to_page(low.map(|at| at - reach)), place.to_page(high.map(|at| at + reach)));
-    let frame = format!(
-        "M{} {}H{}V{}H{}Z",
-        svg_number(left),
-        svg_number(top),
-        svg_number(right),
-        svg_number(bottom),
-        svg_number(left)
-    );
+    let frame = rectangle(place, [low.map(|at| at - reach), high.map(|at| at + reach)]);
     let rings: String = part.rings.iter().map(|ring| symbols::outline(ring, place)).collect();
     canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{frame}{rings}\"/></clipPath>"));
 }

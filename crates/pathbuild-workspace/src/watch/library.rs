@@ -10,7 +10,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
 use super::events::{Changes, Update};
-use crate::check::{self, CheckedFile, check_drawings};
+use crate::check::{self, CheckedFile, NamedDrawing, check_drawings};
 use crate::common_findings::{globs_without_file, patterns_without_layer, unused_configurations};
 use crate::emit::Scope;
 use crate::files::FILE_NAME;
@@ -376,8 +376,8 @@ impl<'a> Library<'a> {
     }
 
     fn check_and_record(&mut self, checked_files: Vec<SourceFile>, update: &mut Update) {
-        let results =
-            self.session.with_stable_files(|session| check_drawings(session, &checked_files, false));
+        let all: Vec<NamedDrawing<'_>> = checked_files.iter().map(|file| (*file, None)).collect();
+        let results = self.session.with_stable_files(|session| check_drawings(session, &all, false));
         for (file, (result, traces)) in checked_files.iter().zip(results) {
             for directory in searched(&traces) {
                 self.names.take(&self.session, directory);

@@ -268,8 +268,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
             if ours.end_together(&theirs, slack) && !is_chord {
                 check_pace(movement, &expected, &self.tolerance).map_err(differs)?;
                 self.check_stroke(line, movement.to.z());
-                check_shape(&ours, 1.0, &theirs, 1.0, theirs.radius_error(), &self.tolerance)
-                    .map_err(differs)?;
+                check_shape(&ours, &theirs, 1.0, theirs.radius_error(), &self.tolerance).map_err(differs)?;
                 check_centres(movement, &expected).map_err(differs)?;
                 self.pass_expected_move(&expected);
                 return Ok(());

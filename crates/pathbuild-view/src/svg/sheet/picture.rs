@@ -176,7 +176,7 @@ impl PlacedPicture {
         let depths = Depths::of(&sheet.scene);
         canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
         let clip = [[self.area.left, self.area.top], [self.area.left + self.area.width, bottom + 20.0]];
-        canvas.clip("frame", clip);
+        canvas.clip(clip);
         let axes =
             axes(canvas, place.to_page([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
         // Reserve space: dimensions are to the left and below, and the name of the axis is above.
