@@ -23,7 +23,6 @@ macro_rules! words {
     };
 }
 
-mod altered_words;
 mod ambiguous;
 mod arcs;
 mod built_in;
@@ -44,11 +43,10 @@ mod target;
 mod tools;
 mod traverse;
 
-pub use altered_words::altered_words;
 pub use built_in::{BUILT_IN, BuiltIn, load, samples};
 pub use definition::{Language, Output, PostDefinition, reference_table};
 pub use from_program::{ToolEntry, ToolTable};
-pub use from_steps::{Remark, is_of_head, native_remark};
+pub use from_steps::{Remark, altered_words, is_of_head, native_remark};
 pub use job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, Units, VelocityMode, program_number};
 pub use options::{PostFiles, PostMacro, PostOptions, RefusedFiles};
 pub use rs274_translation::{Doubt, DoubtfulWord, TranslatedText};

@@ -24,7 +24,6 @@ pub mod program_view;
 pub mod revision;
 pub mod session;
 pub mod settle;
-mod severities;
 pub mod verify;
 pub mod waivers;
 // In the browser all files come from the page, so there is nothing to watch.

@@ -5,7 +5,6 @@
 mod build;
 mod comparison;
 mod deps;
-mod joined_programs;
 mod options;
 mod outcome;
 mod plan;

@@ -1,6 +1,5 @@
 //! Imports descriptions of machines and tools, as controllers and CAM programs store them, into `[machine]` and `[tool]`. (book: howto/machine)
 
-mod archive;
 mod edit;
 mod entries;
 mod fluidnc;
@@ -9,10 +8,14 @@ mod linuxcnc;
 mod merge;
 mod tools;
 
+use std::io::Read;
+
 use camino::Utf8Path;
+use flate2::bufread::DeflateDecoder;
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::import as say;
-use pathbuild_diagnostic::{Diagnostic, Value as Shown};
+use pathbuild_diagnostic::{Diagnostic, Text, Value as Shown};
+use rawzip::{CompressionMethod, ZipArchive};
 
 use crate::files::utf_8;
 
@@ -135,8 +138,7 @@ pub fn table_unit(
 pub fn text(system: &dyn System, file: &Utf8Path) -> Result<String, Shown> {
     let bytes =
         system.read(file, MAX_DESCRIPTION_BYTES).map_err(|error| error.reason(MAX_DESCRIPTION_BYTES))?;
-    let bytes =
-        if archive::is_archive(&bytes) { archive::unpack(&bytes, MAX_DESCRIPTION_BYTES)? } else { bytes };
+    let bytes = if bytes.starts_with(b"PK\x03\x04") { unpack(&bytes)? } else { bytes };
     utf_8(bytes)
 }
 
@@ -173,6 +175,44 @@ pub fn read(
         Err(problem) => Err(Box::new(place(*problem))),
     }
 }
+
+/// Returns the content of a tool library that Fusion 360 exported as `.tools`: a zip archive with a single entry, `tools.json`.
+///
+/// # Errors
+/// If the archive is broken or has several entries, or if the content is too large.
+fn unpack(bytes: &[u8]) -> Result<Vec<u8>, Shown> {
+    let archive = ZipArchive::from_slice(bytes).map_err(Shown::foreign)?;
+    let mut entries = archive.entries();
+    let first = entries.next_entry().map_err(Shown::foreign)?;
+    let second = entries.next_entry().map_err(Shown::foreign)?;
+    let (Some(entry), None) = (first, second) else { return Err(Shown::Prose(&SEVERAL_FILES)) };
+    let local = archive.get_entry(entry.wayfinder()).map_err(Shown::foreign)?;
+    match entry.compression_method() {
+        CompressionMethod::STORE => read_entry(local.verifying_reader(local.data())),
+        CompressionMethod::DEFLATE => read_entry(local.verifying_reader(DeflateDecoder::new(local.data()))),
+        _ => Err(Shown::Prose(&OTHER_METHOD)),
+    }
+}
+
+fn read_entry(content: impl Read) -> Result<Vec<u8>, Shown> {
+    let mut bytes = Vec::new();
+    content.take(MAX_DESCRIPTION_BYTES + 1).read_to_end(&mut bytes).map_err(Shown::foreign)?;
+    if bytes.len() as u64 > MAX_DESCRIPTION_BYTES {
+        return Err(Shown::Prose(&TOO_LARGE));
+    }
+    Ok(bytes)
+}
+
+static SEVERAL_FILES: Text = Text {
+    en: "the archive does not contain exactly one file",
+    de: "das Archiv enthält nicht genau eine Datei",
+};
+static OTHER_METHOD: Text = Text {
+    en: "the archive is compressed by a method other than Deflate",
+    de: "das Archiv ist mit einem anderen Verfahren als Deflate komprimiert",
+};
+static TOO_LARGE: Text =
+    Text { en: "its unpacked content is too large", de: "sein entpackter Inhalt ist zu groß" };
 
 fn broken_description(reason: &str, line: usize) -> Box<Diagnostic> {
     let problem = Diagnostic::new(&say::BROKEN_DESCRIPTION).with("reason", Shown::foreign(reason));

@@ -7,27 +7,27 @@
 mod changes;
 mod directories;
 mod events;
-mod finding_tally;
 mod library;
-mod polled_files;
 #[cfg(test)]
 mod tests;
 mod writing;
 
+use std::collections::HashSet;
+use std::hash::{Hash, Hasher};
 use std::time::Instant;
 
 use pathbuild_db::SourceFile;
 use pathbuild_diagnostic::Diagnostic;
+use rustc_hash::FxHashMap;
 
 use crate::baseline::Baseline;
-use crate::findings::Findings;
+use crate::findings::{Findings, identity};
 use crate::session::Session;
 use crate::workspace::Workspace;
 
 use changes::{WaitOutcome, Watcher};
 use events::{Changes, Restart};
 pub use events::{FindingCounts, FirstCheck, Listener, Request, Update, WakeHandle, WatchEnd};
-use finding_tally::{FindingTally, without};
 use library::Library;
 use writing::Writer;
 
@@ -220,5 +220,53 @@ impl WatchLoop<'_> {
         if self.watcher.take_wake_up() {
             self.listener.woken(session);
         }
+    }
+}
+
+/// The number of checks that report each finding. Several drawings may have the same finding.
+#[derive(Debug, Default)]
+struct FindingTally(FxHashMap<CountedFinding, usize>);
+
+impl FindingTally {
+    /// Replaces previous findings by current ones.
+    fn replace(&mut self, before: &[Diagnostic], now: &[Diagnostic]) {
+        for found in now {
+            *self.0.entry(CountedFinding(found.clone())).or_default() += 1;
+        }
+        for found in before.iter().cloned().map(CountedFinding) {
+            match self.0.get_mut(&found) {
+                Some(count) if *count > 1 => *count -= 1,
+                _ => _ = self.0.remove(&found),
+            }
+        }
+    }
+
+    /// Returns all findings, each once.
+    fn all(&self) -> Vec<Diagnostic> {
+        self.0.keys().map(|found| found.0.clone()).collect()
+    }
+}
+
+/// Returns the findings that are not among `others`.
+fn without(findings: &[Diagnostic], others: &[Diagnostic]) -> Vec<Diagnostic> {
+    let others: HashSet<_> = others.iter().map(identity).collect();
+    findings.iter().filter(|found| !others.contains(&identity(found))).cloned().collect()
+}
+
+/// A finding that is compared by its identity, without trace and notes.
+#[derive(Debug)]
+struct CountedFinding(Diagnostic);
+
+impl PartialEq for CountedFinding {
+    fn eq(&self, other: &Self) -> bool {
+        identity(&self.0) == identity(&other.0)
+    }
+}
+
+impl Eq for CountedFinding {}
+
+impl Hash for CountedFinding {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        identity(&self.0).hash(state);
     }
 }
