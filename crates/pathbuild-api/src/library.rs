@@ -16,6 +16,7 @@ use pathbuild_workspace::session::{NamedPaths, NotOnePath, Session, several_path
 use pathbuild_workspace::{Inputs, Workspace, check, list, verify, watch};
 
 use crate::baseline::SettledFindings;
+use crate::options::date;
 use crate::watch::{ReportForwarder, with_absolute_paths};
 use crate::{
     CheckOptions, CheckReport, EmitOptions, EmitReport, Error, Finding, GraphReport, LibraryOptions,
@@ -182,7 +183,9 @@ impl Library {
     /// the drawings are in the report.
     pub fn emit(&self, inputs: &[&str], options: &EmitOptions) -> Result<EmitReport, Error> {
         let (inputs, options) = (to_inputs(inputs), options.clone());
-        options.check_date(&self.workspace)?;
+        if let Some(text) = &options.request.post_arguments.date {
+            date(text, Some(self.workspace.lang()))?;
+        }
         let is_traced = self.workspace.keeps_results() && options.request.uses_cache();
         self.work(move |open| {
             let session = open.session(is_traced);

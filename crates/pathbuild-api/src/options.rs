@@ -310,11 +310,6 @@ impl EmitOptions {
         self.request.post_arguments.run_post_build = true;
         self
     }
-
-    pub(crate) fn check_date(&self, workspace: &Workspace) -> Result<(), Error> {
-        let date = self.request.post_arguments.date.as_deref().map(|text| date(text, Some(workspace.lang())));
-        date.transpose().map(|_| ())
-    }
 }
 
 /// Location of a library's files: a directory on disk, or names and contents in memory.
