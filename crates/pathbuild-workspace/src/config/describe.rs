@@ -34,29 +34,10 @@ fn with_header() -> impl Iterator<Item = &'static TableEntry> {
     TABLES.iter().filter(|(header, ..)| !header.is_empty())
 }
 
-/// A configuration key with its value.
-#[derive(Clone, Debug)]
-pub struct KeyValue {
-    /// Header of the key's table; empty for keys before the first table.
-    pub section: &'static str,
-    /// Name of the key.
-    pub name: &'static str,
-    /// The value as TOML; `None` if not set.
-    pub value: Option<String>,
-    /// Source of the value; empty if not set.
-    pub origin: String,
-}
-
-/// Lists all keys of the configuration with their values.
-pub fn settings(settings: &Settings) -> Vec<KeyValue> {
-    let setting = |section| {
-        move |ShownSetting { name, value, origin }: ShownSetting| {
-            let origin = value.as_ref().map(|_| origin.to_string()).unwrap_or_default();
-            KeyValue { section, name, value, origin }
-        }
-    };
+/// Lists all keys of the configuration with their values, each with the header of its table, which is empty for keys before the first table.
+pub fn settings(settings: &Settings) -> impl Iterator<Item = (&'static str, ShownSetting)> {
     let all = without_header().chain(with_header());
-    all.flat_map(|(header, _, shown)| shown(settings).into_iter().map(setting(*header))).collect()
+    all.flat_map(|(header, _, shown)| shown(settings).into_iter().map(|setting| (*header, setting)))
 }
 
 fn write(text: &mut String, entries: Vec<ShownSetting>, with_origin: bool) {

@@ -22,9 +22,9 @@ mod table_kinds;
 pub mod types;
 
 pub use arguments::{GivenOptions, OptionValues, Overrides, SettingOption, number, positive, regex};
-pub use describe::{KeyValue, schema, settings, show, template};
+pub use describe::{schema, settings, show, template};
 pub use load::{UserSettings, faults, load, repository};
-pub use origin::{Origin, ResultKind, SourcedValue};
+pub use origin::{Origin, ResultKind, ShownSetting, SourcedValue};
 pub use pathbuild_db::system::clean;
 pub use settings::{Options, Settings};
 pub(crate) use table_kinds::is_file_name;

@@ -114,9 +114,13 @@ pub(super) struct Key {
     pub(super) schema: fn() -> Json,
 }
 
-/// A key with its value as TOML, and the source of the value.
-pub(super) struct ShownSetting {
-    pub(super) name: &'static str,
-    pub(super) value: Option<String>,
-    pub(super) origin: Origin,
+/// A configuration key with its value.
+#[derive(Clone, Debug)]
+pub struct ShownSetting {
+    /// Name of the key within its table.
+    pub name: &'static str,
+    /// The value as TOML; `None` if not set.
+    pub value: Option<String>,
+    /// Source of the value.
+    pub origin: Origin,
 }

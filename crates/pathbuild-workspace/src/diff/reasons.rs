@@ -132,8 +132,8 @@ const DEFAULT_KEYS: [&str; 3] = ["feed", "probe-feed", "sweep-height"];
 fn changed_settings(old: &Settings, new: &Settings) -> BTreeMap<&'static str, ValueChange> {
     let can_move = |name: &str| [&READING_KEYS[..], &WALK_KEYS, &DEFAULT_KEYS].concat().contains(&name);
     let values = |all: &Settings| {
-        let all = settings(all).into_iter().filter(|setting| setting.section.is_empty());
-        all.map(|setting| (setting.name, setting.value)).collect::<BTreeMap<_, _>>()
+        let all = settings(all).filter(|(section, _)| section.is_empty());
+        all.map(|(_, setting)| (setting.name, setting.value)).collect::<BTreeMap<_, _>>()
     };
     let mut old = values(old);
     let changed = values(new).into_iter().filter_map(|(name, now)| {

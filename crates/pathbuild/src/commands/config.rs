@@ -7,13 +7,14 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::printer::Stream;
 use crate::render::Format;
-use pathbuild_workspace::config::{KeyValue, schema, settings, show};
+use pathbuild_workspace::config::{ShownSetting, schema, settings, show};
 
 /// Prints the settings, or the schema.
 pub fn run(context: &Context, args: &ConfigArgs) -> ExitStatus {
     match args.command {
         ConfigCommand::Show { .. } if context.format == Format::Json => {
-            for KeyValue { section, name, value, origin } in settings(&context.settings) {
+            for (section, ShownSetting { name, value, origin }) in settings(&context.settings) {
+                let origin = value.as_ref().map(|_| origin.to_string()).unwrap_or_default();
                 let row = json!({ "section": section, "name": name, "value": value, "origin": origin });
                 context.row("setting", row);
             }
