@@ -100,7 +100,7 @@ impl SettledFindings {
         coverage: impl FnOnce() -> Coverage,
     ) -> Result<Self, Error> {
         let settled = workspace.settle(workspace.findings(diagnostics), baseline, coverage);
-        match settled.map_err(Error::from_baseline_failure)? {
+        match settled.map_err(Error::from_failure)? {
             Settled::Findings(findings) => {
                 let (findings, accepted) = Finding::reported_and_accepted(findings);
                 Ok(Self { findings, accepted, baseline: None })

@@ -5,7 +5,6 @@ use std::ops::Range;
 
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Lang};
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::settle::BaselineFailure;
 use pathbuild_workspace::waivers::Waiver;
 use pathbuild_workspace::{Failure, Workspace};
 
@@ -173,16 +172,9 @@ impl Error {
     pub(crate) fn from_failure(failure: Failure) -> Self {
         match failure {
             Failure::Usage(reason) => Self::Refused(reason),
+            Failure::Refused(faults) => Self::Baseline(unchanged(faults)),
             Failure::Post(found) => Self::Post(unchanged(found)),
             Failure::Found(found) => Self::Findings(unchanged(found)),
-        }
-    }
-
-    pub(crate) fn from_baseline_failure(failure: BaselineFailure) -> Self {
-        match failure {
-            BaselineFailure::Usage(reason) => Self::Refused(reason),
-            BaselineFailure::Faulty(faults) => Self::Baseline(unchanged(faults)),
-            BaselineFailure::Unwritten(fault) => Self::Findings(unchanged(vec![*fault])),
         }
     }
 

@@ -225,21 +225,6 @@ impl Workspace {
         }
     }
 
-    /// Moves the findings that the baseline accepts, if there is a baseline, to the waived findings. Adds warnings about waivers that no longer match
-    /// any finding.
-    ///
-    /// # Errors
-    /// If the baseline cannot be read or has faulty lines.
-    pub(crate) fn apply_baseline(
-        &self,
-        findings: Findings,
-        baseline: Option<&Utf8Path>,
-        coverage: impl FnOnce() -> Coverage,
-    ) -> Result<Findings, Vec<Diagnostic>> {
-        let baseline = self.read_baseline(baseline)?;
-        Ok(self.without_accepted(findings, baseline.as_ref(), coverage))
-    }
-
     /// Reads the named baseline, or the default one if it exists.
     ///
     /// # Errors

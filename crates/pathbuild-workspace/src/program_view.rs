@@ -46,16 +46,10 @@ impl DroppedProgram {
         let mut problems = Vec::new();
         let options = self.assumptions.options(&mut problems);
         let file = Utf8Path::new(&self.name);
-        let mut report = match program_scene(session, file, self.text, options) {
-            Ok(report) => report,
-            Err(Failure::Post(diagnostics) | Failure::Found(diagnostics)) => {
-                SceneReport { scene: Scene::new(file_name(file)), diagnostics }
-            }
-            // Only the name of a drawing to compare with can be a usage error, and there is none here.
-            Err(Failure::Usage(_)) => {
-                SceneReport { scene: Scene::new(file_name(file)), diagnostics: Vec::new() }
-            }
-        };
+        // Only the name of a drawing to compare with can be a usage error, and there is none here.
+        let mut report = program_scene(session, file, self.text, options).unwrap_or_else(|failure| {
+            SceneReport { scene: Scene::new(file_name(file)), diagnostics: failure.into_diagnostics() }
+        });
         if let Some(record) = &mut report.scene.program {
             record.dialects = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
         }

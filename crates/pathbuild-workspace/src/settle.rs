@@ -9,7 +9,7 @@ use crate::baseline::Baseline;
 use crate::files;
 use crate::findings::Findings;
 use crate::waivers::{Coverage, Waiver};
-use crate::workspace::Workspace;
+use crate::workspace::{Failure, Workspace};
 
 /// The baseline of a run, and its use.
 #[derive(Clone, Debug, Default)]
@@ -50,17 +50,6 @@ pub struct WrittenBaseline {
     pub findings: usize,
 }
 
-/// The reason why a baseline was neither applied nor written.
-#[derive(Debug)]
-pub enum BaselineFailure {
-    /// The request is invalid, for this reason in the language of messages.
-    Usage(String),
-    /// The baseline cannot be read, or has these errors.
-    Faulty(Vec<Diagnostic>),
-    /// The baseline cannot be written.
-    Unwritten(Box<Diagnostic>),
-}
-
 impl Workspace {
     /// Splits findings into those to report and those that are accepted, and adds warnings about waivers that match nothing any more; or writes the
     /// baseline instead.
@@ -72,14 +61,14 @@ impl Workspace {
         findings: Findings,
         options: &BaselineOptions,
         coverage: impl FnOnce() -> Coverage,
-    ) -> Result<Settled, BaselineFailure> {
+    ) -> Result<Settled, Failure> {
         let named = options.file.as_deref();
         let (file, diagnostics) = (self.baseline_file(named), &findings.diagnostics);
         match &options.task {
-            BaselineTask::Apply => self
-                .apply_baseline(findings, named, coverage)
-                .map(Settled::Findings)
-                .map_err(BaselineFailure::Faulty),
+            BaselineTask::Apply => {
+                let baseline = self.read_baseline(named).map_err(Failure::Refused)?;
+                Ok(Settled::Findings(self.without_accepted(findings, baseline.as_ref(), coverage)))
+            }
             BaselineTask::Update => self.update_baseline(&file, diagnostics, &coverage()),
             BaselineTask::Accept(code, waiver) => self.accept(&file, *code, waiver, diagnostics),
         }
@@ -91,12 +80,12 @@ impl Workspace {
         file: &Utf8Path,
         findings: &[Diagnostic],
         coverage: &Coverage,
-    ) -> Result<Settled, BaselineFailure> {
+    ) -> Result<Settled, Failure> {
         let baseline = self.read_or_new_baseline(file);
         let (baseline, mut faults) = baseline.unwrap_or_else(|_| (Baseline::new(file), Vec::new()));
         faults.retain(|fault| fault.message.key != messages::BASELINE_LINE.key);
         if !faults.is_empty() {
-            return Err(BaselineFailure::Faulty(faults));
+            return Err(Failure::Refused(faults));
         }
         self.write_baseline(file, &baseline.rewritten_text(findings, self, coverage), findings.len())
     }
@@ -108,17 +97,17 @@ impl Workspace {
         code: Code,
         waiver: &Waiver,
         findings: &[Diagnostic],
-    ) -> Result<Settled, BaselineFailure> {
+    ) -> Result<Settled, Failure> {
         if let Some(reason) = self.waiver_refusal(waiver) {
-            return Err(BaselineFailure::Usage(reason));
+            return Err(Failure::Usage(reason));
         }
         let baseline = match self.read_or_new_baseline(file) {
             Ok((baseline, faults)) if faults.is_empty() => baseline,
-            Ok((_, faults)) | Err(faults) => return Err(BaselineFailure::Faulty(faults)),
+            Ok((_, faults)) | Err(faults) => return Err(Failure::Refused(faults)),
         };
         let (text, count) = baseline.text_accepting(findings, code, waiver, self);
         if count == 0 {
-            return Err(BaselineFailure::Usage(self.phrase(
+            return Err(Failure::Usage(self.phrase(
                 "there is no finding {} to accept",
                 "es gibt keinen Befund {}, der hinzunehmen wäre",
                 &code.to_string(),
@@ -150,13 +139,8 @@ impl Workspace {
         ))
     }
 
-    fn write_baseline(
-        &self,
-        file: &Utf8Path,
-        text: &str,
-        findings: usize,
-    ) -> Result<Settled, BaselineFailure> {
-        files::replace_report(self, file, text).map_err(BaselineFailure::Unwritten)?;
+    fn write_baseline(&self, file: &Utf8Path, text: &str, findings: usize) -> Result<Settled, Failure> {
+        files::replace_report(self, file, text).map_err(|fault| Failure::Found(vec![*fault]))?;
         Ok(Settled::Written(WrittenBaseline { file: file.to_owned(), findings }))
     }
 }

@@ -142,8 +142,20 @@ pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
 pub enum Failure {
     /// The request is invalid, for this reason in the language of messages.
     Usage(String),
+    /// A file that the request depends on, such as a configuration or a baseline, cannot be read or has these errors.
+    Refused(Vec<Diagnostic>),
     /// The post-processor does not exist, or is broken.
     Post(Vec<Diagnostic>),
     /// The subject of the request is unknown or has these errors.
     Found(Vec<Diagnostic>),
+}
+
+impl Failure {
+    /// Returns the errors; empty if the request itself is invalid.
+    pub fn into_diagnostics(self) -> Vec<Diagnostic> {
+        match self {
+            Self::Usage(_) => Vec::new(),
+            Self::Refused(found) | Self::Post(found) | Self::Found(found) => found,
+        }
+    }
 }

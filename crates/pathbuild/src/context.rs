@@ -247,6 +247,7 @@ impl Context {
     pub fn failed(&self, failure: Failure) -> ExitStatus {
         match failure {
             Failure::Usage(reason) => self.usage(&reason),
+            Failure::Refused(faults) => self.refuse(faults),
             Failure::Post(problems) | Failure::Found(problems) => self.fail(problems),
         }
     }

@@ -1,4 +1,4 @@
-//! The commands. Each has a module with a function `run(&Context, &Args) -> ExitStatus`.
+//! The commands. Each has a module with a function `run(&Context, &Args)`, which returns the exit status, or a `Failure` that ends the command.
 
 pub mod adjust;
 pub mod cache;
@@ -28,11 +28,11 @@ pub mod why;
 
 use camino::Utf8Path;
 use pathbuild_db::system::WriteOutcome;
+use pathbuild_workspace::Failure;
 use serde_json::{Value, json};
 
 use crate::args::Command;
 use crate::context::Context;
-
 use crate::exit::ExitStatus;
 use crate::german;
 use crate::render::Format;
@@ -69,7 +69,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Emit(args) => emit::run(context, args),
         Command::Adjust(args) => adjust::run(context, args),
         Command::Import(args) => import::run(context, args),
-        Command::Verify(args) => verify::run(context, args),
+        Command::Verify(args) => concluded(context, verify::run(context, args)),
         Command::Post(args) => post::run(context, args),
         Command::Explain(args) => explain::run(context, args),
         Command::Completions(args) => completions::run(context, args),
@@ -82,9 +82,9 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Where(args) => locate::run(context, args),
         Command::Why(args) => why::run(context, args),
         Command::Texts(args) => texts::run(context, args),
-        Command::View(args) => view::run(context, args),
-        Command::Sheet(args) => sheet::run(context, args),
-        Command::Diff(args) => diff::run(context, args),
+        Command::View(args) => concluded(context, view::run(context, args)),
+        Command::Sheet(args) => concluded(context, sheet::run(context, args)),
+        Command::Diff(args) => concluded(context, diff::run(context, args)),
         Command::QProject(args) => q_project::run(context, args),
         Command::Cache(args) => cache::run(context, args),
         Command::Init(args) => init::run(context, args.example),
@@ -92,6 +92,10 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Machine(args) => machine::run(context, args),
         Command::Watch(_) | Command::Compat(_) => unreachable!("they make their own surroundings"),
     }
+}
+
+fn concluded(context: &Context, run: Result<ExitStatus, Failure>) -> ExitStatus {
+    run.unwrap_or_else(|failure| context.failed(failure))
 }
 
 /// Returns an error message if the format is for graphs and the command prints none, or if the format is only for reports.

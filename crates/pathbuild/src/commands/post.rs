@@ -163,21 +163,16 @@ fn findings(
     let reading = args.reading.options();
     let options = VerifyOptions { reading, surface, target, ..VerifyOptions::default() };
     let mut session = Session::new(context);
-    match Verifier::new(&mut session, options) {
-        Ok(verifier) => {
-            let mut found = verifier.findings(program);
-            found.retain(|problem| !is_judged_in_output(problem));
-            found.iter_mut().for_each(report_as_left_out);
-            let is_bent = |problem: &&mut Diagnostic| problem.message == &gcode::BENT_RAPID;
-            for bent in found.iter_mut().filter(is_bent).filter(|_| target.is_some()) {
-                bent.severity = Severity::Error;
-            }
-            Ok(found)
-        }
-        Err(Failure::Post(problems) | Failure::Found(problems)) => Err(problems),
-        // Usage errors only concern the drawing to compare with, and there is none.
-        Err(Failure::Usage(_)) => Err(Vec::new()),
+    // Usage errors only concern the drawing to compare with, and there is none.
+    let verifier = Verifier::new(&mut session, options).map_err(Failure::into_diagnostics)?;
+    let mut found = verifier.findings(program);
+    found.retain(|problem| !is_judged_in_output(problem));
+    found.iter_mut().for_each(report_as_left_out);
+    let is_bent = |problem: &&mut Diagnostic| problem.message == &gcode::BENT_RAPID;
+    for bent in found.iter_mut().filter(is_bent).filter(|_| target.is_some()) {
+        bent.severity = Severity::Error;
     }
+    Ok(found)
 }
 
 /// Whether a finding is about something that the post-processor adds or completes (the spindle, tools of the table, the end of the

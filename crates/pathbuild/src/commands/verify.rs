@@ -9,7 +9,7 @@ use pathbuild_api::{
 use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::verify;
+use pathbuild_workspace::{Failure, verify};
 use serde_json::{Value, json};
 
 use crate::args::{UnitCodesArg, VerifyArgs};
@@ -19,19 +19,17 @@ use crate::text::count;
 use crate::waivers;
 
 /// Runs the command: checks each program, and reports findings and the checks made.
-pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
-    let options = match options(args) {
-        Ok(options) => options,
-        Err(fault) => return context.refuse(vec![*fault]),
-    };
-    let options = match with_standard_input(context, args, options) {
-        Ok(options) => options,
-        Err(problem) => return context.fail(vec![*problem]),
-    };
+///
+/// # Errors
+/// If an option is invalid, or if standard input cannot be read.
+pub fn run(context: &Context, args: &VerifyArgs) -> Result<ExitStatus, Failure> {
+    let options = options(args).map_err(|fault| Failure::Refused(vec![*fault]))?;
+    let options = with_standard_input(context, args, options);
+    let options = options.map_err(|problem| Failure::Found(vec![*problem]))?;
     let places: Vec<&str> =
         args.files.iter().map(|file| file.as_str()).filter(|file| *file != STANDARD_INPUT).collect();
     let verified = match context.library().and_then(|library| library.verify(&places, &options)) {
-        Err(error @ Error::Post(_)) => return context.request_failed(error),
+        Err(error @ Error::Post(_)) => return Ok(context.request_failed(error)),
         verified => verified,
     };
     let programs = verified.as_ref().map_or(args.files.len(), |verified| verified.programs.len());
@@ -39,14 +37,14 @@ pub fn run(context: &Context, args: &VerifyArgs) -> ExitStatus {
     context
         .output
         .add_figure("configuration", context.settings.file.as_deref().map(|file| context.file(file)));
-    match verified {
+    Ok(match verified {
         Ok(verified) => show(context, args, verified),
         // The drawing to compare with has errors, so nothing was verified.
         Err(Error::Findings(found)) if args.against.is_some() => {
             conclude(context, &for_rendering(found, Vec::new())).max(ExitStatus::Errors)
         }
         Err(error) => context.request_failed(error),
-    }
+    })
 }
 
 /// Shows the comparisons, the findings and the checks.

@@ -19,21 +19,18 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 
 /// Runs the command. A path with errors is shown with its findings in the picture.
-pub fn run(context: &Context, args: &ViewArgs) -> ExitStatus {
-    let output = match Output::of(context, args) {
-        Ok(output) => output,
-        Err(reason) => return context.usage(&reason),
-    };
-    let target = match target_scene(context, args, output.format) {
-        Ok(scene) => scene,
-        Err(failure) => return context.failed(failure),
-    };
+///
+/// # Errors
+/// If there is nothing to show, or if it cannot be written in this format.
+pub fn run(context: &Context, args: &ViewArgs) -> Result<ExitStatus, Failure> {
+    let output = Output::of(context, args).map_err(Failure::Usage)?;
+    let target = target_scene(context, args, output.format)?;
     let (scene, findings) = target.report.for_others(context, &target.file);
     context.show(&findings);
     if output.shown.stock && !has_stock(&scene) {
-        return report_missing_stock(context, &findings);
+        return Ok(report_missing_stock(context, &findings));
     }
-    deliver(context, output.file.as_deref(), output.format.bytes(scene, output.shown), &findings)
+    Ok(deliver(context, output.file.as_deref(), output.format.bytes(scene, output.shown), &findings))
 }
 
 /// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown.

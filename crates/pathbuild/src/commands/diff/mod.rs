@@ -19,7 +19,7 @@ use pathbuild_workspace::emit::{ShownText, missing_values};
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::Session;
-use pathbuild_workspace::{Inputs, Workspace};
+use pathbuild_workspace::{Failure, Inputs, Workspace};
 
 use crate::args::DiffArgs;
 use crate::context::Context;
@@ -30,30 +30,24 @@ use output::Output;
 use revision::Revision;
 
 /// Runs the command. A changed path is no error. A path that cannot be compared, because it has errors now, is one.
-pub fn run(context: &Context, args: &DiffArgs) -> ExitStatus {
-    let output = match Output::of(context, args.output.as_deref()) {
-        Ok(output) => output,
-        Err(reason) => return context.usage(&reason),
-    };
+///
+/// # Errors
+/// If the sides cannot be read or have nothing in common to compare.
+pub fn run(context: &Context, args: &DiffArgs) -> Result<ExitStatus, Failure> {
+    let output = Output::of(context, args.output.as_deref()).map_err(Failure::Usage)?;
     let pictures = output.has_pictures().then(|| context.lang());
-    let compared = match sides(context, args) {
-        Ok([Side::Drawings(old), Side::Drawings(new)]) => Ok(drawings(context, &old, &new, pictures)),
-        Ok([Side::Program(old), Side::Program(new)]) => Ok(compare_two_programs(*old, *new, pictures)),
-        Ok(_) => {
-            return context.usage(context.choose(
+    let comparison = match sides(context, args)? {
+        [Side::Drawings(old), Side::Drawings(new)] => drawings(context, &old, &new, pictures),
+        [Side::Program(old), Side::Program(new)] => compare_two_programs(*old, *new, pictures),
+        _ => {
+            let reason = context.choose(
                 "compare a program with a path or with another program",
                 "ein Programm mit einem Pfad oder einem anderen Programm vergleichen",
-            ));
+            );
+            return Err(Failure::Usage(reason.to_owned()));
         }
-        Err(failure) => Err(failure),
     };
-    let comparison = match compared {
-        Ok(comparison) => comparison,
-        Err(Failure::Usage(reason)) => return context.usage(&reason),
-        Err(Failure::Refused(faults)) => return context.refuse(faults),
-        Err(Failure::Found(problems)) => return context.fail(problems),
-    };
-    finish(context, &output, &comparison)
+    Ok(finish(context, &output, &comparison))
 }
 
 fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<Lang>) -> Comparison {
@@ -132,13 +126,6 @@ pub(super) struct ComparedProgram {
     /// Whether pathbuild interprets all words of the program that may move the tool.
     pub(super) are_moves_known: bool,
     pub(super) problems: Vec<Diagnostic>,
-}
-
-/// The reason why nothing can be compared.
-pub(super) enum Failure {
-    Usage(String),
-    Refused(Vec<Diagnostic>),
-    Found(Vec<Diagnostic>),
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
