@@ -76,17 +76,8 @@ pub struct Options {
     pub probe_feed: Option<String>,
     /// The post; `None` for the one in the configuration.
     pub post: Option<String>,
-    /// Language of answers.
-    pub lang: Language,
-}
-
-/// Language of the texts that answers contain in one language only.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Language {
-    #[default]
-    En,
-    De,
+    /// Language of the texts that answers contain in one language only.
+    pub lang: Lang,
 }
 
 /// A path or drawing that took too long or triggered a bug, so that the instance of the compiler ended.
@@ -118,15 +109,6 @@ pub enum LossReason {
 pub(crate) struct Answer {
     pub(crate) head: Value,
     pub(crate) bytes: Vec<u8>,
-}
-
-impl From<Language> for Lang {
-    fn from(language: Language) -> Self {
-        match language {
-            Language::En => Self::En,
-            Language::De => Self::De,
-        }
-    }
 }
 
 impl From<Value> for Answer {

@@ -47,7 +47,7 @@ impl OpenedFiles {
         let workspace = Workspace {
             settings,
             system,
-            own_lang: Some(lang.into()),
+            own_lang: Some(lang),
             system_lang: None,
             working_directory: Utf8PathBuf::new(),
             // WebAssembly has a single thread.

@@ -200,18 +200,6 @@ fn line_type(role: Role) -> LineType {
     line_types.into_iter().find(is_role).unwrap_or(LineType::Continuous)
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum ShapeChange {
-    /// The shape was moved by this vector in mm.
-    Moved([f64; 2]),
-    /// One end was moved by this vector in mm.
-    EndMoved([f64; 2]),
-    /// The radius before and after, in mm.
-    Radius([f64; 2]),
-    /// The shape was changed in another way.
-    Reshaped,
-}
-
 /// Difference in mm up to which places and lengths are equal. CAD programs write at least four decimals.
 pub(super) const EQUALITY_TOLERANCE: f64 = 1e-4;
 
@@ -220,17 +208,18 @@ pub(super) fn shape_changes(
     old: &Shape,
     new: &Shape,
     shift: Vector2<f64>,
-) -> impl Iterator<Item = ShapeChange> + use<> {
+) -> impl Iterator<Item = ElementChange> + use<> {
     let changes = match (old, new) {
         (
             Shape::Circle { centre: old_centre, radius: old },
             Shape::Circle { centre: new_centre, radius: new },
         ) => {
-            let radius = (!is_same(*old, *new)).then_some(ShapeChange::Radius([*old, *new]));
+            let diameters = [2.0 * *old, 2.0 * *new];
+            let radius = (!is_same(*old, *new)).then_some(ElementChange::Diameter(diameters));
             [radius, move_change(new_centre - old_centre - shift)]
         }
         (Shape::Curve(old), Shape::Curve(new)) => [curve_change(old, new, shift), None],
-        _ => [Some(ShapeChange::Reshaped), None],
+        _ => [Some(ElementChange::Reshaped), None],
     };
     changes.into_iter().flatten()
 }
@@ -240,27 +229,27 @@ pub(super) fn is_equal(old: &Shape, new: &Shape, shift: Vector2<f64>) -> bool {
     shape_changes(old, new, shift).next().is_none()
 }
 
-fn move_change(by: Vector2<f64>) -> Option<ShapeChange> {
-    (!is_negligible(by)).then(|| ShapeChange::Moved(by.into()))
+fn move_change(by: Vector2<f64>) -> Option<ElementChange> {
+    (!is_negligible(by)).then(|| ElementChange::Moved(by.into()))
 }
 
-fn curve_change(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Option<ShapeChange> {
+fn curve_change(old: &Curve, new: &Curve, shift: Vector2<f64>) -> Option<ElementChange> {
     let new = in_same_direction(old, new, shift);
     let ends @ [first, second] = [new.start() - old.start() - shift, new.end() - old.end() - shift];
     match (old, new) {
         (Curve::Line(_), Curve::Line(_)) => ends_change(first, second),
         (Curve::Arc(old), Curve::Arc(new)) => arc_change(old, &new, shift, ends),
-        _ => Some(ShapeChange::Reshaped),
+        _ => Some(ElementChange::Reshaped),
     }
 }
 
-fn ends_change(first: Vector2<f64>, second: Vector2<f64>) -> Option<ShapeChange> {
+fn ends_change(first: Vector2<f64>, second: Vector2<f64>) -> Option<ElementChange> {
     match (is_negligible(first), is_negligible(second)) {
         (true, true) => None,
-        _ if is_negligible(first - second) => Some(ShapeChange::Moved(first.into())),
-        (true, false) => Some(ShapeChange::EndMoved(second.into())),
-        (false, true) => Some(ShapeChange::EndMoved(first.into())),
-        (false, false) => Some(ShapeChange::Reshaped),
+        _ if is_negligible(first - second) => Some(ElementChange::Moved(first.into())),
+        (true, false) => Some(ElementChange::EndMoved(second.into())),
+        (false, true) => Some(ElementChange::EndMoved(first.into())),
+        (false, false) => Some(ElementChange::Reshaped),
     }
 }
 
@@ -270,22 +259,22 @@ fn arc_change(
     new: &Arc,
     shift: Vector2<f64>,
     [first, second]: [Vector2<f64>; 2],
-) -> Option<ShapeChange> {
+) -> Option<ElementChange> {
     let centre = new.centre - old.centre - shift;
     let has_same_ends = is_negligible(first) && is_negligible(second);
     if !is_same(old.radius, new.radius) {
         let is_concentric = is_negligible(centre);
         let radii = [old.radius, new.radius];
         return Some(if is_concentric || has_same_ends {
-            ShapeChange::Radius(radii)
+            ElementChange::Radius(radii)
         } else {
-            ShapeChange::Reshaped
+            ElementChange::Reshaped
         });
     }
     match ends_change(first, second) {
-        Some(ShapeChange::Moved(by)) if is_negligible(centre - first) => Some(ShapeChange::Moved(by)),
-        change @ (None | Some(ShapeChange::EndMoved(_))) if is_negligible(centre) => change,
-        _ => Some(ShapeChange::Reshaped),
+        Some(ElementChange::Moved(by)) if is_negligible(centre - first) => Some(ElementChange::Moved(by)),
+        change @ (None | Some(ElementChange::EndMoved(_))) if is_negligible(centre) => change,
+        _ => Some(ElementChange::Reshaped),
     }
 }
 

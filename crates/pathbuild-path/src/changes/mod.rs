@@ -15,7 +15,7 @@ use crate::element_parameters::ElementParameters;
 use crate::geometry::Xy;
 use crate::raw::{RawPath, SourceMap};
 
-use item::{Item, ShapeChange, items, shape_changes};
+use item::{Item, items, shape_changes};
 use pairing::{Frame, pair};
 
 /// One side of a comparison: a path as drawn.
@@ -111,16 +111,7 @@ pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
 type FoundChange<'i> = (&'i Item<'i>, ElementChange);
 
 fn element_changes(old: &Item<'_>, new: &Item<'_>, frame: &Frame) -> Vec<ElementChange> {
-    let mut changes: Vec<ElementChange> = Vec::new();
-    changes.extend(shape_changes(&old.shape, &new.shape, frame.shift).map(|change| match change {
-        ShapeChange::Moved(by) => ElementChange::Moved(by),
-        ShapeChange::EndMoved(by) => ElementChange::EndMoved(by),
-        ShapeChange::Reshaped => ElementChange::Reshaped,
-        ShapeChange::Radius(radii) if new.kind == ElementKind::Circle => {
-            ElementChange::Diameter(radii.map(|radius| 2.0 * radius))
-        }
-        ShapeChange::Radius(radii) => ElementChange::Radius(radii),
-    }));
+    let mut changes: Vec<ElementChange> = shape_changes(&old.shape, &new.shape, frame.shift).collect();
     changes.extend(old.line_type_change(new).map(ElementChange::LineType));
     changes.extend(old.text_change(new).map(ElementChange::Text));
     changes

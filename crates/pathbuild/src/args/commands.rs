@@ -1,8 +1,8 @@
 //! The arguments of each command.
 
 use camino::Utf8PathBuf;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Subcommand, ValueEnum};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, Subcommand};
 use clap_complete::env::Shells;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::UnitCodes;
@@ -168,8 +168,8 @@ pub struct ReadingArgs {
     #[arg(long, value_name = "DIALECT", value_parser = dialects(), hide_possible_values = true)]
     pub dialect: Option<Dialect>,
     /// `XpertMILL`: din: G70 means inches and G71 millimetres; table: the other way round
-    #[arg(long, value_name = "din|table", value_enum, hide_possible_values = true)]
-    pub unit_codes: Option<UnitCodesArg>,
+    #[arg(long, value_name = "din|table", value_parser = unit_codes(), hide_possible_values = true)]
+    pub unit_codes: Option<UnitCodes>,
     /// `XpertMILL`: I and J are the arc's centre itself, not its distance from the arc's start
     #[arg(long)]
     pub absolute_arc_centres: bool,
@@ -183,23 +183,17 @@ impl ReadingArgs {
     pub fn options(&self) -> ReadingOptions {
         ReadingOptions {
             dialect: self.dialect,
-            unit_codes: match self.unit_codes {
-                Some(UnitCodesArg::Table) => UnitCodes::Table,
-                Some(UnitCodesArg::Din) | None => UnitCodes::Din,
-            },
+            unit_codes: self.unit_codes.unwrap_or_default(),
             absolute_arc_centres: self.absolute_arc_centres,
             ignore_feed: self.ignore_feed,
         }
     }
 }
 
-/// Meaning of G70 and G71 in programs for `XpertMILL`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum UnitCodesArg {
-    /// G70 inches, G71 millimetres.
-    Din,
-    /// The other way round.
-    Table,
+fn unit_codes() -> impl TypedValueParser<Value = UnitCodes> {
+    let values = [("din", "G70 inches, G71 millimetres"), ("table", "The other way round")];
+    PossibleValuesParser::new(values.map(|(name, help)| PossibleValue::new(name).help(help)))
+        .map(|name| if name == "table" { UnitCodes::Table } else { UnitCodes::Din })
 }
 
 fn length_units() -> impl TypedValueParser<Value = LengthUnit> {

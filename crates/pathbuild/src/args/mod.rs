@@ -31,7 +31,7 @@ pub use self::commands::{
     InitArgs, QProjectArgs, SheetArgs, TextsArgs, ViewArgs,
 };
 pub use self::commands::{GraphArgs, ListArgs};
-pub use self::commands::{ImportArgs, PostArgs, PostCommand, ReadingArgs, UnitCodesArg, VerifyArgs};
+pub use self::commands::{ImportArgs, PostArgs, PostCommand, ReadingArgs, VerifyArgs};
 pub use self::commands::{MachineArgs, MachineCommand};
 pub use self::commands::{ServeArgs, WatchArgs};
 pub use self::shared::CommonArgs;

@@ -8,11 +8,12 @@ use pathbuild_api::{
 };
 use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_gcode::interpret::UnitCodes;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::{Failure, verify};
 use serde_json::{Value, json};
 
-use crate::args::{UnitCodesArg, VerifyArgs};
+use crate::args::VerifyArgs;
 use crate::context::{Context, for_rendering};
 use crate::exit::ExitStatus;
 use crate::text::count;
@@ -104,7 +105,7 @@ fn options(args: &VerifyArgs) -> Result<VerifyOptions, Box<Diagnostic>> {
     options = reading.dialect.iter().fold(options, |options, dialect| options.dialect(dialect.name()));
     options = stock.cutter.iter().fold(options, |options, diameter| options.cutter(*diameter));
     options = stock.surface.iter().fold(options, |options, height| options.surface(*height));
-    if reading.unit_codes == Some(UnitCodesArg::Table) {
+    if reading.unit_codes == Some(UnitCodes::Table) {
         options = options.table_unit_codes();
     }
     if reading.absolute_arc_centres {
