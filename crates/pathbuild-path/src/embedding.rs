@@ -56,11 +56,11 @@ pub struct PathSignature {
     /// Whether the path has Z-probes of its own.
     pub has_probes: bool,
     /// The probes raised by H.
-    pub raised_probes: Vec<ProbeTop>,
+    pub raised_probes: Vec<StatedHeight>,
     /// T + H of the highest probe; 0 without probes.
     pub highest_probe: f64,
     /// The sweeps with their own S.
-    pub own_sweeps: Vec<OwnSweep>,
+    pub own_sweeps: Vec<StatedHeight>,
     /// Letters with values that are hidden by errors.
     pub(crate) unknown: Letters,
     /// The path's subpath segments in order.
@@ -109,9 +109,17 @@ impl PathSignature {
             size: (path.end - path.start).norm(),
             needs_feed: path.needs_feed(),
             has_probes: !path.probes.is_empty(),
-            raised_probes: ProbeTop::raised(path),
+            raised_probes: path
+                .probes
+                .iter()
+                .filter_map(|probe| StatedHeight::of_raised_probe(path, probe))
+                .collect(),
             highest_probe: path.probes.iter().map(|probe| probe.height).fold(0.0, f64::max),
-            own_sweeps: path.segments.iter().filter_map(|segment| OwnSweep::of(path, segment)).collect(),
+            own_sweeps: path
+                .segments
+                .iter()
+                .filter_map(|segment| StatedHeight::of_own_sweep(path, segment))
+                .collect(),
             unknown: path.unknown_letters(),
             subpaths: path.segments.iter().enumerate().filter_map(call).collect(),
         }
@@ -147,37 +155,23 @@ impl SubpathCall {
     }
 }
 
-/// A Z-probe, which the tool approaches at sweep height.
+/// A height that a text of the path states, in mm above the plane of the path: the top of a raised Z-probe, or the height of a sweep.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ProbeTop {
+pub struct StatedHeight {
     origin: Origin,
-    /// T + H in mm, above the plane of the path.
     height: f64,
     fault: Option<TextFault>,
 }
 
-impl ProbeTop {
-    /// Returns those probes of a path that H raises. T of all other probes is checked together with S.
-    fn raised(path: &Path) -> Vec<Self> {
-        let top = |probe: &crate::path::Probe| {
-            let fault = path.drawn.text(probe.text)?.fault_of(Letter::H)?;
-            Some(Self { origin: probe.origin.clone(), height: probe.height, fault: Some(fault) })
-        };
-        path.probes.iter().filter_map(top).collect()
+impl StatedHeight {
+    /// Returns the top (T + H) of a probe that H raises. T of all other probes is checked together with S.
+    fn of_raised_probe(path: &Path, probe: &crate::path::Probe) -> Option<Self> {
+        let fault = path.drawn.text(probe.text)?.fault_of(Letter::H)?;
+        Some(Self { origin: probe.origin.clone(), height: probe.height, fault: Some(fault) })
     }
-}
 
-/// A sweep with its own S.
-#[derive(Clone, Debug, PartialEq)]
-pub struct OwnSweep {
-    origin: Origin,
-    /// Sweep height (S) in mm.
-    height: f64,
-    fault: Option<TextFault>,
-}
-
-impl OwnSweep {
-    fn of(path: &Path, segment: &Segment) -> Option<Self> {
+    /// Returns the height of a sweep with its own S.
+    fn of_own_sweep(path: &Path, segment: &Segment) -> Option<Self> {
         let SegmentKind::Sweep { height: Some(height) } = segment.kind else { return None };
         let text = path.drawn.text(path.element(segment).text);
         let fault = text.and_then(|text| text.fault_of(Letter::S));
@@ -191,7 +185,7 @@ impl PathSignature {
     pub fn own_sweep_problems(&self, top: f64) -> Vec<Diagnostic> {
         let top = top.max(self.highest_probe);
         let too_low = self.own_sweeps.iter().filter(|sweep| !above(sweep.height, top));
-        let problem = |sweep: &OwnSweep| {
+        let problem = |sweep: &StatedHeight| {
             let mut problem = Diagnostic::new(&parameters::SWEEP_BELOW_RAISED)
                 .with("value", sweep.height)
                 .with("limit", top)
@@ -215,7 +209,7 @@ impl PathSignature {
     /// Returns PB203 for each of the path's own probes that reaches the sweep height, in mm.
     pub fn raised_probe_problems(&self, sweep_height: f64) -> Vec<Diagnostic> {
         let too_high = self.raised_probes.iter().filter(|probe| !above(sweep_height, probe.height));
-        let problem = |probe: &ProbeTop| {
+        let problem = |probe: &StatedHeight| {
             self.reached_problem(sweep_height, probe.height, probe.fault.clone(), &probe.origin)
         };
         too_high.map(problem).collect()

@@ -36,7 +36,7 @@ pub use changes::{DrawnChange, DrawnChanges, DrawnSide, ElementChange, ElementKi
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
 pub use element::{Cut, END_RADIUS, Element, Marker, Origin, Role, START_RADIUS, Shape, Source};
 pub use element_parameters::{ElementParameters, Parameter, element_parameters};
-pub use embedding::{OwnSweep, PathHeader, PathSignature, ProbeTop, Restriction, SubpathCall, SweepLimits};
+pub use embedding::{PathHeader, PathSignature, Restriction, StatedHeight, SubpathCall, SweepLimits};
 pub use embedding::{SubpathChecker, with_near_names};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};
