@@ -170,6 +170,26 @@ fn a_bridge_holds_the_waste_of_an_opening() {
     assert_eq!(count(13.1), 0);
 }
 
+/// A component may embed a path in its own opening. Only the cuts that it makes before count.
+#[test]
+fn the_order_within_a_component_counts() {
+    let count = |elements: &str| {
+        let frame = frame(elements);
+        let project =
+            "layer 8001.1P\nstart -5,-5 \"T2 O2 S5 MX\"\nsubpath -5,-5 55,-5 \">1234.1P\"\nend 55,-5\n";
+        let files = [("8001.1P.dxf", project), ("1234.1P.dxf", &*frame), ("1235.1P.dxf", &*insert())];
+        let mut found = PartTest::default().diagnostics(&files);
+        assert!(found.iter().all(|found| !found.is_error()), "{found:?}");
+        found.retain(|found| found.code().to_string() == "PB222");
+        found.len()
+    };
+    let cut = "mill 11,11 11,39\nmill to 39,39 39,11 11,11\n";
+    let embedded = "subpath 17,17 33,17 \">1235.1P\"\n";
+    let after = format!("sweep -5,-5 11,11\n{cut}sweep 11,11 17,17\n{embedded}sweep 33,17 -1,-1\n");
+    let before = format!("sweep -5,-5 17,17\n{embedded}sweep 33,17 11,11\n{cut}sweep 11,11 -1,-1\n");
+    assert_eq!((count(&after), count(&before)), (1, 0));
+}
+
 /// A groove in loose waste counts, a cut above the plate does not.
 #[test]
 fn cuts_of_any_depth_count_in_loose_waste() {
