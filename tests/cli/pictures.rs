@@ -227,6 +227,46 @@ fn places_in_the_program_are_marked_in_the_drawing() {
     assert_eq!(picture([0, 0]), picture([30, -20]));
 }
 
+/// Returns the pictures of findings about a component whose support bar, and whose part, is cut by another component, by their codes. `shims` is the H
+/// of the other component, whose cut has the given length. The last argument is the place of the project's start marker.
+fn cuts_by_a_neighbour(length: i32, shims: &str, [x, y]: [i32; 2]) -> BTreeMap<String, String> {
+    let folder = support::project().join("docs/drawings/part");
+    let groove = format!(
+        "layer 1129.1P\nstart 0,0 \"O2 T2 M20x2 I0.5 F150 B-0.2\"\nmill 0,0 0,-{length}\nend 0,-{length}\n"
+    );
+    let at = |right: i32, up: i32| format!("{},{}", x + right, y + up);
+    let (start, right, top, end) = (at(0, 0), at(40, 0), at(13, 32), at(13, 32 - length));
+    let project = format!(
+        "layer 8122.1P\nstart {start} \"O2 T2 M20x2 S10 F150\"\nsubpath {start} {right} \">1121.1P\"\n\
+         sweep {right} {top}\nsubpath {top} {end} \">1129.1P{shims}\"\nend {end}\n"
+    );
+    let place = Place::new().file("pathbuild.toml", fs::read(folder.join("pathbuild.toml")).unwrap());
+    let place = place.file("1121.1P.dxf", fs::read(folder.join("1121.1P.dxf")).unwrap());
+    let place = place.file("1129.1P.dxf", dxf(&groove)).file("8122.1P.dxf", dxf(&project));
+    let run = place.run("check 8122.1P --pictures seen --no-cache");
+    let seen = pictures(&place, "seen").into_iter();
+    let code = |name: String| name.split('-').nth(1).unwrap().to_owned();
+    let seen: BTreeMap<String, String> = seen.map(|(name, picture)| (code(name), picture)).collect();
+    assert!(!seen.is_empty(), "{run}");
+    seen
+}
+
+#[test]
+fn a_bar_of_a_neighbour_is_marked_in_the_drawing() {
+    let [here, there] = [[0, 0], [30, -20]].map(|start| cuts_by_a_neighbour(5, "", start));
+    assert_eq!(here["PB218"], there["PB218"]);
+    // The bar is circled, so the circle is in the middle of the picture.
+    assert!(here["PB218"].contains("<circle cx=\"210\" cy=\"140\" r=\"17\""), "{}", here["PB218"]);
+}
+
+/// The groove of a component on shims goes through its own plate, and part of the way into the part of the other one.
+#[test]
+fn a_cut_from_shims_into_a_neighbour_is_filled() {
+    let picture = &cuts_by_a_neighbour(20, " H0.3", [0, 0])["PB214"];
+    let inside = picture.split_once("-inside-0)\"").unwrap_or_else(|| panic!("{picture}")).1;
+    assert!(inside.split("</g>").next().unwrap().contains("stroke=\"#e50d1a\""), "{picture}");
+}
+
 /// The regions are corners that the cutter does not reach, an outline without a path, and a support bar that another path of a project cuts away.
 #[test]
 fn regions_that_no_cut_or_another_path_makes_are_filled() {

@@ -356,7 +356,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
         corners: &[],
         lost_bars: &[],
         bars_lost_to_neighbours: Vec::new(),
-        gouges: gouging_moves(drawn, &placement, raised, &ways, [radius, tolerance]),
+        gouges: gouging_moves(drawn, &placement, [raised, thickness], &ways, [radius, tolerance]),
         is_loose: severed.iter().any(|(part, at)| std::ptr::eq(*part, drawn) && is_same(at, &placement)),
         radius,
         placement,
@@ -407,7 +407,12 @@ fn instance_of<'db>(db: &'db dyn Db, target: Target, cutting: &programs::Part) -
     })
 }
 
-fn milled_moves(traced: &TracedProgram) -> Vec<TipMove> {
+/// Returns the milling moves of a program, each with the height in mm by which its path is raised.
+fn milled_moves(traced: &TracedProgram) -> Vec<(TipMove, f64)> {
     let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
-    milled.filter_map(|(_, movement)| tip_move(&movement)).collect()
+    let with_height = milled.filter_map(|(step, movement)| {
+        let origin = traced.trace.steps.get(step as usize - 1)?;
+        Some((tip_move(&movement)?, traced.trace.occurrences[origin.occurrence as usize].raised))
+    });
+    with_height.collect()
 }

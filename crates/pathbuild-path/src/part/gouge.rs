@@ -84,17 +84,20 @@ pub(super) fn gouges<'j>(
 }
 
 /// Returns the stretches of moves on which a cutter goes into a part, for pictures. `ways` are the moves of the program in which the part is
-/// placed and raised.
+/// placed and raised, each with the height by which its path is raised. `thickness` is that of the part's plate.
 pub fn gouging_moves<'w>(
     part: &Part,
     placement: &Placement,
-    raised: f64,
-    ways: impl IntoIterator<Item = &'w TipMove>,
+    [raised, thickness]: [f64; 2],
+    ways: impl IntoIterator<Item = &'w (TipMove, f64)>,
     [radius, tolerance]: [f64; 2],
 ) -> Vec<Curve> {
     let part = placed_part(part, placement);
     let part = PreparedPart::new(&part);
-    let through = ways.into_iter().filter_map(|way| way.part_below(raised + THROUGH_HEIGHT));
+    let through = ways.into_iter().filter_map(|way| {
+        let (way, height) = way;
+        way.part_below(level_for_cuts(raised, thickness, *height) + THROUGH_HEIGHT)
+    });
     let near = through.filter(|way| widened_box(way, radius).intersects(&part.extent()));
     let stretches = near.flat_map(|way| {
         let CutterPassage { entered, .. } = part.passage(&way, radius, tolerance);
@@ -102,6 +105,17 @@ pub fn gouging_moves<'w>(
     });
     stretches.collect()
 }
+
+/// Returns the level, in the program, from which cuts are measured to tell whether they spoil a part on a plate of this thickness. It is the level of the
+/// cutting path, which is raised by `height`, but not below the level of the part, and not above its material. So a cut through the plate of a path on
+/// shims that ends in this part spoils it, and is not taken for one of its grooves.
+pub(super) fn level_for_cuts(raised: f64, thickness: f64, height: f64) -> f64 {
+    let highest = (thickness - MIN_CUT_DEPTH).max(0.0);
+    raised + (height - raised).clamp(0.0, highest)
+}
+
+/// Depth in mm below a plate's upper face from which a cut is considered a cut into the plate.
+pub(super) const MIN_CUT_DEPTH: f64 = 0.01;
 
 impl Gouge {
     /// Whether another place is deeper. Of places with the same depth, the leftmost wins, so that the order of the cuts does not matter.

@@ -6,7 +6,7 @@ use super::bars::{LostBar, lost_bars};
 use super::boxes::widened;
 use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar};
 use super::enclosure::{Enclosure, reach};
-use super::gouge::{classify_cuts, gouges};
+use super::gouge::{classify_cuts, gouges, level_for_cuts};
 use super::intervals::at as at_along;
 use super::prepared::PreparedPart;
 use super::{Part, placed_part};
@@ -63,9 +63,6 @@ pub struct SeveredPart {
     pub element: u32,
 }
 
-/// Depth in mm below a plate's upper face from which a cut is considered a cut into the plate.
-pub(super) const MIN_CUT_DEPTH: f64 = 0.01;
-
 /// Distance in mm up to which two outlines are considered the same.
 const SAME_PART_DISTANCE: f64 = 0.01;
 
@@ -91,7 +88,10 @@ impl<'c> PlacedCuts<'c> {
         if !self.is_reached_by(other) {
             return NeighbourCuts::default();
         }
-        let (own, cutting) = (self.placed(self.raised), other.placed(self.level_for_cuts_of(other)));
+        let (own, cutting) = (
+            self.placed(self.raised),
+            other.placed(level_for_cuts(self.raised, self.cuts.thickness, other.raised)),
+        );
         let paths = [&own, &cutting];
         let cuts = CutIndex::new(&paths);
         let mut gouged = Vec::new();
@@ -109,14 +109,6 @@ impl<'c> PlacedCuts<'c> {
         let is_taken = |lost: &LostBar| (lost.of, lost.by) == (0, 1);
         let bars = lost_bars(&CutIndex::new(&paths), tolerance).into_iter().filter(is_taken).collect();
         NeighbourCuts { gouges: gouged, bars }
-    }
-
-    /// Returns the level, in the program, from which cuts of another path are measured to tell whether they spoil a part of this path. It is the
-    /// other path's own level, but not below this path's level, and not above this path's material. So a cut through the other path's plate that
-    /// ends in this part spoils it, and is not taken for one of its grooves.
-    fn level_for_cuts_of(&self, other: &Self) -> f64 {
-        let highest = (self.cuts.thickness - MIN_CUT_DEPTH).max(0.0);
-        self.raised + (other.raised - self.raised).clamp(0.0, highest)
     }
 
     /// Returns the parts that come loose because of cuts of other paths beside them: the cuts of `own` alone would leave material that holds them.

@@ -5,9 +5,10 @@ use std::cell::OnceCell;
 use rstar::{AABB, Envelope as _};
 
 use super::cuts::THROUGH_HEIGHT;
+use super::gouge::MIN_CUT_DEPTH;
 use super::intervals::{Stretch, add_stretches_within, at as at_along, gaps_between, join_stretches};
 use super::loose::is_enclosed;
-use super::neighbours::{MIN_CUT_DEPTH, PlacedCuts};
+use super::neighbours::PlacedCuts;
 use super::placed_part;
 use super::prepared::{PreparedPart, Side};
 use crate::geometry::{Curve, Xy};

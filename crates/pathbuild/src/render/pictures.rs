@@ -3,7 +3,7 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
 use pathbuild_diagnostic::messages::part as messages;
-use pathbuild_diagnostic::{Code, Diagnostic, Message, Value};
+use pathbuild_diagnostic::{Code, Diagnostic, Message, Point, Value};
 use pathbuild_view::{FindingPlace, Places, Scene, cutout_svg, has_stock, stock_cutout_svg};
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::files::write_error;
@@ -28,7 +28,7 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
     let places: Vec<Option<Places<'_>>> = places.collect();
     let drawn = |diagnostic: &Diagnostic| -> Option<String> {
         let file = files.binary_search(&drawing(diagnostic)?).ok()?;
-        let spot = spot(diagnostic, places[file].as_ref(), [0.0; 2])?;
+        let spot = spot(diagnostic, places[file].as_ref())?;
         Some(cutout_svg(scenes[file].as_ref()?, &spot, workspace.lang()))
     };
     let session = Session::new(workspace);
@@ -41,9 +41,12 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
         }
         let scene = known.as_ref()?.1.as_ref()?;
         let has_corners = diagnostic.code() == Code::UnreachableCorner;
-        let is_in_program = IN_PROGRAM.contains(&diagnostic.message);
-        let zero = scene.paths.first().filter(|_| is_in_program).map_or([0.0; 2], |path| path.zero);
-        Some(stock_cutout_svg(scene, &spot(diagnostic, None, zero)?, has_corners, index))
+        let spot = if IN_PROGRAM.contains(&diagnostic.message) {
+            spot_in_program(diagnostic, scene.paths.first()?.zero)
+        } else {
+            spot(diagnostic, None)
+        };
+        Some(stock_cutout_svg(scene, &spot?, has_corners, index))
     };
     let mut bytes = 0;
     let picture = |(index, diagnostic): (usize, &'d Diagnostic)| {
@@ -56,8 +59,9 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
 }
 
 /// Messages with the program's coordinates.
-const IN_PROGRAM: [&Message; 4] = [
+const IN_PROGRAM: [&Message; 5] = [
     &messages::GOUGED_NEIGHBOUR,
+    &messages::SEVERED_PART,
     &messages::NEIGHBOURS_BAR_CUT_AWAY,
     &messages::DISPLACED_PATH,
     &messages::CUT_IN_LOOSE_WASTE,
@@ -93,16 +97,13 @@ fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
 /// Points with coordinates that differ by at most this many mm are the same place.
 const SAME_PLACE: f64 = 1e-6;
 
-/// Returns the place of a finding, with further places mentioned in its message and notes. `zero` is the origin of the message's coordinates in the
-/// drawing.
-fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>, zero: [f64; 2]) -> Option<FindingPlace> {
-    let pair = |point: pathbuild_diagnostic::Point| [point.x.0, point.y.0];
+/// Returns the place of a finding, with further places mentioned in its message and notes.
+fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<FindingPlace> {
     let at = places.and_then(|places| places.of(diagnostic)).or(diagnostic.place.point.map(pair))?;
     let notes = diagnostic.notes.iter().flat_map(|note| &note.arguments);
     let is_centre = |name: &str| name == "centre";
     let own = diagnostic.arguments.iter().filter(|(name, _)| !is_centre(name));
-    let points = own.chain(notes).flat_map(|(_, value)| value.points());
-    let points = points.map(|point| [0, 1].map(|axis| pair(point)[axis] + zero[axis]));
+    let points = own.chain(notes).flat_map(|(_, value)| value.points()).map(pair);
     let is_elsewhere = |point: &[f64; 2]| (0..2).any(|axis| (point[axis] - at[axis]).abs() > SAME_PLACE);
     let mut related: Vec<[f64; 2]> = points.filter(is_elsewhere).collect();
     related.dedup();
@@ -113,6 +114,31 @@ fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>, zero: [f64; 2]) ->
         _ => None,
     };
     Some(FindingPlace { at, related, circle, is_error: diagnostic.is_error() })
+}
+
+/// Returns the place in the drawing of a finding whose message has the program's coordinates: the damage, or else the element that does it. `zero` is the
+/// program's origin in the drawing. A message about a drawing that is embedded in another one has the coordinates of the other's program, so only its
+/// element is marked.
+fn spot_in_program(diagnostic: &Diagnostic, zero: [f64; 2]) -> Option<FindingPlace> {
+    let point = |name: &str| match diagnostic.argument(name) {
+        Some(Value::Point(at)) if diagnostic.trace.is_empty() => {
+            Some([0, 1].map(|axis| pair(*at)[axis] + zero[axis]))
+        }
+        _ => None,
+    };
+    // The outline of the part is drawn anyway; marking where it begins would only shrink a small cut into it.
+    let place = point("place").filter(|_| diagnostic.code() != Code::GougedNeighbour);
+    let at = point("point").or(diagnostic.place.point.map(pair))?;
+    Some(FindingPlace {
+        at,
+        related: place.into_iter().collect(),
+        circle: None,
+        is_error: diagnostic.is_error(),
+    })
+}
+
+fn pair(point: Point) -> [f64; 2] {
+    [point.x.0, point.y.0]
 }
 
 /// Writes the pictures of findings into a directory, and stops at the first file that cannot be written. Returns the error. The same
