@@ -8,6 +8,7 @@ use rstar::primitives::GeomWithData;
 
 use crate::disjoint_sets::{root, unite};
 use crate::geometry::{Curve, Xy};
+use crate::part::{BoxIndex, square};
 use crate::read::rings::{JOIN_DISTANCE, NumberedCurves, self_crossing};
 
 /// Largest distance in mm between two loose ends that were probably meant to meet.
@@ -22,13 +23,14 @@ pub(super) struct Graph {
     numbers: Vec<usize>,
     /// Indices of the curves that have different faces on their two sides.
     dividing: BTreeSet<usize>,
+    /// The faces of these curves, as half-edges, each on the left of its half-edges.
+    faces: Vec<Vec<usize>>,
 }
 
 impl Graph {
     pub(super) fn new(curves: Vec<Curve>) -> Self {
         let ends: Vec<Xy> = curves.iter().flat_map(|curve| [curve.start(), curve.end()]).collect();
-        let numbered = ends.iter().enumerate().map(|(end, at)| GeomWithData::new([at.x, at.y], end));
-        let tree = RTree::bulk_load(numbered.collect());
+        let boxes = BoxIndex::new(ends.iter().map(|at| square(*at, JOIN_DISTANCE)));
         let mut tails = vec![usize::MAX; ends.len()];
         for first in 0..ends.len() {
             if tails[first] != usize::MAX {
@@ -37,10 +39,8 @@ impl Graph {
             tails[first] = first;
             let mut open = vec![first];
             while let Some(end) = open.pop() {
-                let near =
-                    tree.locate_within_distance([ends[end].x, ends[end].y], JOIN_DISTANCE * JOIN_DISTANCE);
-                for other in near.map(|near| near.data) {
-                    if tails[other] == usize::MAX {
+                for other in boxes.near(square(ends[end], 0.0)) {
+                    if tails[other] == usize::MAX && (ends[other] - ends[end]).norm() <= JOIN_DISTANCE {
                         tails[other] = first;
                         open.push(other);
                     }
@@ -48,9 +48,13 @@ impl Graph {
             }
         }
         let numbers = (0..curves.len()).collect();
-        let mut graph = Self { numbers, curves, tails, dividing: BTreeSet::new() };
+        let mut graph = Self { numbers, curves, tails, dividing: BTreeSet::new(), faces: Vec::new() };
         graph.drop_duplicates();
+        graph.faces = graph.faces_of(&graph.numbers.iter().copied());
         graph.dividing = graph.dividing_curves();
+        if graph.dividing.len() < graph.numbers.len() {
+            graph.faces = graph.faces_of(&graph.dividing.iter().copied());
+        }
         graph
     }
 
@@ -104,13 +108,13 @@ impl Graph {
     /// Returns the outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same area on both sides are
     /// dropped: dangling chains, and lines from one ring to another. A ring that crosses itself may run either way round.
     pub(super) fn rings(&self) -> Vec<NumberedCurves> {
-        let outer = self.faces(&self.dividing.iter().copied()).into_iter().filter(|face| {
+        let outer = self.faces.iter().filter(|face| {
             let area = self.area(face);
             area < -JOIN_DISTANCE * JOIN_DISTANCE
                 || area <= JOIN_DISTANCE * JOIN_DISTANCE && self.is_figure_of_eight(face)
         });
-        let ring = |face: Vec<usize>| {
-            let backwards = face.into_iter().rev().map(|half_edge| half_edge ^ 1);
+        let ring = |face: &Vec<usize>| {
+            let backwards = face.iter().rev().map(|half_edge| half_edge ^ 1);
             backwards.map(|half_edge| (half_edge / 2, self.directed_curve(half_edge))).collect()
         };
         outer.map(ring).collect()
@@ -125,9 +129,8 @@ impl Graph {
 
     /// Returns the numbers of the curves that have different faces on their two sides.
     fn dividing_curves(&self) -> BTreeSet<usize> {
-        let faces = self.faces(&self.numbers.iter().copied());
         let mut face_of = vec![0; 2 * self.curves.len()];
-        for (number, face) in faces.iter().enumerate() {
+        for (number, face) in self.faces.iter().enumerate() {
             for half_edge in face {
                 face_of[*half_edge] = number;
             }
@@ -173,7 +176,7 @@ impl Graph {
     }
 
     /// Returns the faces of the kept curves, each on the left of its half-edges.
-    fn faces(&self, curves: &(impl Iterator<Item = usize> + Clone)) -> Vec<Vec<usize>> {
+    fn faces_of(&self, curves: &(impl Iterator<Item = usize> + Clone)) -> Vec<Vec<usize>> {
         let half_edges = || curves.clone().flat_map(|curve| [2 * curve, 2 * curve + 1]);
         let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for half_edge in half_edges() {
