@@ -65,19 +65,25 @@ struct CutCollector<'p> {
 impl CutCollector<'_> {
     /// Adds those sections of an element that lie in the material. `supported` is the whole segment if it has bars.
     fn add(&mut self, drawn: u32, supported: Option<Curve>, sections: impl IntoIterator<Item = Section>) {
+        let number = self.numbers.get(&drawn).copied().unwrap_or(self.elements.len());
+        let element = u32::try_from(number).unwrap_or(u32::MAX);
+        let mut lowest = f64::INFINITY;
         for Section { curve, from_z, to_z } in sections {
             let way = TipMove { curve, from_z, to_z };
-            if !approx::above(self.path.thickness, way.lowest()) {
-                continue;
+            if approx::above(self.path.thickness, way.lowest()) {
+                lowest = lowest.min(way.lowest());
+                self.cuts.push(PartCut { way, element });
             }
-            let element = *self.numbers.entry(drawn).or_insert_with(|| {
-                self.elements.push(cut_element(self.path, drawn, supported));
-                self.elements.len() - 1
-            });
-            let lowest = &mut self.elements[element].lowest;
-            *lowest = lowest.min(way.lowest());
-            self.cuts.push(PartCut { way, element: u32::try_from(element).unwrap_or(u32::MAX) });
         }
+        if lowest.is_infinite() {
+            return;
+        }
+        if number == self.elements.len() {
+            self.elements.push(cut_element(self.path, drawn, supported));
+            self.numbers.insert(drawn, number);
+        }
+        let element = &mut self.elements[number];
+        element.lowest = element.lowest.min(lowest);
     }
 }
 
