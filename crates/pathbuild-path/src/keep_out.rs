@@ -107,9 +107,12 @@ impl TipMove {
     /// Returns the part of the move below a height, as a curve in the plane.
     pub(crate) fn part_below(&self, height: f64) -> Option<Curve> {
         let (from, to) = (above(height, self.from_z), above(height, self.to_z));
+        if from == to {
+            return from.then_some(self.curve);
+        }
         let length = self.curve.length();
-        if from == to || length == 0.0 {
-            return (from || to).then_some(self.curve);
+        if length == 0.0 {
+            return Some(self.curve);
         }
         let cut = length * ((height - self.from_z) / (self.to_z - self.from_z)).clamp(0.0, 1.0);
         let (begin, end) = if from { (0.0, cut) } else { (cut, length) };

@@ -145,7 +145,7 @@ impl BarLoss<'_> {
         let mut losses = Losses::new();
         let mut start = 0.0;
         for (bar, middle) in self.bar {
-            for number in self.cuts.near(widened_box(middle, 0.0)) {
+            for number in self.cuts.covering(middle, self.tolerance) {
                 let cut = &self.cuts.cuts[number];
                 let Some(below) = cut.cut.way.part_below(bar.top - self.tolerance) else { continue };
                 let mut stretches = Vec::new();

@@ -11,18 +11,28 @@ type IndexedBox = GeomWithData<Rectangle<[f64; 2]>, usize>;
 /// A spatial index of boxes, which are numbered from 0.
 pub(crate) enum BoxIndex {
     /// The boxes themselves, if they are so few that comparing all of them takes less time than building and searching a tree.
-    Few(Vec<AABB<[f64; 2]>>),
+    Few(GroupedBoxes),
     Many(RTree<IndexedBox>),
+}
+
+/// Boxes in the order of their numbers. Neighbours often belong to one segment or outline, so the boxes around groups of them exclude most.
+pub(crate) struct GroupedBoxes {
+    boxes: Vec<AABB<[f64; 2]>>,
+    /// The box around each group.
+    groups: Vec<AABB<[f64; 2]>>,
 }
 
 /// Number of boxes up to which all are compared.
 const MAX_COMPARED_BOXES: usize = 500;
 
+/// Number of boxes in a group.
+const GROUP_SIZE: usize = 8;
+
 impl BoxIndex {
     pub(crate) fn new(boxes: impl Iterator<Item = AABB<[f64; 2]>>) -> Self {
         let boxes: Vec<AABB<[f64; 2]>> = boxes.collect();
         if boxes.len() <= MAX_COMPARED_BOXES {
-            return Self::Few(boxes);
+            return Self::Few(GroupedBoxes::new(boxes));
         }
         let numbered = boxes.into_iter().enumerate();
         let boxed = numbered.map(|(n, extent)| IndexedBox::new(Rectangle::from_aabb(extent), n));
@@ -30,17 +40,40 @@ impl BoxIndex {
     }
 
     /// Returns the numbers of the boxes that intersect `extent`, in ascending order, so that no result depends on the shape of the tree.
-    pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> impl DoubleEndedIterator<Item = usize> {
-        let (boxes, mut found) = match self {
-            Self::Few(boxes) => (&**boxes, Vec::new()),
+    pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> std::vec::IntoIter<usize> {
+        let found = match self {
+            Self::Few(boxes) => boxes.near(&extent),
             Self::Many(tree) => {
                 let near = tree.locate_in_envelope_intersecting(extent);
-                (&[][..], near.map(|found| found.data).collect())
+                let mut found: Vec<usize> = near.map(|found| found.data).collect();
+                found.sort_unstable();
+                found
             }
         };
-        found.sort_unstable();
-        let near = boxes.iter().enumerate().filter(move |(_, own)| own.intersects(&extent));
-        near.map(|(number, _)| number).chain(found)
+        found.into_iter()
+    }
+}
+
+impl GroupedBoxes {
+    fn new(boxes: Vec<AABB<[f64; 2]>>) -> Self {
+        let merged =
+            |group: &[AABB<[f64; 2]>]| group[1..].iter().fold(group[0], |all, next| all.merged(next));
+        Self { groups: boxes.chunks(GROUP_SIZE).map(merged).collect(), boxes }
+    }
+
+    fn near(&self, extent: &AABB<[f64; 2]>) -> Vec<usize> {
+        let mut found = Vec::new();
+        for (group, around) in self.groups.iter().enumerate() {
+            if !around.intersects(extent) {
+                continue;
+            }
+            let first = GROUP_SIZE * group;
+            let boxes = self.boxes[first..].iter().take(GROUP_SIZE);
+            found.extend(
+                (first..).zip(boxes).filter(|(_, own)| own.intersects(extent)).map(|(number, _)| number),
+            );
+        }
+        found
     }
 }
 

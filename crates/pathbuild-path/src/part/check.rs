@@ -9,7 +9,7 @@ use super::bars::{LostBar, lost_bars};
 use super::boxes::may_be_near;
 use super::cuts::{CutIndex, IndexedCut, PathCuts};
 use super::enclosure::Enclosure;
-use super::gouge::{ClassifiedCut, Gouge, classify_cuts, gouges};
+use super::gouge::{ClassifiedCut, ClassifiedCuts, Gouge, classify_cuts, gouges};
 use super::intervals::at as at_along;
 use super::leftover::{LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
 use super::prepared::{PreparedPart, Side};
@@ -121,8 +121,8 @@ struct PartCheck<'s> {
     owners: Vec<bool>,
     /// For each path, whether it is an owner that cuts parts out.
     contours: Vec<bool>,
-    /// The classified cuts of all paths near the part, by the number of the cut.
-    judged: BTreeMap<usize, ClassifiedCut<'s>>,
+    /// The classified cuts of all paths near the part.
+    judged: ClassifiedCuts<'s>,
 }
 
 impl<'s> PartCheck<'s> {
@@ -182,7 +182,7 @@ impl<'s> PartCheck<'s> {
 
     /// Returns PB213 for the cuts into the part.
     fn gouge_findings(&self) -> impl Iterator<Item = (usize, Diagnostic)> {
-        let gouges = gouges(self.part, self.judged.values());
+        let gouges = gouges(self.part, self.judged.iter());
         gouges.into_iter().map(|((path, element), gouge)| {
             let path_cuts = self.cuts.paths[path];
             (path, path_cuts.at_element(element, gouge_problem(&gouge, path_cuts.radius)))
@@ -192,7 +192,7 @@ impl<'s> PartCheck<'s> {
     /// Returns the paths with cuts through the plate that go into the part.
     fn entering_paths(&self) -> BTreeSet<usize> {
         let enters = |judged: &&ClassifiedCut<'_>| judged.cut.through.is_some() && !judged.entered.is_empty();
-        self.judged.values().filter(enters).map(|judged| judged.cut.path).collect()
+        self.judged.iter().filter(enters).map(|judged| judged.cut.path).collect()
     }
 
     fn leftovers(&self) -> Leftovers {

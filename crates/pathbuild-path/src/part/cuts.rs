@@ -1,9 +1,9 @@
 //! The cuts of paths, in the form that the part check needs. (book: language/part)
 
 use pathbuild_diagnostic::Diagnostic;
-use rstar::AABB;
+use rstar::{AABB, Envelope as _};
 
-use super::boxes::BoxIndex;
+use super::boxes::{BoxIndex, widened};
 use super::intervals::JOIN_GAP;
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
@@ -93,7 +93,6 @@ impl PathCuts {
 }
 
 /// A cut of one of several paths.
-#[derive(Clone, Copy)]
 pub(super) struct IndexedCut<'c> {
     pub(super) path: usize,
     pub(super) cut: &'c PartCut,
@@ -102,13 +101,14 @@ pub(super) struct IndexedCut<'c> {
     pub(super) through: Option<Curve>,
 }
 
-/// The cuts of all paths of a drawing, with an index of their boxes, which are widened by the cutter's diameter.
+/// The cuts of all paths of a drawing, with an index of their boxes.
 pub(super) struct CutIndex<'c> {
     pub(super) paths: &'c [&'c PathCuts],
     /// For each path, whether it cuts parts out. Of all other paths, only cuts into parts and into bars matter.
     pub(super) contours: Vec<bool>,
     pub(super) cuts: Vec<IndexedCut<'c>>,
     boxes: BoxIndex,
+    largest_radius: f64,
 }
 
 impl<'c> CutIndex<'c> {
@@ -121,15 +121,30 @@ impl<'c> CutIndex<'c> {
                 through: cut.way.part_below(THROUGH_HEIGHT),
             })
         };
-        let cuts: Vec<IndexedCut<'c>> = paths.iter().enumerate().flat_map(of_path).collect();
-        let boxes = cuts.iter().map(|cut| widened_box(&cut.cut.way.curve, 2.0 * cut.radius + JOIN_GAP));
-        let contours = paths.iter().map(|path| path.is_contour()).collect();
-        Self { paths, contours, boxes: BoxIndex::new(boxes), cuts }
+        let mut cuts = Vec::with_capacity(paths.iter().map(|path| path.cuts.len()).sum());
+        paths.iter().enumerate().for_each(|path| cuts.extend(of_path(path)));
+        Self {
+            paths,
+            contours: paths.iter().map(|path| path.is_contour()).collect(),
+            boxes: BoxIndex::new(cuts.iter().map(|cut| widened_box(&cut.cut.way.curve, 0.0))),
+            cuts,
+            largest_radius: paths.iter().map(|path| path.radius).fold(0.0, f64::max),
+        }
     }
 
     /// Returns the numbers of the cuts that may come within the cutter's diameter of a box, in ascending order.
-    pub(super) fn near(&self, extent: AABB<[f64; 2]>) -> impl DoubleEndedIterator<Item = usize> {
-        self.boxes.near(extent)
+    pub(super) fn near(&self, extent: AABB<[f64; 2]>) -> impl Iterator<Item = usize> {
+        let reach = |radius: f64| 2.0 * radius + JOIN_GAP;
+        let is_near = move |number: &usize| {
+            let IndexedCut { cut, radius, .. } = &self.cuts[*number];
+            *radius >= self.largest_radius || widened_box(&cut.way.curve, reach(*radius)).intersects(&extent)
+        };
+        self.boxes.near(widened(&extent, reach(self.largest_radius))).filter(is_near)
+    }
+
+    /// Returns the numbers of the cuts that may cover part of a curve by more than `tolerance` mm, in ascending order.
+    pub(super) fn covering(&self, curve: &Curve, tolerance: f64) -> impl Iterator<Item = usize> {
+        self.boxes.near(widened_box(curve, self.largest_radius - tolerance))
     }
 }
 

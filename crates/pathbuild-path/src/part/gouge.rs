@@ -13,7 +13,9 @@ use crate::keep_out::{TipMove, widened_box};
 
 /// A cut that may go into the part, or that may shape its outline.
 pub(super) struct ClassifiedCut<'c> {
-    pub(super) cut: IndexedCut<'c>,
+    /// Number of the cut in the index.
+    number: usize,
+    pub(super) cut: &'c IndexedCut<'c>,
     /// The section that goes through the plate, or the whole curve if the cut ends above the plate.
     pub(super) curve: Curve,
     /// The side of the part on which the middle of the curve lies.
@@ -21,6 +23,9 @@ pub(super) struct ClassifiedCut<'c> {
     /// The stretches of the curve on which the cutter goes into the part.
     pub(super) entered: Vec<Stretch>,
 }
+
+/// Classified cuts in ascending order of their numbers.
+pub(super) struct ClassifiedCuts<'c>(Vec<ClassifiedCut<'c>>);
 
 /// The damage that the cuts of one element do to a part.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,19 +38,19 @@ pub(super) struct Gouge {
     pub(super) length: f64,
 }
 
-/// Determines the side of the part on which each cut lies, and where the cut goes into the part. `numbers` are the numbers of the cuts to examine. A
-/// cut that ends above the plate is included only at the lowest depth of its element, where it may shape the outline.
+/// Determines the side of the part on which each cut lies, and where the cut goes into the part. `numbers` are the numbers of the cuts to examine, in
+/// ascending order. A cut that ends above the plate is included only at the lowest depth of its element, where it may shape the outline.
 pub(super) fn classify_cuts<'c>(
     part: &PreparedPart<'_>,
-    index: &CutIndex<'c>,
+    index: &'c CutIndex<'c>,
     numbers: impl Iterator<Item = usize>,
     tolerance: f64,
-) -> BTreeMap<usize, ClassifiedCut<'c>> {
-    let mut judged = BTreeMap::new();
+) -> ClassifiedCuts<'c> {
+    let mut judged = Vec::new();
     // Most segments with bars touch no ring. All cuts of such a segment are on one side, which is computed only once.
     let mut last: Option<((usize, u32), Option<Side>)> = None;
     for number in numbers {
-        let cut = index.cuts[number];
+        let cut = &index.cuts[number];
         let element = cut.element(index);
         let shapes = || cut.cut.way.lowest() <= element.lowest + JOIN_GAP;
         let Some(curve) = cut.through.or_else(|| shapes().then_some(cut.cut.way.curve)) else { continue };
@@ -58,9 +63,20 @@ pub(super) fn classify_cuts<'c>(
             None => part.passage(&curve, cut.radius, tolerance),
         };
         last = Some((cut.number(), clear));
-        judged.insert(number, ClassifiedCut { cut, curve, side, entered });
+        judged.push(ClassifiedCut { number, cut, curve, side, entered });
     }
-    judged
+    ClassifiedCuts(judged)
+}
+
+impl<'c> ClassifiedCuts<'c> {
+    pub(super) fn get(&self, number: usize) -> Option<&ClassifiedCut<'c>> {
+        let place = self.0.binary_search_by_key(&number, |judged| judged.number).ok()?;
+        self.0.get(place)
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = &ClassifiedCut<'c>> {
+        self.0.iter()
+    }
 }
 
 /// Returns the cuts into a part, one for each path and element.

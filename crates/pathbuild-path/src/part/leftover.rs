@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 
 use super::boxes::square;
 use super::cuts::{CutIndex, IndexedCut, StandingBar, THROUGH_HEIGHT};
-use super::gouge::ClassifiedCut;
+use super::gouge::{ClassifiedCut, ClassifiedCuts};
 use super::intervals::{
     JOIN_GAP, NEIGHBOUR_JOIN_GAP, Stretch, add_stretches_within, at as at_along, difference, gaps_between,
     intersection, join_ends, join_stretches, offset_curve,
@@ -82,7 +82,7 @@ pub(super) struct LeftoverSearch<'s> {
     part: &'s PreparedPart<'s>,
     cuts: &'s CutIndex<'s>,
     /// The cuts near the part that go through the plate or shape an outline, by number.
-    judged: &'s BTreeMap<usize, ClassifiedCut<'s>>,
+    judged: &'s ClassifiedCuts<'s>,
     /// For each path, whether it cuts the part out.
     contours: &'s [bool],
     tolerance: f64,
@@ -115,14 +115,14 @@ impl<'s> LeftoverSearch<'s> {
     pub(super) fn new(
         part: &'s PreparedPart<'s>,
         cuts: &'s CutIndex<'s>,
-        judged: &'s BTreeMap<usize, ClassifiedCut<'s>>,
+        judged: &'s ClassifiedCuts<'s>,
         contours: &'s [bool],
         tolerance: f64,
     ) -> Self {
         let enters = |judged: &&ClassifiedCut<'_>| {
             !judged.entered.is_empty() && judged.cut.element(cuts).lowest > THROUGH_HEIGHT
         };
-        let grooves = judged.values().filter(enters).map(|judged| judged.cut.number());
+        let grooves = judged.iter().filter(enters).map(|judged| judged.cut.number());
         let grooves = grooves.collect();
         Self { part, cuts, judged, contours, tolerance, grooves, is_ringed: OnceCell::new() }
     }
@@ -208,7 +208,7 @@ impl<'s> LeftoverSearch<'s> {
     /// Returns the cuts near a curve that run beside the part, along the curve's ring.
     fn cuts_beside(&self, curve: &RingCurve<'_>) -> impl Iterator<Item = &'s ClassifiedCut<'s>> {
         let ring = curve.ring;
-        let judged = curve.near.iter().filter_map(|number| self.judged.get(number));
+        let judged = curve.near.iter().filter_map(|number| self.judged.get(*number));
         judged.filter(move |judged| {
             let element = judged.cut.element(self.cuts);
             let is_on_side = match &judged.side {
@@ -227,7 +227,7 @@ impl<'s> LeftoverSearch<'s> {
     fn covered_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         let mut last = None;
-        for judged in curve.near.iter().filter_map(|number| self.judged.get(number)) {
+        for judged in curve.near.iter().filter_map(|number| self.judged.get(*number)) {
             if judged.cut.through.is_none() || !self.contours[judged.cut.path] {
                 continue;
             }
@@ -444,14 +444,14 @@ impl<'s> LeftoverSearch<'s> {
         let nearest = self.cuts_beside(&curve).filter(counts).min_by(|one, other| {
             distance(one).total_cmp(&distance(other)).then_with(|| one.cut.number().cmp(&other.cut.number()))
         });
-        nearest.map(|judged| &judged.cut)
+        nearest.map(|judged| judged.cut)
     }
 
     /// Returns the first through cut that a straight way meets that leaves the part at a right angle to the ring. Cuts farther than O from the part
     /// are not classified; they lie outside of it.
     fn first_cut_outwards(&self, ring: usize, along: f64, whole: f64) -> Option<&'s IndexedCut<'s>> {
         let (curve, along) = self.ring_place(ring, along, whole);
-        let is_beside = |number: &usize| match self.judged.get(number).map(|judged| &judged.side) {
+        let is_beside = |number: &usize| match self.judged.get(*number).map(|judged| &judged.side) {
             Some(Side::Outside) | None => ring == 0,
             Some(Side::Openings(openings)) => openings.contains(&ring),
             Some(Side::Material) => false,
