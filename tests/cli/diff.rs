@@ -95,6 +95,18 @@ fn errors_are_seen_and_make_the_status() {
     assert_prints(&two(broken.clone(), broken).run("diff old new"), 1, &["has errors, before and now"]);
 }
 
+/// A path whose drawing cannot be read is not gone.
+#[test]
+fn a_drawing_that_cannot_be_read_has_errors() {
+    let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "1", LINE));
+    fs::write(place.path().join("new/parts/1001.1P.dxf"), "no drawing").unwrap();
+    let run = place.run("diff old new");
+    assert_prints(&run, 1, &["1001.1P · parts/1001.1P.dxf: has errors now", "1 with errors now\n"]);
+    assert_prints(&place.run("diff new old"), 1, &["1001.1P · parts/1001.1P.dxf: had errors, has none now"]);
+    fs::remove_file(place.path().join("new/parts/1001.1P.dxf")).unwrap();
+    assert!(place.run("diff old new").stdout.contains("1001.1P · parts/1001.1P.dxf: gone"));
+}
+
 #[test]
 fn a_path_that_moved_to_another_drawing() {
     let drawing = dxf("1001.1P", "1", LINE);
@@ -156,6 +168,8 @@ fn what_two_programs_state_besides_moves_is_compared() {
         ("M3 S12000\n", "\n", "  spindle: none instead of M3 S12000 (line 8)\n"),
         ("M8", "M9", "  coolant: none instead of M8 (line 8)\n"),
         ("G54", "G55", "  work offset: G55 instead of G54 (line 8)\n"),
+        ("G54", "G54 G64 P0.5", "  corners: G64 P0.5 instead of none (line 8)\n"),
+        ("G54", "G54 G61", "  corners: G61 instead of none (line 8)\n"),
         ("M0\n", "", "  stop: none instead of M0\n"),
         ("M0", "M1", "  stop: M1 instead of M0 (line 11)\n"),
         ("G4 P1", "G4 P100", "  dwell: 100 s instead of 1 s (line 9)\n"),
@@ -172,6 +186,92 @@ fn what_two_programs_state_besides_moves_is_compared() {
     assert_prints(&run, 0, &["  Werkzeug: T2 statt T1 (Zeile 8)\n"]);
     let json = german.run("diff a.ngc b.ngc --dialect linuxcnc --format json");
     assert_prints(&json, 0, &[r#""states":[{"kind":"tool","line":8,"now":"T2","was":"T1"}]"#]);
+}
+
+/// A cutter of another diameter mills a groove of another width, although the moves of its centre are the same.
+#[test]
+fn another_cutter_is_a_change() {
+    let drawing = |cutter: &str| {
+        let text =
+            format!("layer 1001.1P\nstart 0,0 \"T5 O{cutter} I9 B1 MPlate S10 F200\"\n{LINE}\nend 40,0\n");
+        sheet(&text).unwrap().to_dxf()
+    };
+    let place = two(drawing("2"), drawing("6"));
+    for side in ["old", "new"] {
+        let run = place
+            .run(&format!("emit ./{side}/parts/1001.1P.dxf --config {side}/pathbuild.toml --out-dir {side}"));
+        assert_eq!(run.status, Some(0), "{run}");
+    }
+    let program = |side: &str| format!("{side}/1001.1P_Milling.gcode");
+    let (old, new) = (program("old"), program("new"));
+    let wider = "  cutter: O6 instead of O2";
+    assert_prints(&place.run("diff old new"), 0, &[wider, "text O2 became O6", "1 of 1 path changed"]);
+    assert_prints(&place.run(&format!("diff {old} {new}")), 0, &[wider]);
+    assert_prints(&place.run(&format!("diff {old} 1001.1P --config new/pathbuild.toml")), 0, &[wider]);
+    assert_prints(
+        &place.run(&format!("diff {new} 1001.1P --config new/pathbuild.toml")),
+        0,
+        &["0 of 1 path changed"],
+    );
+    let german = place.run("diff old new --lang de -o d.html");
+    assert_prints(&german, 0, &["  Fräser: O6 statt O2"]);
+    assert!(place.read("d.html").contains("jetzt weggefräst, vorher nicht"));
+}
+
+/// Between drawings, what the configured post-processor writes besides the moves is compared as well.
+#[test]
+fn what_the_post_processor_writes_is_compared() {
+    let tool =
+        |number: u32, speed: u32| format!("[tool.a]\nnumber = {number}\ndiameter = 2\nspindle = {speed}\n");
+    let changes = |[old, new]: [String; 2]| {
+        let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "1", LINE));
+        for (side, text) in [("old", old), ("new", new)] {
+            let text = format!("rapid = 1000\nlibrary = [\"parts\"]\n{text}");
+            fs::write(place.path().join(side).join("pathbuild.toml"), text).unwrap();
+        }
+        place.run("diff old new")
+    };
+    let post = |name: &str, tool: String| format!("post = \"{name}\"\n{tool}");
+    let run = changes([
+        post("linuxcnc", tool(3, 18000)),
+        post("linuxcnc", tool(4, 3000) + "coolant = \"flood\"\n"),
+    ]);
+    let lines = [
+        "  tool: T4 instead of T3",
+        "  spindle: M3 S3000 instead of M3 S18000",
+        "  coolant: M8 instead of none",
+        "1 of 1 path changed",
+    ];
+    assert_prints(&run, 0, &lines);
+    // A tool that the path does not use changes nothing.
+    let unused = "[tool.b]\nnumber = 9\ndiameter = 8\nspindle = 9000\n";
+    let run = changes([post("linuxcnc", tool(3, 18000)), post("linuxcnc", tool(3, 18000) + unused)]);
+    assert_prints(&run, 0, &["0 of 1 path changed\n"]);
+    // Native programs contain neither T nor S.
+    assert_prints(&changes([tool(3, 18000), tool(4, 3000)]), 0, &["0 of 1 path changed\n"]);
+    let run = changes([post("linuxcnc", tool(3, 18000)), post("grbl", tool(3, 18000))]);
+    assert_prints(&run, 0, &["  post-processor: grbl instead of linuxcnc", "1 of 1 path changed"]);
+}
+
+#[test]
+fn pecks_are_compared_where_they_are_written() {
+    for (configuration, is_changed) in [
+        ("post = \"linuxcnc\"\ncycles = true\n", true),
+        ("post = \"linuxcnc\"\n", false),
+        ("cycles = true\n", false),
+    ] {
+        let hole =
+            |text: &str| dxf("1001.1P", "1", &format!("mill circle 0,0 d 2 \"{text}\"\nmill 0,0 40,0"));
+        let place = two(hole("B1"), hole("B1 C0.5"));
+        let tool = "[tool.a]\nnumber = 3\ndiameter = 2\nspindle = 18000\n";
+        for side in ["old", "new"] {
+            let text = format!("rapid = 1000\nlibrary = [\"parts\"]\n{configuration}{tool}");
+            fs::write(place.path().join(side).join("pathbuild.toml"), text).unwrap();
+        }
+        let run = place.run("diff old new");
+        assert_prints(&run, 0, &[&format!("{} of 1 path changed\n", u8::from(is_changed))]);
+        assert_eq!(run.stdout.contains("  peck depth: C0.5 instead of none\n"), is_changed, "{run}");
+    }
 }
 
 /// The moves have another zero point, although they are the same in the coordinates of the program.
@@ -244,7 +344,7 @@ fn what_a_post_rounds_is_no_change() {
         place.run(&format!("diff programs/{program} 1001.1P --config {config}/pathbuild.toml"))
     };
     assert_eq!(diff("old").stdout, "0 of 1 path changed\n");
-    assert_prints(&diff("new"), 0, &["removed", "1 of 1 path changed"]);
+    assert_prints(&diff("new"), 0, &["added", "1 of 1 path changed"]);
 }
 
 fn git(place: &Place, arguments: &[&str]) {
@@ -277,6 +377,37 @@ fn revisions_are_compared_with_each_other_and_with_what_lies_there() {
     let status =
         Command::new("git").args(["status", "--porcelain"]).current_dir(place.path()).output().unwrap();
     assert_eq!(String::from_utf8_lossy(&status.stdout), " M pathbuild.toml\n");
+}
+
+/// A drawing is compared with its own state in the revision, and not with all other drawings of that time.
+#[test]
+fn a_drawing_is_compared_with_its_state_in_a_revision() {
+    let place = committed(
+        Place::new()
+            .file("pathbuild.toml", "rapid = 1000\nlibrary = [\"parts\"]\n")
+            .file("parts/1001.1P.dxf", dxf("1001.1P", "1", LINE))
+            .file("parts/1002.1P.dxf", dxf("1002.1P", "1", LINE)),
+    );
+    let file = |name: &str| place.path().join(format!("parts/{name}.1P.dxf"));
+    fs::write(file("1001"), dxf("1001.1P", "0.5", LINE)).unwrap();
+    fs::write(file("1003"), dxf("1003.1P", "1", LINE)).unwrap();
+    let run = place.run("diff HEAD parts/1001.1P.dxf");
+    assert_prints(&run, 0, &["1001.1P · 1001.1P.dxf: changed", "0.5 mm deeper", "\n1 of 1 path changed\n"]);
+    assert_prints(
+        &place.run("diff parts/1001.1P.dxf HEAD"),
+        0,
+        &["0.5 mm higher", "\n1 of 1 path changed\n"],
+    );
+    let inside = place.run_in("parts", &["diff", "HEAD", "1001.1P.dxf"]);
+    assert_prints(&inside, 0, &["0.5 mm deeper", "\n1 of 1 path changed\n"]);
+    assert_prints(&place.run("diff HEAD parts/1002.1P.dxf"), 0, &["0 of 1 path changed\n"]);
+    assert_prints(&place.run("diff HEAD parts/1003.1P.dxf"), 0, &["1003.1P · 1003.1P.dxf: new", "1 new\n"]);
+    let elsewhere = Place::new().file("1001.1P.dxf", dxf("1001.1P", "1", LINE));
+    let outside = elsewhere.path().join("1001.1P.dxf");
+    let run = place.run_with(&["diff", "HEAD", outside.to_str().unwrap()]);
+    assert!(run.status == Some(2) && run.stderr.contains("not in the repository"), "{run}");
+    let run = place.run("diff HEAD 1001.1P");
+    assert!(run.status == Some(2) && run.stderr.contains("name its drawing (.dxf)"), "{run}");
 }
 
 #[test]
@@ -326,7 +457,7 @@ fn changes_are_seen() {
 #[test]
 fn removed_moves_are_wider_and_beneath() {
     let drawing = |elements: &str| dxf("1001.1P", "1", elements);
-    let place = two(drawing("mill 0,0 40,0"), drawing("mill 0,0 33.51,0\nsweep 33.51,0 40,0"));
+    let place = two(drawing("mill 0,0 40,0"), drawing("mill 0,0 20,1.5\nmill 20,1.5 40,0"));
     assert_prints(&place.run("diff old new -o d.html --lang de"), 0, &[]);
     let page = place.read("d.html");
     let picture = page.split("<svg").nth(1).unwrap().split_once("</svg>").unwrap().0;

@@ -2,23 +2,46 @@
 //!
 //! Moves are compared in the coordinates of the program, so moving a drawing on the sheet changes nothing. (book: program/comparing)
 
+mod pieces;
+
 use std::collections::HashMap;
 use std::ops::Range;
 
 use imara_diff::{Algorithm, Diff, InternedInput, Interner};
 use pathbuild_diagnostic::{Lang, Number, counted};
-use pathbuild_motion::{Axes, MoveShape, Position};
+use pathbuild_motion::{Axes, MoveShape, Plane, Position};
 
 use crate::scene::{MoveKind, Point, SceneMove};
+use pieces::{CURVE_TOLERANCE, Divider, END_TOLERANCE, Snapper};
+
+/// The moves of two programs, with the changes from one to the other.
+#[derive(Clone, Debug, Default)]
+pub struct ComparedMoves {
+    /// Moves of the old program.
+    pub old: Vec<ComparedMove>,
+    /// Moves of the new program.
+    pub new: Vec<ComparedMove>,
+    /// The changes, in the order of the new program; empty if both do the same.
+    pub changes: Vec<Change>,
+}
+
+/// A move, or a piece of a move of which the rest changed otherwise.
+#[derive(Clone, Debug)]
+pub struct ComparedMove {
+    /// The geometry of the move or piece.
+    pub movement: SceneMove,
+    /// Number of the move to which it belongs, from 0.
+    pub number: usize,
+}
 
 /// Consecutive moves that changed in the same way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// Kind of the change.
     pub kind: ChangeKind,
-    /// The old moves that changed; an empty range if moves were added.
+    /// Indices into [`ComparedMoves::old`] of the moves that changed; an empty range if moves were added.
     pub old: Range<usize>,
-    /// The new moves that changed; an empty range if moves were removed.
+    /// Indices into [`ComparedMoves::new`] of the moves that changed; an empty range if moves were removed.
     pub new: Range<usize>,
 }
 
@@ -31,8 +54,8 @@ pub enum ChangeKind {
     Removed,
     /// The moves follow the same lines as before, but the depth, the feed or the number of passes differs.
     Altered {
-        /// Height in mm by which the deepest pass is raised; negative if it is deeper.
-        raised: f64,
+        /// Least and greatest height in mm by which the milled ground is raised along the moves; negative where it is deeper.
+        raised: [f64; 2],
         /// Feed of the deepest pass in mm/min before and after, if it changed.
         feed: Option<[f64; 2]>,
         /// Number of passes before and after, if it changed.
@@ -46,106 +69,210 @@ pub enum ChangeKind {
 
 const ORIGIN: Point = [0.0; 2];
 
-/// Returns the changes from one program to another, in the order of the new one; empty if both are equivalent.
+/// Compares two programs.
 ///
-/// Equal moves are ignored. Among the others, a run of moves that occurs at another place is shifted; every other move is classified by
-/// comparing the final depth, the feed and the number of passes along its line in the plane.
-pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> Vec<Change> {
-    let rows = differing_runs(old, new);
-    if rows.is_empty() {
-        return Vec::new();
+/// Equal moves are ignored. Among the others, a run of moves that occurs at another place is shifted. All other cuts are divided where cuts end on
+/// them, and each piece is classified by comparing the final depth, the feed and the number of passes along its line in the plane.
+pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
+    let mut identities = Identities::default();
+    let rows = differing_runs(&mut identities, old, new);
+    let sides = [old, new];
+    let differing = rows.iter().flat_map(|(was, is)| old[was.clone()].iter().chain(&new[is.clone()]));
+    let mut divider = Divider::new(differing);
+    let milled = if rows.is_empty() {
+        [Milled::default(), Milled::default()]
+    } else {
+        sides.map(|moves| Milled::of(moves, &mut divider, &mut identities))
+    };
+    let mut comparison =
+        Comparison { sides, milled, identities, divider, done: [0; 2], result: ComparedMoves::default() };
+    for (was, is) in rows {
+        comparison.classify_runs(was, is);
     }
-    let comparison = Comparison { old, new, was: lines(old), is: lines(new) };
-    rows.into_iter().flat_map(|(old, new)| comparison.classify_runs(&old, &new)).collect()
+    comparison.copy_unchanged([old.len(), new.len()]);
+    comparison.result
 }
 
 /// Returns the runs of moves in which two programs differ, as pairs of ranges in the old and the new one.
-fn differing_runs(old: &[SceneMove], new: &[SceneMove]) -> Vec<(Range<usize>, Range<usize>)> {
+fn differing_runs(
+    identities: &mut Identities,
+    old: &[SceneMove],
+    new: &[SceneMove],
+) -> Vec<(Range<usize>, Range<usize>)> {
     // Moves before the first fully known position depend on the machine and are not compared.
     let begin = |moves: &[SceneMove]| {
         moves.iter().take_while(|movement| !movement.way.from.known.has(Axes::ALL)).count()
     };
     let (was, is) = (begin(old), begin(new));
+    let hunks = hunks(identities, &old[was..], &new[is..]);
+    let row = |start: usize, row: Range<usize>| start + row.start..start + row.end;
+    hunks.into_iter().map(|(before, after)| (row(was, before), row(is, after))).collect()
+}
+
+/// Returns the ranges in which two sequences of moves differ.
+fn hunks(
+    identities: &mut Identities,
+    old: &[SceneMove],
+    new: &[SceneMove],
+) -> Vec<(Range<usize>, Range<usize>)> {
     let interner = Interner::new(old.len() + new.len());
     let mut input = InternedInput { before: Vec::new(), after: Vec::new(), interner };
-    input.update_before(old[was..].iter().map(|movement| MoveIdentity::of(movement, ORIGIN)));
-    input.update_after(new[is..].iter().map(|movement| MoveIdentity::of(movement, ORIGIN)));
-    let row = |start: usize, row: &Range<u32>| start + row.start as usize..start + row.end as usize;
+    input.update_before(old.iter().map(|movement| identities.of(movement, ORIGIN)));
+    input.update_after(new.iter().map(|movement| identities.of(movement, ORIGIN)));
+    let row = |row: &Range<u32>| row.start as usize..row.end as usize;
     let diff = Diff::compute(Algorithm::Histogram, &input);
-    diff.hunks().map(|hunk| (row(was, &hunk.before), row(is, &hunk.after))).collect()
+    diff.hunks().map(|hunk| (row(&hunk.before), row(&hunk.after))).collect()
 }
 
 struct Comparison<'a> {
-    old: &'a [SceneMove],
-    new: &'a [SceneMove],
-    was: HashMap<Line, MillingResult>,
-    is: HashMap<Line, MillingResult>,
+    /// The moves of the old and the new program.
+    sides: [&'a [SceneMove]; 2],
+    /// What the programs mill.
+    milled: [Milled; 2],
+    identities: Identities,
+    divider: Divider,
+    /// Number of moves of each program that are in the result.
+    done: [usize; 2],
+    result: ComparedMoves,
 }
 
 impl Comparison<'_> {
-    fn classify_runs(&self, old: &Range<usize>, new: &Range<usize>) -> Vec<Change> {
-        let mut changes = Vec::new();
-        match self.shift_of_runs(old, new) {
-            Some(core) => {
-                self.classify_moves(old.start..core.old.start, new.start..core.new.start, &mut changes);
-                let behind = (core.old.end..old.end, core.new.end..new.end);
-                changes.push(core);
-                self.classify_moves(behind.0, behind.1, &mut changes);
+    /// Adds moves up to these numbers to the result, without a change.
+    fn copy_unchanged(&mut self, ends: [usize; 2]) {
+        let lists = [&mut self.result.old, &mut self.result.new];
+        for (side, list) in lists.into_iter().enumerate() {
+            let moves = (self.done[side]..ends[side]).map(|number| (number, &self.sides[side][number]));
+            list.extend(moves.map(|(number, movement)| ComparedMove { movement: movement.clone(), number }));
+        }
+        self.done = ends;
+    }
+
+    fn classify_runs(&mut self, old: Range<usize>, new: Range<usize>) {
+        self.copy_unchanged([old.start, new.start]);
+        let Some((by, was, is)) = self.shift_of_runs(&old, &new) else {
+            return self.classify_moves([old, new]);
+        };
+        self.classify_moves([old.start..was.start, new.start..is.start]);
+        let [first_old, first_new] = [self.result.old.len(), self.result.new.len()];
+        self.copy_unchanged([was.end, is.end]);
+        let (old_range, new_range) = (first_old..self.result.old.len(), first_new..self.result.new.len());
+        self.add(ChangeKind::Shifted(by), old_range, new_range);
+        self.classify_moves([was.end..old.end, is.end..new.end]);
+    }
+
+    /// Returns the offset and the shifted moves if the cuts of both runs and the moves between the cuts are equal except for their position. The
+    /// approach and the departure are not compared, because their outer ends did not move.
+    fn shift_of_runs(
+        &mut self,
+        old: &Range<usize>,
+        new: &Range<usize>,
+    ) -> Option<(Point, Range<usize>, Range<usize>)> {
+        let [before, after] = self.sides;
+        let (old, new) = (cuts(before, old)?, cuts(after, new)?);
+        let by = [0, 1].map(|axis| after[new.start].to()[axis] - before[old.start].to()[axis]);
+        if old.len() != new.len() || by.iter().all(|way| way.abs() <= END_TOLERANCE) {
+            return None;
+        }
+        let mut pairs = before[old.clone()].iter().zip(&after[new.clone()]);
+        let is_shifted = pairs.all(|(was, is)| self.identities.of(was, ORIGIN) == self.identities.of(is, by));
+        is_shifted.then_some((by, old, new))
+    }
+
+    /// Classifies the pieces of moves by the lines that they follow.
+    fn classify_moves(&mut self, runs: [Range<usize>; 2]) {
+        let pieces = [0, 1].map(|side| self.pieces(side, runs[side].clone()));
+        let moves = pieces
+            .each_ref()
+            .map(|pieces| pieces.iter().map(|piece| piece.movement.clone()).collect::<Vec<SceneMove>>());
+        let mut kinds = moves.each_ref().map(|moves| vec![None; moves.len()]);
+        for (old, new) in hunks(&mut self.identities, &moves[0], &moves[1]) {
+            for index in old {
+                kinds[0][index] = self.kind_of_old(&moves[0][index]);
             }
-            None => self.classify_moves(old.clone(), new.clone(), &mut changes),
-        }
-        changes
-    }
-
-    /// Returns a shift if the cuts of both runs and the moves between the cuts are equal except for their position. The approach and the
-    /// departure are not compared, because their outer ends did not move.
-    fn shift_of_runs(&self, old: &Range<usize>, new: &Range<usize>) -> Option<Change> {
-        let (old, new) = (cuts(self.old, old)?, cuts(self.new, new)?);
-        let by = [0, 1].map(|axis| self.new[new.start].to()[axis] - self.old[old.start].to()[axis]);
-        let is_same =
-            |(was, is): (&SceneMove, &SceneMove)| MoveIdentity::of(was, ORIGIN) == MoveIdentity::of(is, by);
-        let mut pairs = self.old[old.clone()].iter().zip(&self.new[new.clone()]);
-        let is_shifted = old.len() == new.len() && by != ORIGIN && pairs.all(is_same);
-        is_shifted.then_some(Change { kind: ChangeKind::Shifted(by), old, new })
-    }
-
-    /// Classifies each move by the line that it follows.
-    fn classify_moves(&self, old: Range<usize>, new: Range<usize>, changes: &mut Vec<Change>) {
-        let (behind, before) = (old.end, new.start);
-        for index in old {
-            let movement = &self.old[index];
-            // If the line is still milled, its move in the new program is classified instead.
-            if is_rapid(movement) || !self.is.contains_key(&Line::of(movement)) {
-                add(changes, ChangeKind::Removed, index..index + 1, before..before);
+            for index in new {
+                kinds[1][index] = self.kind_of_new(&moves[1][index]);
             }
         }
-        for index in new {
-            let movement = &self.new[index];
-            let kind = if is_rapid(movement) { ChangeKind::Added } else { self.kind(&Line::of(movement)) };
-            add(changes, kind, behind..behind, index..index + 1);
+        for (side, (pieces, kinds)) in pieces.into_iter().zip(kinds).enumerate() {
+            self.add_pieces(side, pieces, &kinds);
+        }
+        self.done = runs.map(|run| run.end);
+    }
+
+    fn pieces(&mut self, side: usize, run: Range<usize>) -> Vec<ComparedMove> {
+        let mut pieces = Vec::new();
+        for number in run {
+            let divided = self.divider.divide(&self.sides[side][number]);
+            pieces.extend(divided.into_iter().map(|movement| ComparedMove { movement, number }));
+        }
+        pieces
+    }
+
+    /// Adds the pieces of consecutive moves. A move of which all pieces changed in the same way stays whole.
+    fn add_pieces(&mut self, side: usize, pieces: Vec<ComparedMove>, kinds: &[Option<ChangeKind>]) {
+        let mut first = 0;
+        for group in pieces.chunk_by(|a, b| a.number == b.number) {
+            let kinds = &kinds[first..first + group.len()];
+            first += group.len();
+            if kinds.iter().all(|kind| *kind == kinds[0]) {
+                let number = group[0].number;
+                let movement = self.sides[side][number].clone();
+                self.add_piece(side, ComparedMove { movement, number }, kinds[0]);
+            } else {
+                for (piece, kind) in group.iter().zip(kinds) {
+                    self.add_piece(side, piece.clone(), *kind);
+                }
+            }
         }
     }
 
-    /// Returns the kind of change of a line that the new program mills.
-    fn kind(&self, line: &Line) -> ChangeKind {
-        let (Some(was), Some(is)) = (self.was.get(line), self.is.get(line)) else { return ChangeKind::Added };
-        let raised = ((is.bottom - was.bottom) * 1000.0).round() / 1000.0 + 0.0;
-        let feed = ((is.feed - was.feed).abs() >= 0.001).then_some([was.feed, is.feed]);
+    fn add_piece(&mut self, side: usize, piece: ComparedMove, kind: Option<ChangeKind>) {
+        let [old, new] = [self.result.old.len(), self.result.new.len()];
+        let list = if side == 0 { &mut self.result.old } else { &mut self.result.new };
+        list.push(piece);
+        let Some(kind) = kind else { return };
+        match side {
+            0 => self.add(kind, old..old + 1, new..new),
+            _ => self.add(kind, old..old, new..new + 1),
+        }
+    }
+
+    /// Adds a change; merges it with the previous one if that is adjacent and of the same kind.
+    fn add(&mut self, kind: ChangeKind, old: Range<usize>, new: Range<usize>) {
+        match self.result.changes.last_mut() {
+            Some(last) if last.kind == kind && last.old.end == old.start && last.new.end == new.start => {
+                (last.old.end, last.new.end) = (old.end, new.end);
+            }
+            _ => self.result.changes.push(Change { kind, old, new }),
+        }
+    }
+
+    /// Returns the kind of change of an old piece; `None` if the new program mills its line, whose new pieces are classified instead.
+    fn kind_of_old(&mut self, piece: &SceneMove) -> Option<ChangeKind> {
+        let is_milled = !is_rapid(piece)
+            && (self.milled[1].lines.contains_key(&self.identities.line(piece))
+                || self.milled[1].reaches(piece, &mut self.identities));
+        (!is_milled).then_some(ChangeKind::Removed)
+    }
+
+    /// Returns the kind of change of a new piece.
+    fn kind_of_new(&mut self, piece: &SceneMove) -> Option<ChangeKind> {
+        if is_rapid(piece) {
+            return Some(ChangeKind::Added);
+        }
+        let line = self.identities.line(piece);
+        let [was, is] = &self.milled;
+        let (Some(was), Some(is)) = (was.lines.get(&line), is.lines.get(&line)) else {
+            let is_milled = self.milled[0].reaches(piece, &mut self.identities);
+            return Some(if is_milled { ChangeKind::Reordered } else { ChangeKind::Added });
+        };
+        let raised = was.raised(is);
+        let feed = ((is.feed - was.feed).abs() > END_TOLERANCE).then_some([was.feed, is.feed]);
         let passes = (is.passes != was.passes).then_some([was.passes, is.passes]);
-        match (feed, passes) {
-            (None, None) if raised == 0.0 => ChangeKind::Reordered,
+        Some(match (feed, passes) {
+            (None, None) if raised == [0.0; 2] => ChangeKind::Reordered,
             _ => ChangeKind::Altered { raised, feed, passes },
-        }
-    }
-}
-
-/// Adds a move; merges it with the previous change if that is adjacent and of the same kind.
-fn add(changes: &mut Vec<Change>, kind: ChangeKind, old: Range<usize>, new: Range<usize>) {
-    match changes.last_mut() {
-        Some(last) if last.kind == kind && last.old.end == old.start && last.new.end == new.start => {
-            (last.old.end, last.new.end) = (old.end, new.end);
-        }
-        _ => changes.push(Change { kind, old, new }),
+        })
     }
 }
 
@@ -171,17 +298,30 @@ pub struct Group {
 }
 
 /// Groups changes by kind, in order of first occurrence. Rapid moves come last.
-pub fn groups(changes: &[Change], old: &[SceneMove], new: &[SceneMove]) -> Vec<Group> {
+pub fn groups(compared: &ComparedMoves) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut rapids = Group { kind: None, moves: 0, length: 0.0, at: None };
-    for change in changes {
+    // Number of the last move that a group counts: it may have several pieces in the group.
+    let mut counted: Vec<(Option<ChangeKind>, usize)> = Vec::new();
+    for change in &compared.changes {
         let moves = match change.kind {
-            ChangeKind::Removed => &old[change.old.clone()],
-            _ => &new[change.new.clone()],
+            ChangeKind::Removed => &compared.old[change.old.clone()],
+            _ => &compared.new[change.new.clone()],
         };
-        for movement in moves {
-            let group = if is_rapid(movement) { &mut rapids } else { of_kind(&mut groups, change.kind) };
-            group.moves += 1;
+        for ComparedMove { movement, number } in moves {
+            let kind = (!is_rapid(movement)).then_some(change.kind);
+            let group = if kind.is_none() { &mut rapids } else { of_kind(&mut groups, change.kind) };
+            match counted.iter_mut().find(|(known, _)| kind.is_some() && *known == kind) {
+                Some((_, last)) if last == number => {}
+                Some((_, last)) => {
+                    *last = *number;
+                    group.moves += 1;
+                }
+                None => {
+                    counted.extend(kind.map(|kind| (Some(kind), *number)));
+                    group.moves += 1;
+                }
+            }
             group.length += movement.length;
             if group.at.is_none() && movement.is_placed() {
                 group.at = Some(movement.to());
@@ -201,114 +341,189 @@ fn of_kind(groups: &mut Vec<Group>, kind: ChangeKind) -> &mut Group {
     &mut groups[index]
 }
 
-/// A key that is equal for equal moves. Its numbers are in µm and µm/min, so that rounding in printed programs makes no difference.
+/// A key that is equal for equal moves.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct MoveIdentity {
+struct MoveIdentity {
     kind: MoveKind,
-    ends: [[Option<i64>; 3]; 2],
-    arc: Option<Turn>,
-    feed: Option<i64>,
-}
-
-/// The key of an arc, without its end points.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct Turn {
-    axes: [usize; 2],
-    centre: [i64; 2],
-    is_clockwise: bool,
-    extra_turns: u32,
-}
-
-impl MoveIdentity {
-    /// Returns the identity of a move, with coordinates relative to a point in the plane.
-    pub(super) fn of(movement: &SceneMove, origin: Point) -> Self {
-        let shift = |axis: usize| origin.get(axis).copied().unwrap_or_default();
-        let end = |end: &Position| {
-            [0, 1, 2].map(|axis| known_coordinate(end, axis).map(|at| micrometres(at - shift(axis))))
-        };
-        // A rapid move is identified by its end only: it starts where the previous move ends, which is unknown at the beginning of a
-        // program.
-        let (kind, from) = if is_rapid(movement) {
-            (MoveKind::Sweep, [None; 3])
-        } else {
-            (movement.kind, end(&movement.way.from))
-        };
-        let arc = match movement.way.shape {
-            MoveShape::Line => None,
-            MoveShape::Arc(arc) => {
-                let axes = arc.plane.axes();
-                let centre = [0, 1].map(|index| micrometres(arc.centre[index] - shift(axes[index])));
-                let (is_clockwise, extra_turns) = (arc.clockwise, arc.extra_turns);
-                Some(Turn { axes, centre, is_clockwise, extra_turns })
-            }
-        };
-        Self {
-            kind,
-            ends: [from, end(&movement.way.to)],
-            arc,
-            feed: movement.way.pace.feed().map(micrometres),
-        }
-    }
+    /// Numbers of the start and the end, with the axes that are known there.
+    ends: [(u32, [bool; 3]); 2],
+    /// Number of the middle; 0 for rapid moves.
+    middle: u32,
+    /// Direction and additional turns of an arc of more than half a turn, which its ends and its middle do not determine.
+    turn: Option<(bool, u32)>,
+    feed: Option<u32>,
 }
 
 /// A key that is equal for moves along the same line in the plane, regardless of direction and height.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Line {
-    kind: MoveKind,
-    ends: [[i64; 2]; 2],
-    centre: Option<[i64; 2]>,
-    /// Distinguishes the two arcs with the same ends and centre: whether this one runs clockwise from the first end.
-    is_clockwise: bool,
+struct Line {
+    /// Whether the move is straight up or down, a probe, or an arc that leaves the plane XY.
+    is_vertical: bool,
+    is_probe: bool,
+    is_upright: bool,
+    ends: [u32; 2],
+    middle: u32,
 }
 
-impl Line {
-    pub(super) fn of(movement: &SceneMove) -> Self {
-        let drawn = [movement.from(), movement.to()].map(|end| end.map(micrometres));
-        let mut ends = drawn;
-        ends.sort_unstable();
-        let (centre, is_clockwise) = match movement.way.shape {
-            MoveShape::Line => (None, false),
-            MoveShape::Arc(arc) => (Some(arc.centre.map(micrometres)), arc.clockwise == (drawn == ends)),
-        };
-        Self { kind: movement.kind, ends, centre, is_clockwise }
+/// Numbers for points, and with them keys for moves. Points are the same within tolerances, so that rounding in programs makes no difference.
+#[derive(Debug)]
+struct Identities {
+    ends: Snapper,
+    middles: Snapper,
+}
+
+impl Default for Identities {
+    fn default() -> Self {
+        Self { ends: Snapper::new(END_TOLERANCE), middles: Snapper::new(CURVE_TOLERANCE) }
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct MillingResult {
-    /// Lowest Z in mm.
-    pub(super) bottom: f64,
-    /// Feed of the deepest pass in mm/min.
-    pub(super) feed: f64,
-    pub(super) passes: u32,
-}
+impl Identities {
+    /// Returns the identity of a move, with coordinates relative to a point in the plane.
+    fn of(&mut self, movement: &SceneMove, origin: Point) -> MoveIdentity {
+        let way = &movement.way;
+        let relative = |at: [f64; 3]| [at[0] - origin[0], at[1] - origin[1], at[2]];
+        let mut end = |end: &Position| {
+            let known = [0, 1, 2].map(|axis| end.known.has(Axes::of(axis)));
+            let at = relative(end.at);
+            (self.ends.number([0, 1, 2].map(|axis| if known[axis] { at[axis] } else { 0.0 })), known)
+        };
+        let to = end(&way.to);
+        let feed = way.pace.feed();
+        // A rapid move is identified by its end only: it starts where the previous move ends, which is unknown at the beginning of a program.
+        if is_rapid(movement) {
+            return MoveIdentity { kind: MoveKind::Sweep, ends: [to; 2], middle: 0, turn: None, feed: None };
+        }
+        let ends = [end(&way.from), to];
+        let turn = match (way.shape, way.course()) {
+            (MoveShape::Arc(arc), Some(course)) if course.sweep() > std::f64::consts::PI => {
+                Some((arc.clockwise, arc.extra_turns))
+            }
+            _ => None,
+        };
+        let feed = feed.map(|feed| self.ends.number([feed, 0.0, 0.0]));
+        let middle = self.middles.number(relative(way.point(0.5)));
+        MoveIdentity { kind: class(movement.kind), ends, middle, turn, feed }
+    }
 
-/// Returns the result of milling along each line of a program. Rapid moves are ignored.
-pub(super) fn lines(moves: &[SceneMove]) -> HashMap<Line, MillingResult> {
-    let mut lines: HashMap<Line, MillingResult> = HashMap::new();
-    for movement in moves.iter().filter(|movement| !is_rapid(movement)) {
-        let (bottom, feed) =
-            (movement.depth().unwrap_or_default(), movement.way.pace.feed().unwrap_or_default());
-        let milled = lines.entry(Line::of(movement)).or_insert(MillingResult { bottom, feed, passes: 0 });
-        milled.passes += 1;
-        if bottom < milled.bottom {
-            (milled.bottom, milled.feed) = (bottom, feed);
+    /// Returns the line that a move follows.
+    fn line(&mut self, movement: &SceneMove) -> Line {
+        let way = &movement.way;
+        let mut ends = [self.point(&way.from), self.point(&way.to)];
+        ends.sort_unstable();
+        let [x, y, _] = way.point(0.5);
+        Line {
+            is_vertical: movement.kind == MoveKind::Plunge,
+            is_probe: movement.kind == MoveKind::Probe,
+            is_upright: matches!(way.shape, MoveShape::Arc(arc) if arc.plane != Plane::Xy),
+            ends,
+            middle: self.middles.number([x, y, 0.0]),
         }
     }
-    lines
+
+    /// Returns the number of an end in the plane.
+    fn point(&mut self, end: &Position) -> u32 {
+        self.ends.number([end.x(), end.y(), 0.0])
+    }
+}
+
+/// Returns one kind for all cuts along elements, which are the same for the machine.
+fn class(kind: MoveKind) -> MoveKind {
+    if kind == MoveKind::Mark { MoveKind::Mill } else { kind }
+}
+
+/// Number of places along a line at which its depth is compared: the ends, the middle, and the middles between these.
+const DEPTHS: usize = 5;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct MillingResult {
+    /// Lowest Z in mm at places along the line, from the end with the smaller number.
+    bottom: [f64; DEPTHS],
+    /// Feed in mm/min of the pass that is deepest in the middle.
+    feed: f64,
+    passes: u32,
+}
+
+impl MillingResult {
+    /// Returns the least and the greatest height in mm by which a new result is higher.
+    fn raised(&self, new: &Self) -> [f64; 2] {
+        let raised = std::array::from_fn::<f64, DEPTHS, _>(|place| {
+            let raised = new.bottom[place] - self.bottom[place];
+            if raised.abs() <= END_TOLERANCE { 0.0 } else { (raised * 1000.0).round() / 1000.0 }
+        });
+        [raised.into_iter().fold(f64::MAX, f64::min), raised.into_iter().fold(f64::MIN, f64::max)]
+    }
+}
+
+/// The results of milling along each line of a program. Rapid moves are ignored.
+#[derive(Debug, Default)]
+struct Milled {
+    lines: HashMap<Line, MillingResult>,
+    /// Lowest Z in mm that is milled at each end of a line.
+    points: HashMap<u32, f64>,
+}
+
+impl Milled {
+    fn of(moves: &[SceneMove], divider: &mut Divider, identities: &mut Identities) -> Self {
+        let mut milled = Self::default();
+        for movement in moves.iter().filter(|movement| !is_rapid(movement)) {
+            for piece in divider.divide(movement) {
+                milled.add(&piece, identities);
+            }
+        }
+        let Self { lines, points } = &mut milled;
+        let vertical = lines.iter_mut().filter(|(line, _)| line.is_vertical);
+        vertical.for_each(|(line, result)| {
+            // Other cuts may mill the ground below a plunge.
+            let ground = points.get(&line.ends[0]).copied().unwrap_or(f64::MAX);
+            result.bottom = result.bottom.map(|bottom| bottom.min(ground));
+        });
+        milled
+    }
+
+    fn add(&mut self, piece: &SceneMove, identities: &mut Identities) {
+        let way = &piece.way;
+        let line = identities.line(piece);
+        let [from, to] = [&way.from, &way.to].map(|end| identities.point(end));
+        let bottom = if line.is_vertical || !way.is_known() {
+            [piece.depth().unwrap_or_default(); DEPTHS]
+        } else {
+            let is_reversed = if from == to { is_clockwise(way.shape) } else { from > to };
+            std::array::from_fn(|place| {
+                let share = place as f64 / (DEPTHS - 1) as f64;
+                way.point(if is_reversed { 1.0 - share } else { share })[2]
+            })
+        };
+        if !line.is_probe {
+            for end in [&way.from, &way.to] {
+                let z = if line.is_vertical { bottom[0] } else { end.z() };
+                let lowest = self.points.entry(identities.point(end)).or_insert(z);
+                *lowest = lowest.min(z);
+            }
+        }
+        let feed = way.pace.feed().unwrap_or_default();
+        let milled = self.lines.entry(line).or_insert(MillingResult { bottom, feed, passes: 0 });
+        milled.passes += 1;
+        if bottom[DEPTHS / 2] < milled.bottom[DEPTHS / 2] {
+            milled.feed = feed;
+        }
+        milled.bottom = std::array::from_fn(|place| milled.bottom[place].min(bottom[place]));
+    }
+
+    /// Whether a move straight down ends in ground that other cuts mill as deep.
+    fn reaches(&self, piece: &SceneMove, identities: &mut Identities) -> bool {
+        let bottom = piece.depth().unwrap_or_default();
+        let ground = self.points.get(&identities.point(&piece.way.to));
+        piece.kind == MoveKind::Plunge && ground.is_some_and(|z| *z <= bottom + END_TOLERANCE)
+    }
+}
+
+fn is_clockwise(shape: MoveShape) -> bool {
+    matches!(shape, MoveShape::Arc(arc) if arc.clockwise)
 }
 
 fn is_rapid(movement: &SceneMove) -> bool {
     matches!(movement.kind, MoveKind::Sweep | MoveKind::Lift)
-}
-
-fn known_coordinate(end: &Position, axis: usize) -> Option<f64> {
-    end.known.has(Axes::of(axis)).then(|| end.at[axis])
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "saturates")]
-fn micrometres(value: f64) -> i64 {
-    (value * 1000.0).round() as i64
 }
 
 /// Describes the change of a group of moves, for example "0.5 mm deeper, feed 150 instead of 300".
@@ -328,10 +543,15 @@ pub fn phrase(group: &Group, lang: Lang) -> String {
             choose("shifted by {}", "um {} verschoben").replace("{}", &by)
         }
         Some(ChangeKind::Altered { raised, feed, passes }) => {
-            let height = (raised != 0.0).then(|| {
+            let height = |raised: f64| {
                 let way = if raised < 0.0 { choose("deeper", "tiefer") } else { choose("higher", "höher") };
                 format!("{} mm {way}", Number(raised.abs()).prose(lang))
-            });
+            };
+            let [least, most] = raised;
+            let heights = if least == most { vec![least] } else { vec![least.min(0.0), most.max(0.0)] };
+            let up_to = if least == most { "" } else { choose("up to ", "bis zu ") };
+            let heights = heights.into_iter().filter(|raised| *raised != 0.0);
+            let heights = heights.map(|raised| format!("{up_to}{}", height(raised)));
             let instead = choose("instead of", "statt");
             let feed = feed.map(|[was, is]| {
                 let way =
@@ -340,7 +560,7 @@ pub fn phrase(group: &Group, lang: Lang) -> String {
             });
             let passes =
                 passes.map(|[was, is]| format!("{}: {is} {instead} {was}", choose("passes", "Durchgänge")));
-            height.into_iter().chain(feed).chain(passes).collect::<Vec<_>>().join(", ")
+            heights.chain(feed).chain(passes).collect::<Vec<_>>().join(", ")
         }
     }
 }
@@ -361,7 +581,7 @@ mod tests {
     use crate::scene::SceneMove;
 
     fn moves(text: &str) -> Vec<SceneMove> {
-        let read = interpret(text.as_bytes(), Dialect::Rs274, &Options::default());
+        let read = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default());
         read.steps
             .iter()
             .filter_map(Step::as_move)
@@ -376,7 +596,7 @@ mod tests {
     /// Returns the phrases for the changes from one program to another, each with number of moves and length.
     fn described(old: &str, new: &str) -> Vec<String> {
         let (old, new) = (moves(&format!("{BEGIN}{old}")), moves(&format!("{BEGIN}{new}")));
-        let groups = groups(&compare(&old, &new), &old, &new);
+        let groups = groups(&compare(&old, &new));
         groups
             .iter()
             .map(|group| format!("{} {} {}", phrase(group, Lang::En), group.moves, group.length))
@@ -412,6 +632,78 @@ mod tests {
         assert_eq!(described("G2 X10.0002 Y0 I5 J0"), 0);
         assert_ne!(described("G3 X10 Y0 I5 J0"), 0, "the other half of the circle");
         assert_ne!(described("G2 X10 Y0 I5 J-2"), 0, "another centre");
+    }
+
+    /// Lines and arcs may be divided in any way, as long as the tool takes the same way.
+    #[test]
+    fn divided_moves_are_no_change() {
+        let whole = "G1 Z-1 F150\nG1 X20 Y0\nG2 X40 Y0 I10 J0\nG1 X40 Y10 Z-2\nG0 Z5\n";
+        let divided = "G1 Z-1 F150\nG1 X5 Y0\nG1 X20\nG2 X30 Y10 I10 J0\nG2 X40 Y0 I0 J-10\nG1 Y5 Z-1.5\nG1 Y10 Z-2\nG0 Z5\n";
+        assert_eq!(described(whole, divided), Vec::<String>::new());
+        assert_eq!(described(divided, whole), Vec::<String>::new());
+        // Only the changed piece of a line is named.
+        let faster = divided.replace("G1 X5 Y0\nG1 X20\n", "G1 X5 Y0\nG1 X20 F300\nF150\n");
+        assert_eq!(described(whole, &faster), ["faster: F300 instead of F150 1 15"]);
+        let higher = divided.replace("Z-1.5", "Z-1.4");
+        let higher = described(whole, &higher);
+        assert!(higher.len() == 1 && higher[0].starts_with("up to 0.1 mm higher 2 10.05"), "{higher:?}");
+        let shorter =
+            whole.replace("X20 Y0\nG2 X40 Y0 I10 J0", "X15 Y0\nG0 Z5\nG0 X20 Y0\nG1 Z-1\nG2 X40 Y0 I10 J0");
+        assert!(described(whole, &shorter).contains(&"removed 1 5".to_owned()));
+    }
+
+    #[test]
+    fn ramps_are_compared_along_their_length() {
+        let ramp = |from: &str, to: &str| format!("G1 Z{from} F150\nG1 X40 Z{to}\nG0 Z5\n");
+        let flat = ramp("-6", "-6");
+        assert!(described(&flat, &ramp("-6", "0"))[0].starts_with("up to 6 mm higher 1 "));
+        assert!(
+            described(&ramp("0", "-6"), &flat).iter().any(|line| line.starts_with("up to 6 mm deeper 1 "))
+        );
+        let crossed = described(&ramp("-4", "-6"), &ramp("-6", "-4"));
+        assert!(
+            crossed.iter().any(|line| line.starts_with("up to 2 mm deeper, up to 2 mm higher 1 ")),
+            "{crossed:?}"
+        );
+        // The way back at full depth makes the ramp irrelevant.
+        let ground = |depth: &str| format!("G1 Z0 F150\nG1 X40 Z-6\nG1 X0 Z{depth}\nG0 Z5\n");
+        let there_and_back = format!("{flat}G0 X40\nG1 Z-6 F150\nG1 X0\nG0 Z5\n");
+        assert!(described(&there_and_back, &ground("-6")).iter().all(|line| !line.contains("higher")));
+        assert!(
+            described(&there_and_back, &ground("-5"))
+                .iter()
+                .any(|line| line.starts_with("up to 1 mm higher"))
+        );
+    }
+
+    #[test]
+    fn further_turns_of_an_arc_are_added() {
+        let arc = |words: &str| format!("G1 Z-1 F150\nG2 X10 Y0 I5 J0 {words}\nG0 Z5\n");
+        assert_eq!(described(&arc("P1"), &arc("")), Vec::<String>::new());
+        let turned = described(&arc(""), &arc("P2"));
+        assert!(turned.iter().any(|line| line.starts_with("added 1 15.7")), "{turned:?}");
+        assert!(turned.iter().any(|line| line.starts_with("passes: 2 instead of 1 1 ")), "{turned:?}");
+    }
+
+    /// Support bars leave the ground between them as it was.
+    #[test]
+    fn only_the_ground_that_changes_is_named() {
+        let flat = "G1 Z-2 F150\nG1 X40\nG0 Z5\n";
+        let bar = "G1 Z-2 F150\nG1 X18\nG1 Z-1\nG1 X22\nG1 Z-2\nG1 X40\nG0 Z5\n";
+        assert_eq!(
+            described(flat, bar),
+            ["the same in the end, in another order or by other passes 2 2", "1 mm higher 1 4"]
+        );
+        assert_eq!(described(bar, flat), ["1 mm deeper 1 4"]);
+    }
+
+    /// Posts write four decimals, and the centre of an arc as the sum of two numbers.
+    #[test]
+    fn rounding_is_no_change() {
+        let native = "G1 Z-1 F150\nG1 X21.259 Y10.123\nG2 X21.259 Y10.123 I5.111 J3.333\nG0 Z5\n";
+        let posted = "G1 Z-1 F150\nG1 X21.2595 Y10.1235\nG2 X21.2595 Y10.1235 I5.1114 J3.3334\nG0 Z5\n";
+        assert_eq!(described(native, posted), Vec::<String>::new());
+        assert_ne!(described(native, &posted.replace("I5.1114", "I5.115")), Vec::<String>::new());
     }
 
     #[test]
@@ -464,8 +756,9 @@ mod tests {
     fn every_change_names_moves_that_are_there() {
         let (old, new) =
             (moves(&format!("{BEGIN}{LINE}{OTHER}")), moves(&format!("{BEGIN}{OTHER}{LINE}{LINE}")));
-        for change in compare(&old, &new) {
-            assert!(change.old.end <= old.len() && change.new.end <= new.len());
+        let compared = compare(&old, &new);
+        for change in &compared.changes {
+            assert!(change.old.end <= compared.old.len() && change.new.end <= compared.new.len());
             let is_gone = change.kind == ChangeKind::Removed;
             assert!(if is_gone { change.new.is_empty() } else { !change.new.is_empty() }, "{change:?}");
         }

@@ -18,7 +18,7 @@ pub use build::{
     DrawnSource, EmittedText, GcodeSource, Places, ProgramSource, drawn_path, findings, finished_part,
     gcode_path, keep_out, other_layers, outline, program_path,
 };
-pub use changes::{Change, ChangeKind, Group, compare, groups, moves, phrase};
+pub use changes::{Change, ChangeKind, ComparedMove, ComparedMoves, Group, compare, groups, moves, phrase};
 #[cfg(feature = "pictures")]
 pub use page::{LIVE_STYLE, SCRIPT, live_page, page};
 #[cfg(feature = "pictures")]

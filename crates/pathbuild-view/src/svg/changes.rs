@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Lang, Number};
 use super::canvas::{Anchor, Canvas, INK_COLOUR, OTHER_COLOUR, svg_number};
 use super::frame::{Frame, PageTransform, widen};
 use super::moves::path_data;
-use crate::changes::{Change, ChangeKind, Group, groups, moves, phrase};
+use crate::changes::{Change, ChangeKind, ComparedMove, ComparedMoves, Group, groups, moves, phrase};
 
 use crate::scene::{MoveKind, Point, SceneMove};
 
@@ -46,25 +46,18 @@ pub enum Picture {
 
 #[derive(Clone, Copy, Debug)]
 struct Pair<'a> {
-    old: &'a [SceneMove],
-    new: &'a [SceneMove],
-    changes: &'a [Change],
+    compared: &'a ComparedMoves,
     /// The groups of changes, which are the entries of the legend.
     groups: &'a [Group],
 }
 
 /// Draws a change as one of the pictures. All pictures of a change have the same size and scale.
-pub fn changes_svg(
-    old: &[SceneMove],
-    new: &[SceneMove],
-    changes: &[Change],
-    picture: Picture,
-    lang: Lang,
-) -> String {
-    let frame = frame(old.iter().chain(new));
+pub fn changes_svg(compared: &ComparedMoves, picture: Picture, lang: Lang) -> String {
+    let ComparedMoves { old, new, .. } = compared;
+    let frame = frame(old.iter().chain(new).map(|compared| &compared.movement));
     let place = frame.of_drawing();
-    let groups = groups(changes, old, new);
-    let pair = Pair { old, new, changes, groups: &groups };
+    let groups = groups(compared);
+    let pair = Pair { compared, groups: &groups };
     let legend = if picture == Picture::Changes { groups.len() as f64 * LINE_HEIGHT } else { 0.0 };
     let mut canvas = Canvas::new(Frame::WIDTH, frame.bottom() + legend);
     canvas.open("fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
@@ -86,23 +79,23 @@ pub fn changes_svg(
 impl Pair<'_> {
     /// Draws unchanged moves in grey, and changed moves on top.
     fn draw(&self, canvas: &mut Canvas, place: &PageTransform) {
-        let mut is_changed = vec![false; self.new.len()];
-        for change in self.changes {
+        let mut is_changed = vec![false; self.compared.new.len()];
+        for change in &self.compared.changes {
             is_changed[change.new.clone()].fill(true);
         }
-        let stays = self.new.iter().zip(&is_changed).filter(|(_, is_changed)| !**is_changed);
-        for (movement, _) in stays {
-            stroke(canvas, movement, place, Style::plain(OTHER_COLOUR));
+        let stays = self.compared.new.iter().zip(&is_changed).filter(|(_, is_changed)| !**is_changed);
+        for (compared, _) in stays {
+            stroke(canvas, &compared.movement, place, Style::plain(OTHER_COLOUR));
         }
         let is_gone =
             |change: &&Change| !matches!(change.kind, ChangeKind::Altered { .. } | ChangeKind::Reordered);
-        for change in self.changes.iter().filter(is_gone) {
-            for movement in &self.old[change.old.clone()] {
+        for change in self.compared.changes.iter().filter(is_gone) {
+            for ComparedMove { movement, .. } in &self.compared.old[change.old.clone()] {
                 self.stroke_changed(canvas, movement, place, Some(ChangeKind::Removed));
             }
         }
-        for change in self.changes {
-            for movement in &self.new[change.new.clone()] {
+        for change in &self.compared.changes {
+            for ComparedMove { movement, .. } in &self.compared.new[change.new.clone()] {
                 self.stroke_changed(canvas, movement, place, Some(change.kind));
             }
         }
@@ -110,12 +103,14 @@ impl Pair<'_> {
 
     /// Whether the moves of a group are visible in the picture. Rapid moves straight up and down are not.
     fn has_line(&self, group: &Group) -> bool {
-        let is_sweep = |movement: &SceneMove| movement.kind == MoveKind::Sweep && movement.is_placed();
+        let is_sweep = |ComparedMove { movement, .. }: &ComparedMove| {
+            movement.kind == MoveKind::Sweep && movement.is_placed()
+        };
         let has_sweep = |change: &Change| {
-            let (old, new) = (&self.old[change.old.clone()], &self.new[change.new.clone()]);
+            let (old, new) = (&self.compared.old[change.old.clone()], &self.compared.new[change.new.clone()]);
             old.iter().chain(new).any(is_sweep)
         };
-        group.kind.is_some() || self.changes.iter().any(has_sweep)
+        group.kind.is_some() || self.compared.changes.iter().any(has_sweep)
     }
 
     /// Draws a changed move in the style of its entry in the legend.
@@ -131,8 +126,8 @@ impl Pair<'_> {
     }
 }
 
-fn stroke_all(canvas: &mut Canvas, moves: &[SceneMove], place: &PageTransform, color: &'static str) {
-    for movement in moves {
+fn stroke_all(canvas: &mut Canvas, moves: &[ComparedMove], place: &PageTransform, color: &'static str) {
+    for ComparedMove { movement, .. } in moves {
         stroke(canvas, movement, place, Style::plain(color));
     }
 }

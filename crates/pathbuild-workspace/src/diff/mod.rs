@@ -3,18 +3,21 @@
 mod reasons;
 mod states;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::check_file;
+use pathbuild_db::{Database, SourceFile, check_file, path_names, program};
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::PathName;
+use pathbuild_toolpath::Program as PathProgram;
 use pathbuild_view::{
     Group, Picture, ScenePath, StockChange, Totals, changes_svg, compare, groups, stock_change_svg,
 };
 
 use crate::emit::ShownText;
 use crate::inputs::Inputs;
+use crate::post_processor::{PostArguments, PostProcessor};
+use crate::program::{DefinitionTranslation, Program, ReadingOptions};
 use crate::session::{HashedPath, Session, compare_names};
 
 pub use reasons::{Reason, ValueChange};
@@ -92,7 +95,7 @@ pub enum Outcome {
 pub struct ProgramDiff {
     /// Changed moves, grouped by the kind of change.
     pub groups: Vec<Group>,
-    /// Changes of tools, spindle, work offsets, stops and the like; empty unless both sides are programs.
+    /// Changes of cutters, tools, spindle, work offsets, stops and the like, as far as they are known on both sides.
     pub states: Vec<StateChange>,
     /// Reasons for the changes; `None` unless both sides are drawings, empty if no element and no setting differs.
     pub reasons: Option<Vec<Reason>>,
@@ -117,21 +120,23 @@ pub struct PictureSet {
 
 /// Compares the moves of two programs. `pictures` is the language of the legends; `None` if no pictures are requested.
 pub fn compare_moves(old: &ScenePath, new: &ScenePath, pictures: Option<Lang>) -> ProgramDiff {
-    let changes = compare(&old.moves, &new.moves);
-    let picture = |which, lang| changes_svg(&old.moves, &new.moves, &changes, which, lang);
+    let compared = compare(&old.moves, &new.moves);
+    let picture = |which, lang| changes_svg(&compared, which, lang);
     ProgramDiff {
-        groups: groups(&changes, &old.moves, &new.moves),
+        groups: groups(&compared),
         states: Vec::new(),
         reasons: None,
         totals: [old.totals, new.totals],
-        pictures: pictures.filter(|_| !changes.is_empty()).map(|lang| PictureSet {
-            changes: picture(Picture::Changes, lang),
-            old: picture(Picture::Old, lang),
-            new: picture(Picture::New, lang),
-            stock: [StockChange::Removed, StockChange::Left]
-                .into_iter()
-                .filter_map(|change| stock_change_svg(old, new, change, lang))
-                .collect(),
+        pictures: pictures.filter(|_| !compared.changes.is_empty() || old.tool != new.tool).map(|lang| {
+            PictureSet {
+                changes: picture(Picture::Changes, lang),
+                old: picture(Picture::Old, lang),
+                new: picture(Picture::New, lang),
+                stock: [StockChange::Removed, StockChange::Left]
+                    .into_iter()
+                    .filter_map(|change| stock_change_svg(old, new, change, lang))
+                    .collect(),
+            }
         }),
     }
 }
@@ -149,40 +154,98 @@ pub fn compare_trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: O
 }
 
 fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Lang>) -> Comparison {
-    let (old_path, old_problems) = old.paths();
-    let (new_path, new_problems) = new.paths();
-    let mut problems = [old_problems, new_problems];
-    let path_count = new_path.len();
-    let mut paths: Vec<PathDiff> = pair_up(old_path, new_path)
+    let [was, is] = [old.paths(), new.paths()];
+    let path_count = is.paths.len();
+    let unreadable = [was.unreadable, is.unreadable];
+    let mut problems = [was.problems, is.problems];
+    let [old_post, new_post] = [&*old.session, &*new.session]
+        .map(|session| PostProcessor::for_run(session.workspace(), None, PostArguments::default()));
+    let sides = [(&*old.session, old_post), (&*new.session, new_post)];
+    let sides = [0, 1].map(|side| {
+        let (session, post_processor) = &sides[side];
+        let post_processor =
+            post_processor.as_ref().map_err(|found| problems[side].extend(found.iter().cloned()));
+        CompiledSide { session, post_processor: post_processor.ok().and_then(Option::as_ref) }
+    });
+    let has_same_post = identity(sides[0].post_processor) == identity(sides[1].post_processor);
+    let mut paths: Vec<PathDiff> = pair_up(was.paths, is.paths)
         .into_iter()
-        .filter_map(|pair| pair.compare([old.session, new.session], pictures, &mut problems))
+        .map(|pair| pair.with_unreadable(&unreadable))
+        .filter_map(|pair| pair.compare(sides, has_same_post, pictures, &mut problems))
         .collect();
     paths.sort_by(|a, b| compare_names(&a.name, &b.name).then_with(|| a.files.cmp(&b.files)));
     Comparison { paths, path_count, problems }
 }
 
+/// Returns everything that the programs of a post-processor depend on besides the drawings; `None` for native programs.
+fn identity(post_processor: Option<&PostProcessor>) -> Option<Vec<u8>> {
+    post_processor.map(PostProcessor::identity)
+}
+
+/// What builds the programs of one side.
+#[derive(Clone, Copy)]
+struct CompiledSide<'a> {
+    session: &'a Session<'a>,
+    /// The configured post-processor; `None` if programs are native, or if it has errors, which are reported.
+    post_processor: Option<&'a PostProcessor>,
+}
+
+/// The paths of one side.
+struct SidePaths {
+    paths: Vec<HashedPath>,
+    /// Drawings with errors in which no path can be found, relative to the root.
+    unreadable: BTreeMap<Utf8PathBuf, SourceFile>,
+    /// Diagnostics of the drawings themselves.
+    problems: Vec<Diagnostic>,
+}
+
 impl Tree<'_, '_> {
-    /// Returns the paths of this side, and the diagnostics of the drawings themselves.
-    fn paths(&mut self) -> (Vec<HashedPath>, Vec<Diagnostic>) {
+    /// Returns the paths of this side.
+    fn paths(&mut self) -> SidePaths {
         let selection = self.session.select(self.inputs);
         let files = selection.whole(self.session);
         let mut problems = selection.problems;
         let root = self.session.normal(self.root);
-        let found = self.session.in_batches_of_programs(&files, |session, files| {
+        let mut unreadable = BTreeMap::new();
+        let paths = self.session.in_batches_of_programs(&files, |session, files| {
             session.parse_ahead(files);
-            let broken = files.iter().flat_map(|file| check_file(session.db(), *file));
-            problems.extend(broken.filter(|problem| problem.is_error()).cloned());
+            let db = session.db();
+            for file in files {
+                let errors = check_file(db, *file).iter().filter(|problem| problem.is_error());
+                let count = problems.len();
+                problems.extend(errors.cloned());
+                if problems.len() > count && path_names(db, *file).is_empty() {
+                    let place = file.path(db);
+                    unreadable.insert(place.strip_prefix(&root).unwrap_or(place).to_owned(), *file);
+                }
+            }
             let mut paths = session.move_hashes(files, &root);
             problems.extend(paths.iter_mut().flat_map(|path| std::mem::take(&mut path.problems)));
             paths
         });
-        (found, problems)
+        SidePaths { paths, unreadable, problems }
     }
 }
 
 struct PathPair {
     old: Option<HashedPath>,
     new: Option<HashedPath>,
+}
+
+impl PathPair {
+    /// Adds a path with errors on the side that lacks the path, if the drawing is there but cannot be read.
+    fn with_unreadable(self, [old, new]: &[BTreeMap<Utf8PathBuf, SourceFile>; 2]) -> Self {
+        let with_errors = |path: &HashedPath, unreadable: &BTreeMap<_, SourceFile>| {
+            let file = *unreadable.get(&path.place)?;
+            let (place, name) = (path.place.clone(), path.name.clone());
+            Some(HashedPath { file, place, name, target: path.target, moves: None, problems: Vec::new() })
+        };
+        match self {
+            Self { old: Some(path), new: None } => Self { new: with_errors(&path, new), old: Some(path) },
+            Self { old: None, new: Some(path) } => Self { old: with_errors(&path, old), new: Some(path) },
+            pair => pair,
+        }
+    }
 }
 
 /// Pairs the paths of both sides: first those with the same name in the same drawing, then those with a name that remains exactly once on each side.
@@ -217,18 +280,27 @@ fn pair_up(old: Vec<HashedPath>, new: Vec<HashedPath>) -> Vec<PathPair> {
 impl PathPair {
     fn compare(
         self,
-        sessions: [&Session<'_>; 2],
+        sides: [CompiledSide<'_>; 2],
+        has_same_post: bool,
         pictures: Option<Lang>,
         problems: &mut [Vec<Diagnostic>; 2],
     ) -> Option<PathDiff> {
         let Self { old, new } = self;
         let outcome = match (&old, &new) {
             (Some(old_path), Some(new_path)) => match (&old_path.moves, &new_path.moves) {
-                (Some(before), Some(after)) if before == after && old_path.place == new_path.place => {
-                    return None;
+                (Some(before), Some(after)) => {
+                    let is_same = has_same_post && before == after;
+                    let changed = if is_same {
+                        None
+                    } else {
+                        compare_programs(sides, [old_path, new_path], pictures, problems)
+                    };
+                    match changed {
+                        Some(outcome) => outcome,
+                        None if old_path.place == new_path.place => return None,
+                        None => Outcome::OtherDrawing,
+                    }
                 }
-                (Some(before), Some(after)) if before == after => Outcome::OtherDrawing,
-                (Some(_), Some(_)) => compare_programs(sessions, [old_path, new_path], pictures, problems)?,
                 (Some(_), None) => Outcome::Broken,
                 (None, Some(_)) => Outcome::Mended,
                 (None, None) => Outcome::StillBroken,
@@ -243,31 +315,34 @@ impl PathPair {
     }
 }
 
-/// Compares the two different programs of a path; returns `None` if they differ in comments only and the drawings are the same. If a limit prevents a
-/// side from being built, there are no moves to compare, and the diagnostics say why.
+/// Compares the two programs of a path; returns `None` if they do the same. If a limit prevents a side from being built, there are no moves to
+/// compare, and the diagnostics say why.
 fn compare_programs(
-    sessions: [&Session<'_>; 2],
+    sides: [CompiledSide<'_>; 2],
     paths: [&HashedPath; 2],
     pictures: Option<Lang>,
     problems: &mut [Vec<Diagnostic>; 2],
 ) -> Option<Outcome> {
-    let ([before, after], [old, new]) = (sessions, paths);
-    let sides = [scene_path(before, old), scene_path(after, new)];
-    let outcome = match &sides {
-        [Ok(old_path), Ok(new_path)] => {
-            let reasons = explain_change(sessions, paths, problems);
-            let changes = ProgramDiff { reasons, ..compare_moves(old_path, new_path, pictures) };
-            if changes.groups.is_empty() && changes.reasons.as_ref().is_some_and(Vec::is_empty) {
+    let programs = [0, 1].map(|side| sides[side].program(paths[side]));
+    let outcome = match &programs {
+        [Ok(old), Ok(new)] => {
+            let changes = compare_moves(&old.path, &new.path, pictures);
+            let mut states = old.states.changes(&new.states);
+            if changes.groups.is_empty() && states.is_empty() {
+                states.extend(new.first_other_line(old, sides[1].post_processor));
+            }
+            if changes.groups.is_empty() && states.is_empty() {
                 return None;
             }
-            Outcome::Changed(Box::new(changes))
+            let reasons = explain_change(sides.map(|side| side.session), paths, problems);
+            Outcome::Changed(Box::new(ProgramDiff { states, reasons, ..changes }))
         }
         [Ok(_), Err(_)] => Outcome::Broken,
         [Err(_), Ok(_)] => Outcome::Mended,
         [Err(_), Err(_)] => Outcome::StillBroken,
     };
-    for (problems, side) in problems.iter_mut().zip(sides) {
-        problems.extend(side.err().into_iter().flatten());
+    for (problems, program) in problems.iter_mut().zip(programs) {
+        problems.extend(program.err().into_iter().flatten());
     }
     Some(outcome)
 }
@@ -289,14 +364,74 @@ fn explain_change(
     reasons.map_err(|problem| new_problems.push(*problem)).ok()
 }
 
-/// Builds the scene of a path with its program.
-///
-/// # Errors
-/// The errors that prevent the program from being built.
-fn scene_path(session: &Session<'_>, known: &HashedPath) -> Result<ScenePath, Vec<Diagnostic>> {
-    let scene_path = session.scene(known.file, std::slice::from_ref(&known.name), ShownText::Native);
-    let path = scene_path.scene.paths.into_iter().next().filter(|path| path.gcode.is_some());
-    // Errors of the drawing as a whole have been reported already.
-    let is_of_path = |problem: &Diagnostic| problem.is_error() && problem.path.is_some();
-    path.ok_or_else(|| scene_path.diagnostics.into_iter().filter(is_of_path).collect())
+/// The program of a path on one side.
+struct CompiledPath {
+    /// The scene of the path, with its native moves.
+    path: ScenePath,
+    states: MachineStates,
+    /// The text that the post-processor writes, if it does.
+    posted: Option<Vec<u8>>,
+}
+
+impl CompiledSide<'_> {
+    /// Builds the program of a path.
+    ///
+    /// # Errors
+    /// The errors that prevent the program from being built.
+    fn program(&self, known: &HashedPath) -> Result<CompiledPath, Vec<Diagnostic>> {
+        let text = self.post_processor.map_or(ShownText::Native, |post| ShownText::Emitted(Some(post)));
+        let report = self.session.scene(known.file, std::slice::from_ref(&known.name), text);
+        let Some(path) = report.scene.paths.into_iter().next().filter(|path| path.gcode.is_some()) else {
+            // Errors of the drawing as a whole have been reported already.
+            let is_of_path = |problem: &Diagnostic| problem.is_error() && problem.path.is_some();
+            return Err(report.diagnostics.into_iter().filter(is_of_path).collect());
+        };
+        let posted = path.gcode.clone().filter(|_| path.native.is_some()).map(String::into_bytes);
+        let states = self.states(known, &path, posted.as_deref()).map_err(|problem| vec![*problem])?;
+        Ok(CompiledPath { path, states, posted })
+    }
+
+    /// Returns what the program states besides moves: the text of a post-processor, as it is read back, or else the drawing.
+    fn states(
+        &self,
+        known: &HashedPath,
+        path: &ScenePath,
+        posted: Option<&[u8]>,
+    ) -> Result<MachineStates, Box<Diagnostic>> {
+        let settings = &self.session.workspace().settings;
+        let mut states = match self.post_processor.zip(posted) {
+            None => MachineStates::of_drawing(path.tool),
+            Some((post_processor, text)) => {
+                let reading =
+                    ReadingOptions { dialect: post_processor.reader(), ..ReadingOptions::default() };
+                let translate = |text: &[u8], _: Option<&_>| {
+                    let (name, translated) = (post_processor.name(), post_processor.translate(text)?);
+                    Some(DefinitionTranslation { name, translated })
+                };
+                let file = (&*path.file).into();
+                let program = Program::of_text(settings, file, text.to_vec(), reading, &translate)?;
+                MachineStates::of(&program).with_drawn_cutter(path.tool)
+            }
+        };
+        // `emit` refuses to write a program that the post-processor cannot express.
+        let is_refused = self.post_processor.is_some() && posted.is_none();
+        states.set_post_processor(if is_refused { "" } else { &settings.general.post.value.name });
+        let pecks =
+            |db: &Database| program(db, known.target).as_deref().map_or_else(Vec::new, PathProgram::pecks);
+        let writes_pecks = self.post_processor.is_some() && settings.general.cycles.value;
+        let pecks = if writes_pecks { self.session.query_target(known.target, pecks)? } else { Vec::new() };
+        states.set_pecks(pecks.into_iter().map(|(_, depth)| depth));
+        Ok(states)
+    }
+}
+
+impl CompiledPath {
+    /// Returns the first line that differs from the old program and is no comment.
+    fn first_other_line(&self, old: &Self, post_processor: Option<&PostProcessor>) -> Option<StateChange> {
+        let (new, old) = (self.posted.as_ref()?, old.posted.as_ref()?);
+        let (line, was) = post_processor?.first_other_line(new, old)?;
+        let is = String::from_utf8_lossy(new);
+        let is = is.lines().nth(line as usize - 1).unwrap_or_default().to_owned();
+        Some(StateChange { kind: StateKind::OtherLine, words: [was, is], line: Some(line) })
+    }
 }

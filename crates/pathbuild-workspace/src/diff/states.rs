@@ -1,22 +1,33 @@
 //! Differences between two programs in what they state besides moves: tools, spindle, work offsets, stops and the like. (book: program/comparing)
 
-use pathbuild_diagnostic::Text;
+use pathbuild_diagnostic::{Number, Text};
+use pathbuild_gcode::header::HeaderReader;
 use pathbuild_gcode::interpret::code_name;
-use pathbuild_motion::{Action, Change, Coolant, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem};
+use pathbuild_motion::{
+    Action, Change, Coolant, Corners, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem,
+};
+
+use crate::program::Program;
 
 /// A kind of state change or event in a program, besides moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum StateKind {
+    PostProcessor,
     Tool,
+    Cutter,
     ToolLength,
     Spindle,
     Coolant,
     WorkOffset,
+    Corners,
+    Peck,
     Zero,
     Probe,
     Stop,
     Dwell,
+    /// Any other line of the written program, compared only if nothing else differs.
+    OtherLine,
 }
 
 /// The first difference between two programs in one [`StateKind`].
@@ -32,45 +43,60 @@ pub struct StateChange {
 
 impl StateKind {
     /// All kinds, in the order in which they are shown.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 14] = [
+        Self::PostProcessor,
         Self::Tool,
+        Self::Cutter,
         Self::ToolLength,
         Self::Spindle,
         Self::Coolant,
         Self::WorkOffset,
+        Self::Corners,
+        Self::Peck,
         Self::Zero,
         Self::Probe,
         Self::Stop,
         Self::Dwell,
+        Self::OtherLine,
     ];
 
     /// Returns the name of the kind in messages.
     pub fn text(self) -> &'static Text {
         match self {
+            Self::PostProcessor => &Text { en: "post-processor", de: "Postprozessor" },
             Self::Tool => &Text { en: "tool", de: "Werkzeug" },
+            Self::Cutter => &Text { en: "cutter", de: "Fräser" },
             Self::ToolLength => &Text { en: "tool length", de: "Werkzeuglänge" },
             Self::Spindle => &Text { en: "spindle", de: "Spindel" },
             Self::Coolant => &Text { en: "coolant", de: "Kühlung" },
             Self::WorkOffset => &Text { en: "work offset", de: "Nullpunktverschiebung" },
+            Self::Corners => &Text { en: "corners", de: "Ecken" },
+            Self::Peck => &Text { en: "peck depth", de: "Tiefe je Bohrstufe" },
             Self::Zero => &Text { en: "zero set by the program", de: "vom Programm gesetzter Nullpunkt" },
             Self::Probe => &Text { en: "probe", de: "Antasten" },
             Self::Stop => &Text { en: "stop", de: "Halt" },
             Self::Dwell => &Text { en: "dwell", de: "Wartezeit" },
+            Self::OtherLine => &Text { en: "line of the program", de: "Zeile des Programms" },
         }
     }
 
     /// Returns the name of the kind in JSON.
     pub fn name(self) -> &'static str {
         match self {
+            Self::PostProcessor => "post-processor",
             Self::Tool => "tool",
+            Self::Cutter => "cutter",
             Self::ToolLength => "tool-length",
             Self::Spindle => "spindle",
             Self::Coolant => "coolant",
             Self::WorkOffset => "work-offset",
+            Self::Corners => "corners",
+            Self::Peck => "peck",
             Self::Zero => "zero",
             Self::Probe => "probe",
             Self::Stop => "stop",
             Self::Dwell => "dwell",
+            Self::OtherLine => "other-line",
         }
     }
 
@@ -78,14 +104,20 @@ impl StateKind {
     fn is_event(self) -> bool {
         matches!(self, Self::Zero | Self::Probe | Self::Stop | Self::Dwell)
     }
+
+    /// Whether the steps of a program state it.
+    fn is_in_steps(self) -> bool {
+        !matches!(self, Self::PostProcessor | Self::Cutter | Self::Peck | Self::OtherLine)
+    }
 }
 
 /// The states of a machine while it runs a program.
 #[derive(Debug, Default)]
 pub struct MachineStates {
-    cuts: usize,
-    /// The states in effect at cuts, and the events, by kind.
-    stated: [Vec<StatedWords>; StateKind::ALL.len()],
+    /// Number of cuts; `None` if it is unknown.
+    cuts: Option<usize>,
+    /// The states in effect at cuts, and the events, by kind; `None` for a kind about which nothing is known, which is not compared.
+    stated: [Option<Vec<StatedWords>>; StateKind::ALL.len()],
 }
 
 /// Words of a program, with the cut from which they apply.
@@ -98,15 +130,70 @@ struct StatedWords {
 }
 
 impl MachineStates {
-    /// Returns the states of a program.
-    pub fn of(steps: &[Step]) -> Self {
-        let mut states = Self::default();
+    /// Returns the states of a program, with the cutters that its comments state.
+    pub fn of(program: &Program) -> Self {
+        let mut states = Self::of_steps(&program.read.steps);
+        let mut header = HeaderReader::default();
+        program.read.steps.iter().for_each(|step| header.step(step));
+        if program.by_definition.is_some() {
+            header.read_head_comments(&program.text);
+        }
+        let tools = header.finish(program.inch_word()).tools;
+        let cutters = tools.iter().map(|tool| Some((tool.line, cutter_words(tool.cutter?.diameter))));
+        let cutters: Option<Vec<(u32, String)>> = cutters.collect();
+        if let Some(cutters) = cutters.filter(|cutters| !cutters.is_empty()) {
+            states.set(StateKind::Cutter, cutters);
+        }
+        states
+    }
+
+    /// Returns what the drawing of a path states: only the diameter of its cutter.
+    pub fn of_drawing(cutter: Option<f64>) -> Self {
+        Self::default().with_drawn_cutter(cutter)
+    }
+
+    /// Replaces the cutters by that of the drawing, which every program of the path has.
+    pub(super) fn with_drawn_cutter(mut self, cutter: Option<f64>) -> Self {
+        self.stated[StateKind::Cutter as usize] = None;
+        if let Some(diameter) = cutter {
+            self.set(StateKind::Cutter, vec![(0, cutter_words(diameter))]);
+        }
+        self
+    }
+
+    /// Adds the name of the post-processor that writes the program.
+    pub(super) fn set_post_processor(&mut self, name: &str) {
+        self.set(StateKind::PostProcessor, vec![(0, name.to_owned())]);
+    }
+
+    /// Adds the depths of the pecks in which the elements are drilled, in their order.
+    pub(super) fn set_pecks(&mut self, pecks: impl Iterator<Item = Option<f64>>) {
+        let depth = |depth| format!("C{}", Number(depth));
+        let mut words: Vec<_> = pecks.map(|peck| (0, peck.map_or_else(String::new, depth))).collect();
+        words.dedup();
+        self.set(StateKind::Peck, words);
+    }
+
+    /// Sets the words of a kind, in their order, with the lines at which they stand; 0 stands for no line.
+    fn set(&mut self, kind: StateKind, words: Vec<(u32, String)>) {
+        let stated =
+            words.into_iter().enumerate().map(|(cut, (line, words))| StatedWords { cut, words, line });
+        self.stated[kind as usize] = Some(stated.collect());
+    }
+
+    fn of_steps(steps: &[Step]) -> Self {
+        let mut states = Self { cuts: Some(0), ..Self::default() };
+        for kind in StateKind::ALL.into_iter().filter(|kind| kind.is_in_steps()) {
+            states.stated[kind as usize] = Some(Vec::new());
+        }
+        let mut cuts = 0;
         let mut current = CurrentState::default();
         for step in steps {
             match &step.action {
                 Action::Move(Move { pace: Pace::Feed(_), .. }) => {
                     states.add_cut(step.line, &current);
-                    states.cuts += 1;
+                    cuts += 1;
+                    states.cuts = Some(cuts);
                 }
                 Action::Move(Move { pace: Pace::Probe { .. }, .. }) => {
                     states.add(StateKind::Probe, step.line, PROBE.to_owned());
@@ -128,7 +215,7 @@ impl MachineStates {
     /// Adds the words in effect at a cut, as far as they changed since the cut before.
     fn add_cut(&mut self, line: u32, current: &CurrentState) {
         for (kind, words) in current.words() {
-            let last = self.stated[kind as usize].last();
+            let last = self.stated[kind as usize].as_ref().and_then(|stated| stated.last());
             if last.is_none_or(|last| last.words != words) {
                 self.add(kind, line, words);
             }
@@ -136,18 +223,19 @@ impl MachineStates {
     }
 
     fn add(&mut self, kind: StateKind, line: u32, words: String) {
-        self.stated[kind as usize].push(StatedWords { cut: self.cuts, words, line });
+        let stated = StatedWords { cut: self.cuts.unwrap_or_default(), words, line };
+        self.stated[kind as usize].get_or_insert_default().push(stated);
     }
 
-    /// Returns the first difference of each kind. If the programs have different numbers of cuts, their words are compared in order, regardless of
-    /// the cuts to which they apply.
+    /// Returns the first difference of each kind that is known on both sides. If the programs have different numbers of cuts, their words are compared
+    /// in order, regardless of the cuts to which they apply.
     pub fn changes(&self, new: &Self) -> Vec<StateChange> {
         StateKind::ALL.into_iter().filter_map(|kind| self.first_change(new, kind)).collect()
     }
 
     fn first_change(&self, new: &Self, kind: StateKind) -> Option<StateChange> {
-        let has_same_cuts = self.cuts == new.cuts;
-        let sides = [&self.stated[kind as usize], &new.stated[kind as usize]];
+        let has_same_cuts = self.cuts.is_some() && self.cuts == new.cuts;
+        let sides = [self.stated[kind as usize].as_ref()?, new.stated[kind as usize].as_ref()?];
         let differs = |at: &usize| match sides.map(|side| side.get(*at)) {
             [Some(old), Some(new)] => old.words != new.words || has_same_cuts && old.cut != new.cut,
             _ => true,
@@ -162,7 +250,8 @@ impl MachineStates {
             // The previous words of this side still apply.
             None => at.checked_sub(1).map_or_else(String::new, |before| sides[side][before].words.clone()),
         });
-        Some(StateChange { kind, words, line: found[1].map(|stated| stated.line) })
+        let line = found[1].map(|stated| stated.line).filter(|line| *line > 0);
+        Some(StateChange { kind, words, line })
     }
 }
 
@@ -181,6 +270,8 @@ struct CurrentState {
     spindle: Spindle,
     coolant: Option<Coolant>,
     system: String,
+    /// The words for the behaviour at corners. A program without any depends on the settings of the control.
+    corners: String,
 }
 
 impl Default for CurrentState {
@@ -194,6 +285,7 @@ impl Default for CurrentState {
             coolant: None,
             // Controls start in G54.
             system: WorkSystem::default().name().into_owned(),
+            corners: String::new(),
         }
     }
 }
@@ -207,11 +299,12 @@ impl CurrentState {
             Action::Coolant(coolant) => self.coolant = Some(*coolant),
             Action::System { system, .. } => self.system = system.name().into_owned(),
             Action::Change(Change::ToolLength(length)) => self.length = length_words(*length),
+            Action::Change(Change::Corners(corners)) => self.corners = corner_words(*corners),
             _ => {}
         }
     }
 
-    fn words(&self) -> [(StateKind, String); 5] {
+    fn words(&self) -> [(StateKind, String); 6] {
         let tool = if self.has_changed { self.inserted } else { self.selected };
         [
             (StateKind::Tool, tool.map_or_else(String::new, |number| format!("T{number}"))),
@@ -219,7 +312,20 @@ impl CurrentState {
             (StateKind::Spindle, spindle_words(self.spindle)),
             (StateKind::Coolant, self.coolant.map_or_else(String::new, coolant_words)),
             (StateKind::WorkOffset, self.system.clone()),
+            (StateKind::Corners, self.corners.clone()),
         ]
+    }
+}
+
+fn cutter_words(diameter: f64) -> String {
+    format!("O{}", Number((diameter * 1000.0).round() / 1000.0))
+}
+
+fn corner_words(corners: Corners) -> String {
+    match corners {
+        Corners::Exact => "G61".to_owned(),
+        Corners::Rounded(None) => "G64".to_owned(),
+        Corners::Rounded(Some(tolerance)) => format!("G64 P{}", Number(tolerance)),
     }
 }
 

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Number};
 use pathbuild_gcode::native::{WriteOptions, write_program};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::{ElementParameters, PathName, PathRole};
-use pathbuild_toolpath::{Correction, PlannedMove, ProgramStep};
+use pathbuild_toolpath::{Correction, PlannedMove, Program, ProgramStep};
 use pathbuild_view::{
     self as view, DrawnSource, EmittedText, Example, FinishedPart, ProgramSource, Scene, ScenePath,
 };
@@ -49,11 +49,8 @@ impl Session<'_> {
             names.flat_map(|(file, names)| names.iter().map(move |name| (file, name.clone()))).collect();
         let checked =
             self.map_with_checker(&paths, |checker, (file, name)| checker.check_leniently(*file, name));
-        let hash = |db: &Database, checked: &CheckedTarget| {
-            program(db, checked.target)
-                .as_deref()
-                .map(|program| Provenance::of_programs(&[program], &[], None).moves)
-        };
+        let hash =
+            |db: &Database, checked: &CheckedTarget| program(db, checked.target).as_deref().map(move_hash);
         let hashes = self.map_guarded(&checked, hash);
         let hashed =
             |(((file, name), checked), hash): (((SourceFile, _), CheckedTarget), Result<_, Box<_>>)| {
@@ -72,6 +69,14 @@ impl Session<'_> {
             };
         paths.into_iter().zip(checked).zip(hashes).map(hashed).collect()
     }
+}
+
+/// Hashes everything in a program that can change what a machine does: its moves, and its pecks, which only post-processors write.
+fn move_hash(program: &Program) -> Box<str> {
+    let moves = Provenance::of_programs(&[program], &[], None).moves;
+    let pecks: Vec<(u32, f64)> =
+        program.pecks().into_iter().filter_map(|(step, peck)| Some((step, peck?))).collect();
+    if pecks.is_empty() { moves } else { format!("{moves} {pecks:?}").into() }
 }
 
 /// Whether a limit or a bug kept a program from being built, which does not mean that the drawing is wrong.

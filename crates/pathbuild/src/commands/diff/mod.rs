@@ -7,9 +7,9 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::MissingOption;
 use pathbuild_db::system::{FileKind, is_drawing};
 use pathbuild_diagnostic::messages::outputs;
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{Options, interpret};
+use pathbuild_gcode::interpret::{Heights, Options, Program as _, interpret};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 use pathbuild_workspace::diff::{
@@ -67,8 +67,7 @@ fn compare_two_programs(old: ComparedProgram, new: ComparedProgram, pictures: Op
     let outcome = match [&old, &new].map(|seen| seen.are_moves_known) {
         [true, true] => {
             let changed = compare_moves(&old.path, &new.path, pictures);
-            let states = old.states.as_ref().zip(new.states.as_ref());
-            let states = states.map_or_else(Vec::new, |(old, new)| old.changes(new));
+            let states = old.states.changes(&new.states);
             let is_same = changed.groups.is_empty() && states.is_empty();
             (!is_same).then(|| Outcome::Changed(Box::new(ProgramDiff { states, ..changed })))
         }
@@ -121,8 +120,8 @@ pub(super) struct Drawings {
 /// A program, or the program of a path.
 pub(super) struct ComparedProgram {
     pub(super) path: ScenePath,
-    /// The states of the machine; `None` for the program of a path.
-    pub(super) states: Option<MachineStates>,
+    /// The states of the machine; of a path's program only the cutter.
+    pub(super) states: MachineStates,
     /// Whether pathbuild interprets all words of the program that may move the tool.
     pub(super) are_moves_known: bool,
     pub(super) problems: Vec<Diagnostic>,
@@ -143,9 +142,13 @@ pub(super) fn sides(context: &Context, args: &DiffArgs) -> Result<[Side; 2], Fai
     let kinds = arguments.map(|argument| kind_of(context, argument));
     let is_program = |kind: &ArgumentKind| *kind == ArgumentKind::Program;
     let beside = kinds.iter().position(is_program).map(|place| Utf8Path::new(arguments[place]));
+    let is_one_drawing = |argument: &&&str| is_drawing_file(context, Utf8Path::new(argument));
+    let drawing = arguments.iter().find(is_one_drawing).map(|argument| Utf8Path::new(*argument));
     let side = |argument: &str, kind_of| match (kind_of, beside) {
         (ArgumentKind::Program, _) => {
-            program(context, Utf8Path::new(argument), args).map(Box::new).map(Side::Program)
+            let heights =
+                if kinds.contains(&ArgumentKind::Name) { Heights::Nominal } else { Heights::AsWritten };
+            program(context, Utf8Path::new(argument), heights, args).map(Box::new).map(Side::Program)
         }
         (ArgumentKind::Name, Some(program)) => {
             path(context, argument, program, args).map(Box::new).map(Side::Program)
@@ -153,10 +156,28 @@ pub(super) fn sides(context: &Context, args: &DiffArgs) -> Result<[Side; 2], Fai
         (ArgumentKind::Drawings, _) => drawings_side(context, argument.into(), None),
         (ArgumentKind::Name, None) => {
             let revision = revision::check_out(context, argument).map_err(Failure::Usage)?;
-            drawings_side(context, revision.root.clone(), Some(revision))
+            let place = match drawing {
+                Some(drawing) => {
+                    revision.place_of(context, drawing).ok_or_else(|| not_in_repository(context, drawing))?
+                }
+                None => revision.root.clone(),
+            };
+            drawings_side(context, place, Some(revision))
         }
     };
     Ok([side(&args.old, kinds[0])?, side(new, kinds[1])?])
+}
+
+fn not_in_repository(context: &Context, drawing: &Utf8Path) -> Failure {
+    Failure::Usage(context.phrase(
+        "{} is not in the repository of the working directory: run `diff` in the repository of the drawing",
+        "{} ist nicht im Repository des Arbeitsverzeichnisses: `diff` im Repository der Zeichnung aufrufen",
+        &shown::line(drawing.as_str()),
+    ))
+}
+
+fn is_drawing_file(context: &Context, place: &Utf8Path) -> bool {
+    is_drawing(place) && context.system.kind(place) == FileKind::File
 }
 
 fn kind_of(context: &Context, argument: &str) -> ArgumentKind {
@@ -238,12 +259,23 @@ impl Drawings {
     }
 }
 
-fn program(context: &Context, file: &Utf8Path, args: &DiffArgs) -> Result<ComparedProgram, Failure> {
-    let program = Program::open(context, file, args.reading.options())
+/// Reads a program. With nominal heights, a program with corrected heights is the one that was drawn.
+fn program(
+    context: &Context,
+    file: &Utf8Path,
+    heights: Heights,
+    args: &DiffArgs,
+) -> Result<ComparedProgram, Failure> {
+    let mut program = Program::open(context, file, args.reading.options())
         .map_err(|problem| Failure::Found(vec![*problem]))?;
+    if heights == Heights::Nominal {
+        let mut steps = Vec::with_capacity(program.read.steps.len());
+        program.at_nominal_heights().each(&mut |step| steps.push(step.clone()));
+        program.read.steps = steps;
+    }
     Ok(ComparedProgram {
         path: program.scene_path(context),
-        states: Some(MachineStates::of(&program.read.steps)),
+        states: MachineStates::of(&program),
         are_moves_known: program.are_moves_known(),
         problems: program.read.problems,
     })
@@ -287,11 +319,13 @@ fn path(
         if !missing.is_empty() {
             return Err(Failure::Usage(missing_values(context, missing)));
         }
+        let cutter = path.tool;
         let path = match post_processor {
             Some(_) if path.native.is_some() => with_posted_program(context, path, args)?,
             _ => with_printed_program(path),
         };
-        Ok(ComparedProgram { path, states: None, are_moves_known: true, problems: seen.diagnostics })
+        let states = MachineStates::of_drawing(cutter);
+        Ok(ComparedProgram { path, states, are_moves_known: true, problems: seen.diagnostics })
     })
 }
 
@@ -321,7 +355,8 @@ fn with_posted_program(context: &Context, path: ScenePath, args: &DiffArgs) -> R
 /// Replaces a path's program by its native text as read back, so that numbers are rounded as printed.
 fn with_printed_program(path: ScenePath) -> ScenePath {
     let text = path.gcode.unwrap_or_default();
-    let read = interpret(text.as_bytes(), Dialect::Native, &Options::default());
+    let options = Options { heights: Heights::Nominal, ..Options::default() };
+    let read = interpret(text.as_bytes(), Dialect::Native, &options);
     let source = GcodeSource {
         file: &path.file,
         steps: &read.steps,

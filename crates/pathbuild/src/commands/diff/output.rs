@@ -181,7 +181,7 @@ fn message(reason: &Reason, lang: Lang) -> String {
 
 fn line(group: &Group, lang: Lang) -> String {
     let first = lang.choose("the first to", "die erste nach");
-    let at = group.at.map(|[x, y]| format!(", {first} ({}, {})", Number(x), Number(y))).unwrap_or_default();
+    let at = group.at.map(|[x, y]| format!(", {first} X{} Y{}", Number(x), Number(y))).unwrap_or_default();
     format!("{}: {}, {} mm{at}", phrase(group, lang), moves(group, lang), tenths(group.length).prose(lang))
 }
 
@@ -402,7 +402,12 @@ fn group(group: &Group) -> Value {
             "shifted"
         }
         Some(ChangeKind::Altered { raised, feed, passes }) => {
-            value["raised"] = json!(raised);
+            let [least, most] = raised;
+            // The height by which the ground changes most.
+            value["raised"] = json!(if -least > most { least } else { most });
+            if least != most {
+                value["raised_between"] = json!(raised);
+            }
             value["feed"] = json!(feed);
             value["passes"] = json!(passes);
             "altered"

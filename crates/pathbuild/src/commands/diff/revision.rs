@@ -22,6 +22,10 @@ pub(super) struct Revision {
     pub(super) root: Utf8PathBuf,
     /// The submodules: their directories in the checkout, which are empty, and in the working tree.
     pub(super) submodules: Vec<[Utf8PathBuf; 2]>,
+    /// Root directories of the checkout and of the repository.
+    roots: [Utf8PathBuf; 2],
+    /// An empty directory, for a drawing that the revision lacks.
+    empty: Utf8PathBuf,
     _files: TemporaryDirectory,
 }
 
@@ -85,8 +89,8 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     let repository = Repository::of(context, Utf8Path::new(""))?;
     let tree = repository.tree(name).map_err(|reason| {
         let neither = context.phrase(
-            "{} is neither a directory nor a program nor a revision",
-            "{} ist weder ein Verzeichnis noch ein Programm noch eine Revision",
+            "{} is neither a directory nor a program nor a revision; to compare a path, name its drawing (.dxf)",
+            "{} ist weder ein Verzeichnis noch ein Programm noch eine Revision; für einen Pfad dessen Zeichnung (.dxf) nennen",
             &format!("{name:?}"),
         );
         repository.shallow_clone_advice(name).unwrap_or_else(|| format!("{neither} ({reason})"))
@@ -108,10 +112,24 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     let submodules = entries.iter().filter(|entry| entry.kind == EntryKind::Submodule && entry.is_plain());
     let submodules =
         submodules.map(|entry| [whole.join(&entry.name), repository.root.join(&entry.name)]).collect();
-    let root = if below.as_str().is_empty() { whole } else { whole.join(below) };
+    let root = if below.as_str().is_empty() { whole.clone() } else { whole.join(below) };
+    let empty = place.join("empty");
+    fs::create_dir_all(&empty).map_err(|error| error.to_string())?;
     // The revision may lack the working directory: then it has no drawings.
     fs::create_dir_all(&root).map_err(|error| error.to_string())?;
-    Ok(Revision { name: name.to_owned(), root, submodules, _files: files })
+    let roots = [whole, repository.root.clone()];
+    Ok(Revision { name: name.to_owned(), root, submodules, roots, empty, _files: files })
+}
+
+impl Revision {
+    /// Returns the place of a drawing in the checkout; an empty directory if the revision lacks it; `None` if the drawing is not in the repository.
+    pub(super) fn place_of(&self, context: &Context, drawing: &Utf8Path) -> Option<Utf8PathBuf> {
+        let [checkout, repository] = &self.roots;
+        let drawing = context.working_directory.join(drawing);
+        let directory = context.system.canonical(drawing.parent()?);
+        let place = checkout.join(directory.strip_prefix(repository).ok()?).join(drawing.file_name()?);
+        Some(if place.is_file() { place } else { self.empty.clone() })
+    }
 }
 
 fn temporary_directory_path(context: &Context, files: &TempDir) -> Result<Utf8PathBuf, String> {
