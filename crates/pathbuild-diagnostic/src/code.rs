@@ -126,7 +126,7 @@ codes! {
     208 InvalidAtReference "invalid-at-reference" Error "an invalid use of @: with other letters, without a path, or with a path that uses @";
     209 InvalidRegex "invalid-regex" Error "an invalid regular expression in E";
     210 ParameterWithoutEffect "parameter-without-effect" Warning "parameter without effect";
-    211 DoubtfulValue "doubtful-value" Warning "a permitted but unlikely value of B, D, I, F or W";
+    211 DoubtfulValue "doubtful-value" Warning "a permitted but unlikely value";
     212 LostBars "lost-bars" Warning "P or U in a path without support bars";
     213 GougedPart "gouged-part" Error "a cut goes into the finished part; up to 0.1 mm deep, a warning";
     214 GougedNeighbour "gouged-neighbour" Error "a cut of one component goes into the part of another";

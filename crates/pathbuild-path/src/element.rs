@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Text, words};
 use smol_str::SmolStr;
 
-use crate::approx::{at_least, near};
+use crate::approx::at_least;
 use crate::geometry::{Curve, Xy};
 use crate::letter::{ElementClass, Letter};
 use crate::line_type::LineType;
@@ -197,13 +197,18 @@ impl ElementClass {
     }
 }
 
-/// Tolerance in mm within which a circle has the cutter's diameter and is a drilled hole: numbers with three decimals cannot distinguish the two.
-const DRILLED_DIAMETER_TOLERANCE: f64 = 0.001;
+/// Tolerance in mm within which a circle has the cutter's diameter, or that of a marker: numbers with three decimals cannot distinguish the two.
+const DIAMETER_TOLERANCE: f64 = 0.001;
+
+/// Whether a circle of this radius in mm has the same diameter as one of another radius.
+pub(crate) fn has_diameter_of(radius: f64, other: f64) -> bool {
+    at_least(DIAMETER_TOLERANCE, 2.0 * (radius - other).abs())
+}
 
 /// Returns the class of a circle. One with the cutter's diameter is drilled, whatever its line type.
 fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
     let Some(tool) = tool else { return ElementClass::UnknownCircle };
-    if at_least(DRILLED_DIAMETER_TOLERANCE, (2.0 * radius - tool).abs()) {
+    if has_diameter_of(radius, tool / 2.0) {
         if cut == Cut::Mark { ElementClass::DrilledMark } else { ElementClass::DrilledHole }
     } else if radius < tool / 2.0 {
         ElementClass::UnknownCircle
@@ -241,7 +246,8 @@ pub(crate) const PROBE_RADIUS: f64 = 3.0;
 
 /// Returns the meaning of a circle by its line type and its radius in mm.
 pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning {
-    let is_probe = near(radius, PROBE_RADIUS);
+    let is = |marker: f64| has_diameter_of(radius, marker);
+    let is_probe = is(PROBE_RADIUS);
     match line_type {
         LineType::Continuous => CircleMeaning::Cut(Cut::Mill),
         LineType::Divide => CircleMeaning::Cut(Cut::Mark),
@@ -249,9 +255,9 @@ pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning 
         LineType::Dashed | LineType::Hidden => CircleMeaning::UnknownLineType,
         LineType::Dashdot | LineType::Phantom if is_probe => CircleMeaning::Probe,
         LineType::Dot if is_probe => CircleMeaning::IgnoredProbe,
-        LineType::Phantom if near(radius, START_RADIUS) => CircleMeaning::Start,
-        LineType::Phantom if near(radius, TURN_RADIUS) => CircleMeaning::Turn,
-        LineType::Phantom if near(radius, END_RADIUS) => CircleMeaning::End,
+        LineType::Phantom if is(START_RADIUS) => CircleMeaning::Start,
+        LineType::Phantom if is(TURN_RADIUS) => CircleMeaning::Turn,
+        LineType::Phantom if is(END_RADIUS) => CircleMeaning::End,
         LineType::Dashdot | LineType::Dot | LineType::Phantom => CircleMeaning::UnknownDiameter,
     }
 }

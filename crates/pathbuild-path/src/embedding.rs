@@ -391,8 +391,14 @@ impl<'a> SubpathChecker<'a> {
                 self.at(call, Diagnostic::new(&messages::MISSING_NAME), text.as_ref())
             }
             SubpathName::Invalid { value } => {
-                let problem = Diagnostic::new(&messages::INVALID_NAME).quoting("value", &**value);
-                self.at_name(call, problem.quoting("pattern", self.language.path_pattern.as_str()))
+                let pattern = &self.language.path_pattern;
+                let problem = match pattern.meant_by(value) {
+                    Some(meant) => {
+                        Diagnostic::new(&messages::NAME_WITHOUT_POINT).quoting("meant", meant.as_str())
+                    }
+                    None => Diagnostic::new(&messages::INVALID_NAME).quoting("pattern", pattern.as_str()),
+                };
+                self.at_name(call, problem.quoting("value", &**value))
             }
             SubpathName::Found { name, has_more: Some(value) } if self.is_other_name(name, value) => {
                 let problem = Diagnostic::new(&messages::NAME_GOES_ON).quoting("value", &**value);

@@ -194,6 +194,8 @@ pub(crate) struct DrawingFaults {
     pub(crate) unclear_curves: Vec<Element>,
     /// Variables with an erroneous definition.
     pub(crate) variables: Vec<char>,
+    /// A text with O and T that does not belong to the start marker, and its position.
+    pub(crate) path_text: Option<(SmolStr, Xy)>,
 }
 
 /// Properties of a path that errors leave unknown, after its variables are bound.

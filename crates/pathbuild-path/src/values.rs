@@ -442,5 +442,58 @@ pub(crate) fn check_doubts(
         let problem = Diagnostic::new(&messages::PECKS_WITHOUT_CYCLES).with("letter", Letter::C.as_char());
         own.underline(Letter::C, problem)
     });
-    [below, infeed, feed, chips, lowered, pecks].into_iter().flatten().collect()
+    let thousands = value(Letter::F).and_then(|feed| thousands_doubt(own, feed));
+    let zeros = LENGTHS.into_iter().filter_map(|letter| zero_doubt(own, letter, value(letter)?));
+    [below, infeed, feed, chips, lowered, pecks, thousands].into_iter().flatten().chain(zeros).collect()
+}
+
+/// Feed in mm/min below which three decimals were probably meant as thousands: F1.200 is slower than any cutter should go.
+const MIN_FEED_WITH_DECIMALS: f64 = 10.0;
+
+/// Returns the finding about a feed like F1.200 or F1,200, which was probably meant as 1200 mm/min.
+fn thousands_doubt(own: &Values<'_>, feed: f64) -> Option<Diagnostic> {
+    let written = own.text(Letter::F)?;
+    let (thousands, rest) = written.split_once(['.', ','])?;
+    if rest.len() != 3 || feed >= MIN_FEED_WITH_DECIMALS {
+        return None;
+    }
+    let meant = [thousands, rest].concat();
+    let meant = meant.trim_start_matches(['+', '0']);
+    let problem = Diagnostic::new(&messages::FEED_WITH_THOUSANDS)
+        .quoting("written", written)
+        .with("value", feed)
+        .quoting("meant", format!("F{meant}"));
+    Some(own.underline(Letter::F, problem))
+}
+
+/// The letters with lengths in mm.
+const LENGTHS: [Letter; 12] = [
+    Letter::A,
+    Letter::B,
+    Letter::C,
+    Letter::D,
+    Letter::H,
+    Letter::I,
+    Letter::O,
+    Letter::P,
+    Letter::S,
+    Letter::T,
+    Letter::U,
+    Letter::W,
+];
+
+/// Returns the finding about a length like I03, which was probably meant as 0.3 mm.
+fn zero_doubt(own: &Values<'_>, letter: Letter, length: f64) -> Option<Diagnostic> {
+    let written = own.text(letter)?;
+    let sign = if length < 0.0 { "-" } else { "" };
+    let digits = written.trim_start_matches(['+', '-']).trim_end_matches(['.', ',']).strip_prefix('0')?;
+    if length == 0.0 || digits.is_empty() || !digits.bytes().all(|digit| digit.is_ascii_digit()) {
+        return None;
+    }
+    let problem = Diagnostic::new(&messages::ZERO_BEFORE_NUMBER)
+        .with("letter", letter.as_char())
+        .quoting("written", written)
+        .with("value", length)
+        .quoting("meant", format!("{}{sign}0.{digits}", letter.as_char()));
+    Some(own.underline(letter, problem))
 }

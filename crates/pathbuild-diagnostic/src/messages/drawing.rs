@@ -153,6 +153,35 @@ messages! {
         help_en: "move the text nearer to its element, or put both on a tilde layer of their own (the path's name with ~ and letters added)",
         help_de: "den Text näher an sein Element schieben oder beide auf einen eigenen Tilde-Layer legen (Name des Pfads, ~ und Buchstaben)",
     }
+    /// A text whose nearest element has another text, so that it belongs to an element farther away.
+    NEARER_HAS_A_TEXT: DoubtfulText {
+        en: "the text \"{text}\" belongs to {element} at {point}, though {other} at {other_point} is {margin} mm nearer: that one already has the text \"{other_text}\"",
+        de: "zum Text \"{text}\" gehört {element} bei {point}, obwohl {other} bei {other_point} {margin} mm näher ist: dort gibt es schon den Text \"{other_text}\"",
+        help_en: "write all letters of an element into one text; if the element is the right one, move the text nearer to it, or put both on a tilde layer of their own (the path's name with ~ and letters added)",
+        help_de: "alle Buchstaben eines Elements in einen Text schreiben; ist das Element das richtige, den Text näher daran schieben oder beide auf einen eigenen Tilde-Layer legen (Name des Pfads, ~ und Buchstaben)",
+    }
+    /// A text that is nearer to an element on another layer of the same path.
+    NEARER_ON_OTHER_LAYER: DoubtfulText {
+        en: "the text \"{text}\" belongs to {element} at {point}, though {other} at {other_point} on layer {layer} is {margin} mm nearer",
+        de: "zum Text \"{text}\" gehört {element} bei {point}, obwohl {other} bei {other_point} auf Layer {layer} {margin} mm näher ist",
+        help_en: "move the text to layer {layer}, or away from the element there: text and element must be on exactly the same layer",
+        help_de: "den Text auf Layer {layer} legen oder von dem Element dort wegschieben: Text und Element müssen auf genau demselben Layer liegen",
+    }
+    /// Note: the text lies on a HIDDEN line or arc.
+    HIDDEN_TAKES_NO_TEXT: TextWithoutElement {
+        en: "the HIDDEN element at {point}, which the text lies on, takes no text: draw it DASHED to give it N or S, DASHDOT to embed a path with >",
+        de: "das Element mit Linientyp HIDDEN bei {point}, auf dem der Text liegt, nimmt keinen Text an: für N und S als DASHED zeichnen, zum Einbetten mit > als DASHDOT",
+    }
+    /// Note: the text lies on the end marker.
+    END_TAKES_NO_TEXT: TextWithoutElement {
+        en: "the end marker at {point}, which the text lies on, takes no text",
+        de: "die Endmarke bei {point}, auf der der Text liegt, nimmt keinen Text an",
+    }
+    /// Note: the text lies on a turn marker.
+    TURN_TAKES_NO_TEXT: TextWithoutElement {
+        en: "the turn marker at {point}, which the text lies on, takes no text",
+        de: "die Wendemarke bei {point}, auf der der Text liegt, nimmt keinen Text an",
+    }
     /// Note: the nearest element.
     NEAREST_ELEMENT: TextWithoutElement {
         en: "the nearest element is {element} at {point}, {distance} mm away from the text's circle",
@@ -203,6 +232,13 @@ messages! {
         de: "der Text \"{text}\" hat keine Wirkung: Layer {layer} gehört zu keinem Pfad",
         help_en: "move it to layer {path_layer}, where it would belong to {element} at {point}; if it is a remark, move it off the element",
         help_de: "auf Layer {path_layer} legen, wo {element} bei {point} zu ihm gehören würde; ist er eine Bemerkung, vom Element wegschieben",
+    }
+    /// A Z-probe on a layer without a path.
+    PROBE_ON_OTHER_LAYER: TextOnOtherLayer {
+        en: "the circle of 6 mm at {point} with the text \"{text}\" is no probe: layer {layer} belongs to no path",
+        de: "der Kreis von 6 mm bei {point} mit dem Text \"{text}\" ist keine Probe: Layer {layer} gehört zu keinem Pfad",
+        help_en: "move circle and text to the layer of the path; if the text is a remark, move it off the circle",
+        help_de: "Kreis und Text auf den Layer des Pfads legen; ist der Text eine Bemerkung, vom Kreis wegschieben",
     }
     /// A text on a layer without clamps that looks like the height of a clamp.
     HEIGHT_ON_OTHER_LAYER: TextOnOtherLayer {

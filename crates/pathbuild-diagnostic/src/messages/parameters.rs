@@ -22,6 +22,11 @@ messages! {
         help_en: "write O (cutter diameter) and T (thickness of the material) in the text of the start marker; every path needs both",
         help_de: "O (Fräserdurchmesser) und T (Materialdicke) in den Text der Anfangsmarke schreiben; jeder Pfad braucht beide",
     }
+    /// Note: the text with O and T, which belongs to another element because the start marker has this one.
+    PATH_TEXT_ELSEWHERE: MissingParameter {
+        en: "the text \"{text}\" at {point} has O and T, but the start marker took this text first: move this text away from the start marker",
+        de: "der Text \"{text}\" bei {point} hat O und T, die Anfangsmarke hat aber zuerst diesen Text bekommen: diesen Text von der Anfangsmarke wegschieben",
+    }
     /// A missing M where a path is embedded.
     MISSING_MATERIAL: MissingParameter {
         en: "M is missing: no material is given on {where}",
@@ -253,6 +258,20 @@ messages! {
         help_en: "write the infeed of one pass, for example I0.5",
         help_de: "die Zustellung eines Durchgangs schreiben, zum Beispiel I0.5",
     }
+    /// A feed whose decimal separator was probably meant to separate thousands.
+    FEED_WITH_THOUSANDS: DoubtfulValue {
+        en: "F{written} is a feed of {value} mm/min: a point or comma begins the decimals",
+        de: "F{written} ist ein Vorschub von {value} mm/min: Punkt oder Komma beginnt die Nachkommastellen",
+        help_en: "write {meant} if that is meant: a feed has no separator of thousands",
+        help_de: "wenn das gemeint ist, {meant} schreiben: ein Vorschub hat kein Tausendertrennzeichen",
+    }
+    /// A whole number with a zero before it, whose decimal point was probably forgotten.
+    ZERO_BEFORE_NUMBER: DoubtfulValue {
+        en: "{letter}{written} is read as {letter}{value}",
+        de: "{letter}{written} wird als {letter}{value} gelesen",
+        help_en: "write {meant} if the decimal point is missing, or else {letter}{value}",
+        help_de: "{meant} schreiben, wenn der Dezimalpunkt fehlt, sonst {letter}{value}",
+    }
     /// A mark that cuts through most of the material.
     DEEP_MARK: DoubtfulValue {
         en: "D is {value}: the mark is {depth} mm deep in material of {thickness} mm",
@@ -441,6 +460,13 @@ messages! {
         de: "{letter} hat hier keine Wirkung",
         help_en: "remove it",
         help_de: "entfernen",
+    }
+    /// Parameters of a milling segment on a DOT line, which is a subpath that is left out.
+    PARAMETERS_ON_DOT: ParameterWithoutEffect {
+        en: "the text \"{text}\" has no effect: a DOT line is a subpath that is left out",
+        de: "der Text \"{text}\" hat keine Wirkung: eine Linie mit Linientyp DOT ist ein Unterpfad, der ausgelassen wird",
+        help_en: "to mill along the line, draw it CONTINUOUS, or BORDER for support bars; to leave it as a sweep, remove the text",
+        help_de: "zum Fräsen die Linie als CONTINUOUS zeichnen, mit Stützstegen als BORDER; soll sie eine Leerfahrt bleiben, den Text entfernen",
     }
     /// A variable that no text refers to.
     UNUSED_VARIABLE: ParameterWithoutEffect {

@@ -73,6 +73,13 @@ messages! {
         help_en: "connect them with the path, remove them, or move them to another layer",
         help_de: "mit dem Pfad verbinden, entfernen oder auf einen anderen Layer legen",
     }
+    /// A dead end that is not reached because the path went on to its end before.
+    UNREACHED_BRANCH: UnreachedSegments {
+        en: "segments not reached: {left}; the path went past {point}, where {element} branches off, and ends here",
+        de: "nicht alle Segmente wurden erreicht; übrig: {left}; der Pfad lief an {point} vorbei, wo {element} abzweigt, und endet hier",
+        help_en: "give the dead end a smaller N than the segment on which the path goes on from there (HIDDEN takes no N: use DASHED), and put a turn marker (a PHANTOM circle of 1.5 mm) at its tip",
+        help_de: "der Sackgasse ein kleineres N geben als dem Segment, auf dem der Pfad von dort weiterläuft (HIDDEN nimmt kein N: DASHED verwenden), und an ihrer Spitze eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm)",
+    }
     /// A segment that is not reached because it is drawn twice.
     UNREACHED_TWICE: UnreachedSegments {
         en: "{element} at {point} is drawn twice, but the path runs along only one of the two; segments not reached: {left}",
@@ -191,6 +198,13 @@ messages! {
         de: "\"{value}\" ist kein Pfadname",
         help_en: "write a name that matches {pattern}",
         help_de: "einen Namen schreiben, der {pattern} entspricht",
+    }
+    /// `>` and a path name with an underscore or comma instead of its point.
+    NAME_WITHOUT_POINT: InvalidPathName {
+        en: "\"{value}\" is not a path name",
+        de: "\"{value}\" ist kein Pfadname",
+        help_en: "write \">{meant}\": an underscore means a point only in names of layers",
+        help_de: "\">{meant}\" schreiben: nur in Layernamen steht ein Unterstrich für einen Punkt",
     }
     /// Further text after the name.
     MORE_THAN_NAME: InvalidPathName {

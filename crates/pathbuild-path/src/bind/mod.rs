@@ -252,12 +252,22 @@ impl<'a> Binder<'a> {
         Surface { origin, thickness, text: self.raw.parameters }
     }
 
+    /// Adds to PB201 the text that was probably meant for the start marker, which has another one.
+    fn with_path_text(&self, problem: Diagnostic) -> Diagnostic {
+        let Some((text, at)) = &self.raw.faults.path_text else { return problem };
+        let text = Value::quoted(text.replace('\n', " "));
+        problem.note(
+            &messages::PATH_TEXT_ELSEWHERE,
+            vec![("text", text), ("point", diagnostic_point(*at).into())],
+        )
+    }
+
     fn check_path_values(&mut self) {
         let mut problems = std::mem::take(&mut self.values.problems);
         let is_missing = |letter: &Letter| !self.values.may_give(*letter);
         for letter in ElementClass::PathStart.needed_letters().filter(is_missing) {
             let missing = Diagnostic::new(&messages::MISSING_AT_START).with("letter", letter.as_char());
-            problems.push(missing.with_text(self.raw.parameters().whole_text_fault()));
+            problems.push(self.with_path_text(missing.with_text(self.raw.parameters().whole_text_fault())));
         }
         if let Some(Err(error)) = self.values.text(Letter::E).map(Regex::new) {
             let problem = Diagnostic::new(&messages::INVALID_REGEX).with("reason", regex_reason(&error));

@@ -92,9 +92,7 @@ impl PathPattern {
     pub fn layer(&self, layer: &str) -> Option<PathLayer> {
         let name = without_tilde(layer);
         let path = with_points(name);
-        self.0
-            .matches(&path)
-            .then(|| PathLayer { path: PathName(path.into()), tilde: name.len() != layer.len() })
+        self.0.matches(&path).then(|| PathLayer { path: PathName(path.into()), tilde: is_tilde_layer(layer) })
     }
 
     /// Whether a layer is a path layer.
@@ -110,6 +108,12 @@ impl PathPattern {
     /// Whether a name is a path name.
     pub fn matches(&self, name: &str) -> bool {
         self.0.matches(name)
+    }
+
+    /// Returns the path name that a text is with points instead of underscores and commas.
+    pub(crate) fn meant_by(&self, text: &str) -> Option<PathName> {
+        let meant = text.replace(['_', ','], ".");
+        self.matches(&meant).then(|| PathName(meant.into()))
     }
 
     /// Returns the first path name in the text of a subpath, with its byte range.
@@ -211,6 +215,11 @@ impl Ord for PathName {
 
 fn with_points(layer: &str) -> Cow<'_, str> {
     if layer.contains('_') { Cow::Owned(layer.replace('_', ".")) } else { Cow::Borrowed(layer) }
+}
+
+/// Whether the name of a layer ends with a `~` and letters.
+pub(crate) fn is_tilde_layer(layer: &str) -> bool {
+    without_tilde(layer).len() != layer.len()
 }
 
 /// Returns a layer's name without a trailing `~` and letters.

@@ -4,13 +4,14 @@ use std::mem::discriminant;
 use std::ops::Range;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::{Diagnostic, Message, Value};
 
-use crate::approx::near;
-use crate::element::{Element, diagnostic_point};
+use crate::approx::{above, near};
+use crate::element::{END_RADIUS, Element, Marker, Role, Shape, TURN_RADIUS, diagnostic_point};
 use crate::letter::{LetterUse, Letters};
+use crate::names::is_tilde_layer;
 use crate::read::candidates::{
-    AssignedCandidate, Candidate, Owner, SearchBudget, find, find_taken, nearest_miss,
+    AssignedCandidate, Candidate, Owner, SearchBudget, find, find_shape, find_taken, nearest_miss,
 };
 use crate::read::collect::PathCollector;
 use crate::read::entities::{FoundText, TextCircle};
@@ -23,29 +24,59 @@ const MAX_LISTED_LAYERS: usize = 3;
 /// Upper bound on the elements that are examined for hints about texts without an element, in addition to those examined to assign texts.
 const MAX_EXAMINED_FOR_HINTS: usize = 1_000_000;
 
-impl Texts<'_> {
+/// Bounds the search for hints about texts without an element.
+struct HintBudgets {
+    candidates: SearchBudget,
+    /// For elements that take no text.
+    silent: SearchBudget,
+}
+
+impl Default for HintBudgets {
+    fn default() -> Self {
+        let [candidates, silent] = [MAX_EXAMINED_FOR_HINTS; 2].map(SearchBudget::new);
+        Self { candidates, silent }
+    }
+}
+
+/// A text with the candidate of its layer that it belongs to.
+struct GivenText<'d> {
+    text: FoundText<'d>,
+    found: AssignedCandidate,
+}
+
+impl<'d> Texts<'d> {
     /// Assigns each text to its element. Reports PB107 for a text without an element, and PB116 if another element is nearer, or less than `margin`
     /// mm farther away.
     pub(crate) fn assign(&mut self, path: &mut PathCollector<'_>, margin: f64) {
         let budget = SearchBudget::new(MAX_EXAMINED_ELEMENTS);
+        let has_several = self.layers.iter().filter(|layer| !layer.candidates.is_empty()).nth(1).is_some();
+        let mut given = Vec::new();
         for layer in &mut self.layers {
-            if let Some(problem) = layer.assign(path, margin, &budget) {
+            let remember = |text: &FoundText<'d>, found| {
+                if has_several {
+                    given.push(GivenText { text: *text, found });
+                }
+            };
+            if let Some(problem) = layer.assign(path, margin, &budget, remember) {
                 // The elements of the remaining texts are unknown.
                 path.diagnostics.push(problem);
                 path.faults.stray_letters = Letters::ALL;
                 return;
             }
         }
-        if self.layers.iter().all(|layer| layer.texts.is_empty()) {
+        if !has_several && self.layers.iter().all(|layer| layer.texts.is_empty()) {
             return;
         }
         self.prepare();
-        let budget = SearchBudget::new(MAX_EXAMINED_FOR_HINTS);
+        if has_several {
+            self.check_other_layers(&given, path);
+        }
+        let budgets = HintBudgets::default();
         for (number, layer) in self.layers.iter().enumerate() {
             for text in &layer.texts {
                 let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
                 let problem =
-                    layer.missing_element_problem(text, others.map(|(_, other)| other), path, &budget);
+                    layer.missing_element_problem(text, others.map(|(_, other)| other), path, &budgets);
                 let problem = path.with_left_out(problem);
                 path.diagnostics.push(problem);
                 let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
@@ -57,6 +88,31 @@ impl Texts<'_> {
             }
         }
     }
+
+    /// Reports PB116 for each text if an element without a text, on another layer of the path, is nearer than the text's own element. Texts on tilde
+    /// layers are on purpose apart from the elements of other layers.
+    fn check_other_layers(&self, given: &[GivenText<'_>], path: &mut PathCollector<'_>) {
+        let budget = SearchBudget::new(MAX_EXAMINED_FOR_HINTS);
+        for GivenText { text, found } in given {
+            let number = text.source.layer as usize;
+            let layer = &self.layers[number];
+            if is_tilde_layer(&layer.name) {
+                continue;
+            }
+            let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
+            let doubt = others.take(MAX_SEARCHED_LAYERS).find_map(|(_, other)| {
+                let nearer = find(&text.circle(), &other.candidates, &other.boxes, &budget)?;
+                let (index, closer) = nearer.nearer.unwrap_or((nearer.candidate, 0.0));
+                let distance = nearer.distance - closer;
+                let rival =
+                    (&messages::NEARER_ON_OTHER_LAYER, &other.candidates[index], found.distance - distance);
+                let doubt = above(found.distance, distance)
+                    .then(|| layer.doubt(text, found.candidate, [rival].into_iter(), path))?;
+                Some(doubt?.quoting("layer", &*other.name))
+            });
+            path.diagnostics.extend(doubt);
+        }
+    }
 }
 
 impl<'d> LayerTexts<'d> {
@@ -66,11 +122,15 @@ impl<'d> LayerTexts<'d> {
         path: &mut PathCollector<'_>,
         margin: f64,
         budget: &SearchBudget,
+        mut remember: impl FnMut(&FoundText<'d>, AssignedCandidate),
     ) -> Option<Diagnostic> {
         let last = self.each_match(budget, |layer, text, _, owners, found| {
             let has_owner = !owners.is_empty();
-            path.diagnostics
-                .extend(found.and_then(|found| layer.assignment_doubt(text, found, margin, &path.elements)));
+            let doubt = found.and_then(|found| layer.assignment_doubt(text, found, margin, path));
+            path.diagnostics.extend(doubt);
+            if let Some(found) = found {
+                remember(text, found);
+            }
             if has_owner {
                 let id = path.given.push_drawn(text.string());
                 layer.give_text(id, owners.clone(), path);
@@ -99,16 +159,18 @@ impl<'d> LayerTexts<'d> {
         }
     }
 
-    /// Returns PB116 if another element of the same kind is about as near, or one of another kind is nearer. Ignores elements on which the text would
-    /// be an error: a marker instead of an element or the reverse, and elements that do not accept one of its letters.
+    /// Returns PB116 if another element of the same kind is about as near, or one of another kind is nearer, or one that has a text already is
+    /// nearer. Ignores elements on which the text would be an error: a marker instead of an element or the reverse, and elements that do not accept
+    /// one of its letters.
     fn assignment_doubt(
         &self,
         text: &FoundText<'_>,
         found: AssignedCandidate,
         margin: f64,
-        elements: &[Element],
+        path: &PathCollector<'_>,
     ) -> Option<Diagnostic> {
-        if found.rival.is_none() && found.nearer.is_none() {
+        let others = [found.rival, found.nearer, found.nearer_with_text];
+        if others.iter().all(Option::is_none) {
             return None;
         }
         let rival = found.rival.filter(|(_, farther)| *farther < margin || near(*farther, 0.0));
@@ -118,17 +180,29 @@ impl<'d> LayerTexts<'d> {
             (message, rival, farther)
         });
         let nearer = found.nearer.map(|(other, nearer)| (&messages::NEARER_OF_OTHER_KIND, other, nearer));
-        let doubts = rival.into_iter().chain(nearer);
-        let element = &self.candidates[found.candidate];
+        let has_text =
+            found.nearer_with_text.map(|(other, nearer)| (&messages::NEARER_HAS_A_TEXT, other, nearer));
+        let doubts = has_text.into_iter().chain(rival).chain(nearer);
+        let doubts = doubts.map(|(message, other, farther)| (message, &self.candidates[other], farther));
+        self.doubt(text, found.candidate, doubts, path)
+    }
+
+    /// Returns PB116 for a text and the first of these elements that it could belong to. Each comes with its message and a distance in mm.
+    fn doubt<'c>(
+        &self,
+        text: &FoundText<'_>,
+        candidate: usize,
+        mut doubts: impl Iterator<Item = (&'static Message, &'c Candidate, f64)>,
+        path: &PathCollector<'_>,
+    ) -> Option<Diagnostic> {
+        let element = &self.candidates[candidate];
         let string = without_percent_codes(text.string());
         let texts = ParameterTexts::from(&*string);
         let is_possible = |other: &Candidate| {
-            let refuses = |text: ParameterText<'_>| refuses(other.owner, text, elements);
+            let refuses = |text: ParameterText<'_>| refuses(other.owner, text, &path.elements);
             discriminant(&element.owner) == discriminant(&other.owner) && !texts.first().is_some_and(refuses)
         };
-        let (message, other, farther) = doubts
-            .map(|(message, other, farther)| (message, &self.candidates[other], farther))
-            .find(|(_, other, _)| is_possible(other))?;
+        let (message, other, farther) = doubts.find(|(_, other, _)| is_possible(other))?;
         let mut doubt = Diagnostic::new(message)
             .quoting("text", string.replace('\n', " "))
             .with("element", element.word())
@@ -136,6 +210,9 @@ impl<'d> LayerTexts<'d> {
             .with("other", other.word())
             .with("other_point", diagnostic_point(other.shape.point()))
             .with("margin", farther);
+        if let Some(given) = path.text_of(other.owner).filter(|_| other.is_taken) {
+            doubt = doubt.quoting("other_text", given.as_str().replace('\n', " "));
+        }
         doubt.text = texts.first().map(ParameterText::whole_text_fault);
         Some(self.origin(text.source, text.anchor()).at(doubt))
     }
@@ -145,7 +222,7 @@ impl<'d> LayerTexts<'d> {
         text: &FoundText<'_>,
         elsewhere: impl Iterator<Item = &'a Self>,
         path: &PathCollector<'_>,
-        budget: &SearchBudget,
+        budgets: &HintBudgets,
     ) -> Diagnostic
     where
         'd: 'a,
@@ -156,6 +233,7 @@ impl<'d> LayerTexts<'d> {
             .with("centre", diagnostic_point(circle.centre))
             .with("diameter", 2.0 * circle.radius);
         diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole_text_fault);
+        let budget = &budgets.candidates;
         let taken = find_taken(&circle, &self.candidates, &self.boxes, budget);
         if let Some(taken) = taken.map(|taken| &self.candidates[taken]) {
             let is_blank = path.text_of(taken.owner).is_some_and(|text| text.pieces().is_empty());
@@ -166,6 +244,9 @@ impl<'d> LayerTexts<'d> {
                     ("point", diagnostic_point(taken.shape.point()).into()),
                 ],
             );
+        } else if let Some((message, shape)) = self.silent_element(text, path, &budgets.silent) {
+            let point = diagnostic_point(shape.point());
+            diagnostic = diagnostic.note(message, vec![("point", point.into())]);
         } else if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes, budget) {
             let candidate = &self.candidates[miss.candidate];
             diagnostic = diagnostic.note(
@@ -182,6 +263,31 @@ impl<'d> LayerTexts<'d> {
         let note = |diagnostic: Diagnostic, taker| diagnostic.note(&messages::ELEMENT_ON_OTHER_LAYER, taker);
         let diagnostic = takers.take(MAX_LISTED_LAYERS).fold(diagnostic, note);
         self.origin(text.source, text.anchor()).at(diagnostic)
+    }
+
+    /// Returns the note about the nearest HIDDEN element, end marker or turn marker that a text overlaps.
+    fn silent_element(
+        &self,
+        text: &FoundText<'_>,
+        path: &PathCollector<'_>,
+        budget: &SearchBudget,
+    ) -> Option<(&'static Message, Shape)> {
+        let hidden = path.elements.iter().map(|element| {
+            let is_silent = element.role == Role::SilentSweep && element.source.layer == text.source.layer;
+            is_silent.then_some((&messages::HIDDEN_TAKES_NO_TEXT, element.shape))
+        });
+        let marker = |message: &'static Message, radius| {
+            move |marker: &Marker| {
+                let circle = Shape::Circle { centre: marker.at, radius };
+                (marker.origin.layer == self.name).then_some((message, circle))
+            }
+        };
+        let ends = path.ends.iter().map(marker(&messages::END_TAKES_NO_TEXT, END_RADIUS));
+        let turns = path.turns.iter().map(marker(&messages::TURN_TAKES_NO_TEXT, TURN_RADIUS));
+        let silent = hidden.chain(ends).chain(turns);
+        let shapes = silent.clone().map(|found| found.map(|(_, shape)| shape));
+        let nearest = find_shape(&text.circle(), shapes, budget)?;
+        silent.clone().nth(nearest)?
     }
 
     /// Returns the element that a text with this circle would belong to on this layer.

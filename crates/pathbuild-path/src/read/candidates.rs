@@ -63,10 +63,14 @@ enum OverlapKind {
 #[derive(Clone, Copy)]
 pub(crate) struct AssignedCandidate {
     pub(crate) candidate: usize,
+    /// The distance in mm by which the text belongs to the candidate.
+    pub(crate) distance: f64,
     /// The second best candidate of the same kind, and how much farther away it is in mm.
     pub(crate) rival: Option<(usize, f64)>,
     /// A candidate of another kind that is nearer, and how much nearer it is in mm.
     pub(crate) nearer: Option<(usize, f64)>,
+    /// A candidate that has a text already and is nearer, and how much nearer it is in mm.
+    pub(crate) nearer_with_text: Option<(usize, f64)>,
 }
 
 /// Budget for examining candidates. It bounds the quadratic work if thousands of texts overlap thousands of elements.
@@ -103,20 +107,25 @@ pub(crate) fn find(
     let mut nearest: Option<(OverlapKind, f64, usize)> = None;
     let mut second: Option<(OverlapKind, f64, usize)> = None;
     let mut closest: Option<(f64, usize)> = None;
+    let mut closest_with_text: Option<(f64, usize)> = None;
     let is_same_group = |one: Option<(OverlapKind, f64, usize)>, other: usize| {
         let group = candidates[other].group;
         group.is_some() && one.is_some_and(|(.., one)| candidates[one].group == group)
     };
     boxes.each_touched(circle, |index| {
         let candidate = &candidates[index];
-        if !budget.spend() || candidate.is_taken {
+        if !budget.spend() {
             return;
         }
         let Some((kind, distance)) = overlap(circle, &candidate.shape) else { return };
-        let found = (kind, distance, index);
+        let closest = if candidate.is_taken { &mut closest_with_text } else { &mut closest };
         if closest.is_none_or(|closest| (distance, index) < closest) {
-            closest = Some((distance, index));
+            *closest = Some((distance, index));
         }
+        if candidate.is_taken {
+            return;
+        }
+        let found = (kind, distance, index);
         if nearest.is_none_or(|nearest| found < nearest) {
             if !is_same_group(nearest, index) {
                 second = nearest;
@@ -128,9 +137,13 @@ pub(crate) fn find(
     });
     nearest.filter(|_| !budget.is_exhausted()).map(|(kind, distance, candidate)| AssignedCandidate {
         candidate,
+        distance,
         rival: second.filter(|second| second.0 == kind).map(|(_, other, rival)| (rival, other - distance)),
         nearer: closest
             .filter(|(closest, other)| above(distance, *closest) && !is_same_group(nearest, *other))
+            .map(|(closest, other)| (other, distance - closest)),
+        nearer_with_text: closest_with_text
+            .filter(|(closest, _)| above(distance, *closest))
             .map(|(closest, other)| (other, distance - closest)),
     })
 }
@@ -154,6 +167,18 @@ pub(crate) fn find_taken(
         }
     });
     nearest.map(|(.., index)| index)
+}
+
+/// Returns the position of the shape that a text overlaps and is nearest to. `None` also if the budget is exhausted.
+pub(crate) fn find_shape(
+    circle: &TextCircle,
+    shapes: impl Iterator<Item = Option<Shape>>,
+    budget: &SearchBudget,
+) -> Option<usize> {
+    let shapes = shapes.enumerate().take_while(|_| budget.spend());
+    let overlapped = shapes.filter_map(|(index, shape)| Some((overlap(circle, &shape?)?.1, index)));
+    let nearest = overlapped.reduce(|nearest, other| if other < nearest { other } else { nearest });
+    nearest.map(|(_, index)| index).filter(|_| !budget.is_exhausted())
 }
 
 /// Returns the nearest free candidate to a text that overlaps none; the first of several. `None` if the budget is exhausted.

@@ -11,7 +11,7 @@ use smol_str::SmolStr;
 use crate::approx::near;
 use crate::element::{
     CircleMeaning, Cut, END_RADIUS, Element, IntendedMarker, Marker, Origin, PROBE_RADIUS, Role,
-    START_RADIUS, Shape, Source, TURN_RADIUS, circle_meaning, curve_role,
+    START_RADIUS, Shape, Source, TURN_RADIUS, circle_meaning, curve_role, has_diameter_of,
 };
 use crate::geometry::{Curve, Line, Xy};
 use crate::language::Language;
@@ -177,6 +177,7 @@ impl PathCollector<'_> {
             diagnostics: self.diagnostics,
         };
         raw.faults.other_ends.extend(ends.map(|end| end.at));
+        raw.faults.path_text.clone_from(&self.hints.text);
         let mut checked = PathCheck { raw: &mut raw, hints: self.hints };
         checked.check_leftovers();
         if !self.has_broken_circle {
@@ -597,7 +598,7 @@ impl PathCollector<'_> {
     fn element_like_end(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
         let is_like_end = |element: &Element| {
             element.role == Role::Cut(Cut::Mill)
-                && element.shape.radius().is_some_and(|radius| near(radius, END_RADIUS))
+                && element.shape.radius().is_some_and(|radius| has_diameter_of(radius, END_RADIUS))
         };
         let mut like_end = self.elements.iter().enumerate().filter(|(_, element)| is_like_end(element));
         let (Some((index, _)), None) = (like_end.next(), like_end.next()) else { return None };

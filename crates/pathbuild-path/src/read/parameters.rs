@@ -14,6 +14,7 @@ use crate::geometry::{Curve, Xy};
 use crate::letter::{ElementClass, Letter, Letters};
 use crate::names::PathName;
 use crate::raw::RawPath;
+use crate::read::stray::looks_like_parameters;
 use crate::text::{LetterValue, ParameterText, definition_in_pieces};
 use crate::variables::Definition;
 
@@ -105,6 +106,14 @@ impl PathCheck<'_> {
                 continue;
             }
             let text = drawn.texts.get(text).filter(|text| !self.raw.may_be_of_path(*text));
+            if let Some(text) =
+                text.filter(|text| element.role == Role::SkippedSubpath && looks_like_parameters(*text))
+            {
+                let problem = Diagnostic::new(&parameters::PARAMETERS_ON_DOT)
+                    .quoting("text", text.as_str().replace('\n', " "))
+                    .with_text(text.whole_text_fault());
+                self.report(drawn.origin(element).at(problem));
+            }
             let problems = text.map(|text| text.problems(element.class(tool)));
             for problem in problems.into_iter().flatten() {
                 self.report(drawn.origin(element).at(problem));

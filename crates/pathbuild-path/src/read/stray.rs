@@ -5,16 +5,17 @@ use std::collections::{BTreeMap, HashMap};
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_dxf::Drawing;
+use pathbuild_dxf::{Drawing, Geometry};
 
-use crate::element::diagnostic_point;
+use crate::element::{CircleMeaning, Shape, circle_meaning, diagnostic_point};
 use crate::language::Language;
 use crate::letter::{Letter, Letters};
+use crate::line_type::LineType;
 use crate::look_alikes;
 use crate::names::PathName;
-use crate::read::candidates::{Candidate, Owner, SearchBudget};
+use crate::read::candidates::{Candidate, Owner, SearchBudget, find_shape};
 use crate::read::collect::{self, PathCollector, PathLayers};
-use crate::read::entities::{AnyText, at_entity, begin};
+use crate::read::entities::{AnyText, at_entity, begin, xy};
 use crate::read::keep_outs::unread_clamps;
 use crate::text::{ParameterText, ParameterTexts, ValueKind};
 
@@ -42,7 +43,21 @@ pub fn may_be_stray_text(text: &[u8]) -> bool {
     let has_value =
         |after: &[u8]| after.iter().find(|byte| **byte != b' ').is_some_and(|byte| is_value(*byte));
     let mut letters = text.iter().enumerate().filter(|(_, byte)| is_weighty(**byte));
-    letters.any(|(at, _)| is_begin(&text[..at]) && has_value(&text[at + 1..]))
+    letters.any(|(at, _)| is_begin(&text[..at]) && has_value(&text[at + 1..])) || may_be_probe_text(text)
+}
+
+/// Maximum length in bytes of a text that is taken for that of a probe. Longer ones are remarks.
+const MAX_PROBE_TEXT: usize = 24;
+
+/// Whether the undecoded bytes of a text may be the text of a probe, such as `LA T2.5`. Z alone is tested elsewhere.
+fn may_be_probe_text(text: &[u8]) -> bool {
+    let is_parameter = |word: &[u8]| match word {
+        [b'L', value, ..] => value.is_ascii_uppercase() || value.is_ascii_digit(),
+        [b'T' | b'H' | b'Z', value, ..] => value.is_ascii_digit() || matches!(value, b'.' | b'-' | b'='),
+        _ => false,
+    };
+    let mut words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).peekable();
+    text.len() <= MAX_PROBE_TEXT && words.peek().is_some() && words.all(is_parameter)
 }
 
 /// Returns a text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, spaces before
@@ -126,6 +141,7 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
         .map(|(layer, is_other)| is_other.then(|| NearLayer::of(&layer.name, &names, language)).flatten())
         .collect();
     let budget = SearchBudget::new(MAX_EXAMINED_CANDIDATES);
+    let probes = if paths.is_empty() { Vec::new() } else { probe_circles(drawing, language) };
     let mut on_near_layers: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     let mut findings = Vec::new();
     for (number, entity) in drawing.entities.iter().enumerate() {
@@ -134,7 +150,8 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
         } else if let Some(text) = AnyText::of(&entity.geometry)
             && is_other[entity.layer as usize]
         {
-            findings.extend(stray_text(drawing, number, text, &paths, &budget));
+            let stray = stray_text(drawing, number, text, &paths, &budget);
+            findings.extend(stray.or_else(|| stray_probe(drawing, number, text, &probes, &budget)));
         }
     }
     findings.extend(on_near_layers.into_iter().filter_map(|(layer, entities)| {
@@ -239,9 +256,43 @@ fn stray_text(
     Some(at_entity(drawing, entity, text.anchor(), problem.in_path(path.name.as_str())))
 }
 
+/// Returns the circles that would be probes on the layer of a path, each with its layer number.
+fn probe_circles(drawing: &Drawing, language: &Language) -> Vec<(u32, Shape)> {
+    let circles = drawing.entities.iter().filter_map(|entity| {
+        let Geometry::Circle(circle) = &entity.geometry else { return None };
+        let line_type = LineType::of(&entity.line_type, &language.line_types)?;
+        let is_probe = circle_meaning(line_type, circle.radius) == CircleMeaning::Probe;
+        is_probe.then(|| (entity.layer, Shape::Circle { centre: xy(circle.centre), radius: circle.radius }))
+    });
+    circles.collect()
+}
+
+/// Returns PB119 if a text and the circle that it overlaps would be a probe on the layer of a path.
+fn stray_probe(
+    drawing: &Drawing,
+    entity: usize,
+    text: AnyText<'_>,
+    probes: &[(u32, Shape)],
+    budget: &SearchBudget,
+) -> Option<Diagnostic> {
+    if probes.is_empty() || !may_be_probe_text(text.string().as_bytes()) {
+        return None;
+    }
+    let layer = drawing.entities[entity].layer;
+    let on_layer = probes.iter().map(|(other, shape)| (*other == layer).then_some(*shape));
+    let (_, circle) = probes[find_shape(&text.circle(), on_layer, budget)?];
+    let texts = ParameterTexts::from(text.string());
+    let problem = Diagnostic::new(&messages::PROBE_ON_OTHER_LAYER)
+        .quoting("text", text.string().replace('\n', " "))
+        .quoting("layer", &*drawing.layers[layer as usize].name)
+        .with("point", diagnostic_point(circle.point()))
+        .with_text(texts.first().map(ParameterText::whole_text_fault));
+    Some(at_entity(drawing, entity, text.anchor(), problem))
+}
+
 /// Whether a text consists of letters with numbers or variables, and perhaps a remark with Q, and gives a letter that would spoil a part if it were
 /// missing.
-fn looks_like_parameters(text: ParameterText<'_>) -> bool {
+pub(super) fn looks_like_parameters(text: ParameterText<'_>) -> bool {
     let is_number = |written: ValueKind| matches!(written, ValueKind::Number(_) | ValueKind::Reference);
     text.letters.has_any(ESSENTIAL_LETTERS)
         && text.pieces().iter().all(|piece| {

@@ -54,9 +54,22 @@ impl Walker<'_> {
     /// Whether the remaining segments branch off at a point that the walk has already passed.
     fn is_dead_end(&self) -> bool {
         let Some((_, end, _)) = self.nearest_end(self.at) else { return false };
+        self.is_passed(end) && self.duplicate_segment().is_none()
+    }
+
+    /// Whether a traversed segment ends at a point.
+    fn is_passed(&self, point: Xy) -> bool {
         let mut passed = Vec::new();
-        self.ends.find_near(end, |segment| self.is_traversed[segment], &mut passed);
-        !passed.is_empty() && self.duplicate_segment().is_none()
+        self.ends.find_near(point, |segment| self.is_traversed[segment], &mut passed);
+        !passed.is_empty()
+    }
+
+    /// Returns the first segment that was not reached although it branches off at a point that the walk passed, with that point.
+    fn passed_branch(&self) -> Option<(usize, Xy)> {
+        self.unreached_segments().find_map(|segment| {
+            let end = self.ends.of(segment).into_iter().find(|end| self.is_passed(*end))?;
+            Some((segment, end))
+        })
     }
 
     pub(super) fn turn_found_nothing(&self, marker: usize) -> Diagnostic {
@@ -107,9 +120,12 @@ impl Walker<'_> {
             .or_else(|| self.unreached_segments().next())
             .map(|segment| (segment, self.ends.of(segment)[0]));
         let mut problem = Diagnostic::new(&messages::UNREACHED);
-        if let Some((segment, start)) = one {
+        let branch = self.passed_branch().filter(|_| twice.is_none());
+        if let Some((segment, start)) = branch.or(one) {
             if twice.is_some() {
                 problem = Diagnostic::new(&messages::UNREACHED_TWICE);
+            } else if branch.is_some() {
+                problem = Diagnostic::new(&messages::UNREACHED_BRANCH);
             } else if let Some(other) = self.segment_through(start) {
                 problem = if self.word(other) == self.word(segment) {
                     Diagnostic::new(&messages::NO_END_THERE_ALIKE)

@@ -270,6 +270,26 @@ fn a_text_without_element_names_the_nearest_and_how_far_it_is() {
     assert_eq!(notes, ["the nearest element is a line at (0, 0), 1.4 mm away from the text's circle"]);
 }
 
+/// The note says why the element under the text does not take it, and names no other element.
+#[test]
+fn a_text_on_an_element_that_takes_none_is_explained() {
+    let notes = |silent: &str, at: &str| {
+        let raw = drawing(&format!("mill 0,9 40,9\n{silent}\n{}", text(at, "F100")));
+        let notes = raw.diagnostics.iter().flat_map(|found| &found.notes);
+        notes.map(|note| note.text(pathbuild_diagnostic::Lang::En)).collect::<Vec<_>>().concat()
+    };
+    for (silent, start) in [
+        ("line HIDDEN 0,0 40,0", "the HIDDEN element at (0, 0)"),
+        ("turn 20,0", "the turn marker at (20, 0)"),
+        ("end 20,0", "the end marker at (20, 0)"),
+    ] {
+        assert!(notes(silent, "20,2.5").starts_with(start), "{}", notes(silent, "20,2.5"));
+        assert!(notes(silent, "20,-5").starts_with("the nearest element is a line at (0, 9)"), "{silent}");
+        let elsewhere = format!("layer 1234.1P~A\n{silent}\nlayer 1234.1P");
+        assert!(notes(&elsewhere, "20,2.5").starts_with("the nearest element is"), "{silent}");
+    }
+}
+
 #[test]
 fn a_text_without_element_says_on_which_layer_it_would_have_one() {
     let raw = drawing(&format!(

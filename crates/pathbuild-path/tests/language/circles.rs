@@ -26,20 +26,20 @@ fn special_circles_are_told_apart_by_their_diameters() {
     }
 }
 
-/// The radius is compared by `near()`, with a tolerance of 1e-6 times the sum of the radius and 0.001 mm.
+/// As with holes, the tolerance is 0.001 mm: drawings in inches have rounded diameters.
 #[test]
 fn diameters_compare_approximately() {
     let edges = [
-        ("1.0000009", "start"),
-        ("1.0000012", "start PB105"),
-        ("0.9999991", "start"),
-        ("0.9999988", "start PB105"),
-        ("1.5000014", "turn"),
-        ("1.5000017", "PB105"),
-        ("2.0000019", "end"),
-        ("2.0000022", "end PB105"),
-        ("6.0000058", "probe"),
-        ("6.0000062", "PB105"),
+        ("1.00099", "start"),
+        ("1.00101", "start PB105"),
+        ("0.99901", "start"),
+        ("0.99899", "start PB105"),
+        ("1.50099", "turn"),
+        ("1.50101", "PB105"),
+        ("2.00099", "end"),
+        ("2.00101", "end PB105"),
+        ("6.00099", "probe"),
+        ("6.00101", "PB105"),
     ];
     for (diameter, what) in edges {
         assert_eq!(special(diameter), what, "{diameter}");
@@ -63,7 +63,7 @@ fn a_diameter_that_means_nothing_is_shown_with_its_digits() {
         let raw = raw(&format!("layer 1234.1P\nmill 0,0 20,0\ncircle PHANTOM 50,50 d {diameter}"));
         raw.diagnostics.iter().map(|found| found.text(pathbuild_diagnostic::Lang::En)).next().unwrap()
     };
-    assert_eq!(said("1.0001"), "a PHANTOM circle with a diameter of 1.0001 mm has no meaning");
+    assert_eq!(said("1.0011"), "a PHANTOM circle with a diameter of 1.0011 mm has no meaning");
     assert_eq!(said("1.25"), "a PHANTOM circle with a diameter of 1.25 mm has no meaning");
     assert_eq!(said("5"), "a PHANTOM circle with a diameter of 5 mm has no meaning");
 }

@@ -161,6 +161,67 @@ fn only_elements_of_the_same_kind_are_rivals() {
     assert_eq!(texts(&format!("{arcs}\n{}", text(11.5)), 0.1), ["PB116"]);
 }
 
+/// A second text beside an element belongs to its neighbour. The texts are `above` mm away from one line, and 3 mm less from the other.
+#[test]
+fn a_text_whose_nearest_element_has_another_text_is_doubtful() {
+    let second = |above: f64, string: &str| {
+        let lines = "mill 0,0 40,0\nmill 0,3 40,3\ntext 10,-0.2 \"F50\" height 2 align centre middle";
+        texts(&format!("{lines}\ntext 20,{above} \"{string}\" height 4 align centre middle"), 0.1)
+    };
+    assert_eq!(second(1.49, "B1"), ["PB116"]);
+    assert_eq!(second(0.6, "B1"), ["PB116"]);
+    assert_eq!(second(1.51, "B1"), [""; 0]);
+    // Neither line takes this letter, which is an error in any case.
+    assert_eq!(second(0.6, "L1"), ["PB202 L"]);
+    // The nearest element of any kind counts: the text is on the line, and 3.7 mm away from the hole's centre.
+    let ring = "mill 0,0 17,0\ncircle 20,0 d 6\ntext 8,0 \"B2\" height 1 align centre middle";
+    let of_ring = |y: f64| texts(&format!("{ring}\ntext 16.3,{y} \"B3\" height 1 align centre middle"), 0.1);
+    assert_eq!(of_ring(0.0), ["PB116"]);
+    assert_eq!(of_ring(-9.0), ["PB107"]);
+}
+
+/// The text says that it is on the same layer as its element, but an element on another layer of the path is nearer.
+#[test]
+fn a_text_nearer_to_an_element_on_another_layer_is_doubtful() {
+    let found = |layers: [&str; 2], above: f64, other: &str| {
+        let [first, second] = layers;
+        let drawing = format!("layer {first}\n{other}\nlayer {second}\nmill 0,3 40,3");
+        texts(&format!("{drawing}\n{}", text(above)), 0.1)
+    };
+    let line = "mill 0,0 40,0";
+    for first in ["1234.1P~A", "1234_1P"] {
+        assert_eq!(found([first, "1234.1P"], 1.49, line), ["PB116"], "{first}");
+        assert_eq!(found([first, "1234.1P"], 1.51, line), [""; 0], "{first}");
+        let with_text = format!("{line}\ntext 10,0.2 \"F50\" height 2 align centre middle");
+        assert_eq!(found([first, "1234.1P"], 1.49, &with_text), [""; 0], "{first}");
+    }
+    // A tilde layer holds a text and its element on purpose.
+    assert_eq!(found(["1234.1P", "1234.1P~A"], 1.49, line), [""; 0]);
+}
+
+#[test]
+fn a_feed_has_no_separator_of_thousands() {
+    for doubtful in ["F1.200", "F1,200", "F9.999", "F,150"] {
+        assert_eq!(line("T5 O2 I1 B0", doubtful), [format!("PB211 {doubtful}")]);
+    }
+    for usual in ["F10.000", "F1.20", "F1.2000", "F1200"] {
+        assert_eq!(line("T5 O2 I1 B0", usual), [""; 0], "{usual}");
+    }
+}
+
+#[test]
+fn a_length_does_not_begin_with_a_zero() {
+    for doubtful in ["I03", "I03.", "B01", "B-00"] {
+        let expected: Vec<String> =
+            if doubtful == "B-00" { Vec::new() } else { vec![format!("PB211 {doubtful}")] };
+        assert_eq!(line("T5 O2 I1 B0", doubtful), expected, "{doubtful}");
+    }
+    for usual in ["I0.3", "I3", "I0,3", "I00.3", "B0", "N01", "F0150"] {
+        assert_eq!(line("T5 O2 I1 B0", usual), [""; 0], "{usual}");
+    }
+    assert_eq!(line("T05 O2 I1 B0", ""), ["PB211 T05"]);
+}
+
 #[test]
 fn an_element_that_has_its_text_is_no_rival() {
     let lines = "mill 0,0 40,0\nmill 0,3 40,3\ntext 10,0.5 \"F50\" height 2 align centre middle";
@@ -320,11 +381,10 @@ fn a_nearer_element_of_another_kind_is_a_rival() {
     };
     assert_eq!(at(0.0, "B3"), ["PB116"]);
     assert_eq!(at(0.5, "B3"), ["PB116"]);
-    // The line does not take this letter, already has a text, or is too far away from this text.
+    // The line does not take this letter, or is too far away from this text.
     let sweep = ring.replace("mill", "sweep");
     let text = "text 16.3,0 \"B3\" height 1 align centre middle";
     assert_eq!(texts(&format!("{sweep}\n{text}"), 0.1), [""; 0]);
-    assert_eq!(texts(&format!("{ring}\ntext 8,0 \"B2\" height 1 align centre middle\n{text}"), 0.1), [""; 0]);
     assert_eq!(texts(&format!("{}\n{text}", ring.replace("mill 0,0 17,0", "mill 0,3 17,3")), 0.1), [""; 0]);
     // The text is nearer to the circle than to the line.
     let inside = "text 19.9,0.2 \"B3\" height 1 align centre middle";

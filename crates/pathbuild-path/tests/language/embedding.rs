@@ -197,6 +197,20 @@ fn a_segment_names_a_path_and_no_more() {
     assert_eq!(named("Mx"), ["PB501"]);
 }
 
+/// An underscore is a point in names of layers only. The help names the path that was meant.
+#[test]
+fn a_name_with_an_underscore_is_corrected() {
+    let help = |segment: &str| {
+        let outer = project("T5 O3 I1 B0 Mx", segment);
+        let (judge, call) = (SubpathChecker::new(&outer, &[], &LANGUAGE, false), &outer.subpaths[0]);
+        judge.name(call).err().and_then(|problem| problem.help(Lang::En)).unwrap_or_default()
+    };
+    for name in [">1111_1P", ">1111,1P"] {
+        assert!(help(name).contains("write \">1111.1P\""), "{name}: {}", help(name));
+    }
+    assert!(help(">1111;1P").contains("write a name that matches"));
+}
+
 /// A text with letters or digits beside a name means another name, or a parameter; PathDxf2GCode ignores them.
 #[test]
 fn a_name_that_goes_on_is_another() {

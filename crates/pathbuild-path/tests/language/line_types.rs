@@ -145,6 +145,21 @@ fn the_text_of_a_skipped_subpath_is_not_read() {
     assert!(matches!(path.segments[0].kind, SegmentKind::Sweep { height: None }), "{path:?}");
 }
 
+/// Parameters of a cut on a DOT line were meant for a line that is milled. A remark, a height of sweeps and a name mean nothing of the kind.
+#[test]
+fn parameters_of_a_cut_on_a_skipped_subpath_are_told() {
+    let found = |text: &str| {
+        let skipped = format!("line DOT 0,0 20,0 \"{text}\"\nmill 20,0 40,0\nend 40,0");
+        codes(&compile(&path("T5 O3 I1 B0 S8", &skipped)).found)
+    };
+    for told in ["B1", "F500 N2"] {
+        assert_eq!(found(told), ["PB210"], "{told}");
+    }
+    for silent in ["Hello", "S20", ">1111.1P F50"] {
+        assert_eq!(found(silent), [""; 0], "{silent}");
+    }
+}
+
 #[test]
 fn unknown_names_suggest_a_line_type() {
     let likely = [

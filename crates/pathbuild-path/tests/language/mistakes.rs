@@ -276,6 +276,35 @@ fn the_halves_of_a_ring_are_not_one_arc() {
     );
 }
 
+/// The longer arm has no N, so the path takes the way to the end first and does not come back.
+#[test]
+fn a_dead_end_that_is_passed_wants_a_smaller_n() {
+    let found = |way: &str, arm: &str| {
+        let drawn = format!("mill 0,0 20,0\nmill 20,0 40,0{way}\nmill 20,0 20,30{arm}\nturn 20,30\nend 40,0");
+        messages_with_help(&compile(&path(P, &drawn)).found)
+    };
+    let passed = found(" \"N1\"", " \"N2\"");
+    assert_one(&passed, "PB402 segments not reached: 1; the path went past (20, 0)", "at its tip");
+    assert_eq!(found(" \"N2\"", " \"N1\""), [""; 0]);
+}
+
+/// A text near the start marker takes it before the text with O and T, which comes later.
+#[test]
+fn a_text_that_took_the_start_marker_is_told() {
+    let notes = |near: &str| {
+        let drawing = format!(
+            "layer 1234.1P\nstart 0,0\nmill 0,0 40,0\nend 40,0\n{near}\nmtext 0,-0.2 \"T5 O3 I1 B0\" height 2 align top centre"
+        );
+        let found = compile(&drawing).found;
+        let missing = found.iter().filter(|found| found.code().to_string() == "PB201");
+        let notes = missing.flat_map(|found| &found.notes).map(|note| note.text(Lang::En));
+        notes.collect::<Vec<_>>().concat()
+    };
+    let took = notes("text 0,0.2 \"B1\" height 2 align left baseline");
+    assert!(took.contains("the text \"T5 O3 I1 B0\" at (0, -0.2) has O and T"), "{took}");
+    assert_eq!(notes("text 9,0.6 \"B1\" height 2 align left baseline"), "");
+}
+
 #[test]
 fn a_subpath_drawn_twice_is_named() {
     let found = compile(&path(

@@ -133,6 +133,27 @@ fn a_layer_is_named_once_however_much_is_on_it() {
     assert_eq!(strays(other), ["PB120"]);
 }
 
+/// The templates keep a circle of a probe on a layer of their own, where a copy may be left.
+#[test]
+fn a_probe_with_a_text_on_another_layer_is_told() {
+    let probe = |string: &str, diameter: &str, at: &str| {
+        strays(&format!(
+            "layer markers PHANTOM\ncircle BYLAYER 20,40 d {diameter}\n{}",
+            text("markers", string, at)
+        ))
+    };
+    for string in ["LA", "T2.5", "L1 H3"] {
+        assert_eq!(probe(string, "6", "20,43"), ["PB119"], "{string}");
+    }
+    assert_eq!(probe("LA", "6", "20,46"), [""; 0], "the text is beside the circle");
+    assert_eq!(probe("LA", "6.01", "20,43"), [""; 0]);
+    assert_eq!(probe("probe", "6", "20,43"), [""; 0]);
+    assert_eq!(
+        strays(&format!("layer x PHANTOM\ncircle BYLAYER 20,40 d 6\n{}", text("y", "LA", "20,43"))),
+        [""; 0]
+    );
+}
+
 /// The preliminary test of undecoded bytes must not miss these texts.
 #[test]
 fn the_first_look_at_bytes_is_certain() {
@@ -150,6 +171,10 @@ fn the_first_look_at_bytes_is_certain() {
         "B 2",
         "b  0,5",
         "x,F100",
+        "LA",
+        "T2.5",
+        "L1 T=d H.5",
+        "LABCDEFGHIJKLMNOPQRSTUVW",
     ] {
         assert!(may_be_stray_text(text.as_bytes()), "{text}");
     }
@@ -165,6 +190,11 @@ fn the_first_look_at_bytes_is_certain() {
         "Tief 2",
         "b ",
         "z25",
+        "L",
+        "Links",
+        "T",
+        "LA and more",
+        "LABCDEFGHIJKLMNOPQRSTUVWX",
         "",
     ] {
         assert!(!may_be_stray_text(text.as_bytes()), "{text}");
