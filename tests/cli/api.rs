@@ -90,8 +90,8 @@ fn check_and_the_library_have_the_same_findings() {
     assert!(library.check(&["mistakes"]).unwrap().findings.len() > 10);
 }
 
-/// Entries of the baseline have the same effect as in the program: they hold until their last day. The library uses no date but the one that it is
-/// given.
+/// Entries of the baseline have the same effect as on the command line: they apply up to and including their last day. The library never uses the
+/// current date, only the one in its options.
 #[test]
 fn accepted_findings_are_those_of_the_program() {
     const ACCEPT: &str = "check --accept PB203 --reason known --until 2031-12-31 mistakes";

@@ -271,6 +271,24 @@ fn broken_toml_is_shown_where_it_breaks() {
 }
 
 #[test]
+fn numbers_and_paths_as_windows_users_write_them_are_explained() {
+    for (written, is_understood, help) in [
+        ("feed = 150,5", false, "numbers in this file have a decimal point"),
+        ("[tool.2mm]\ndiameter = 2,0", false, "numbers in this file have a decimal point"),
+        (r#"out-dir = "D:\gcode""#, false, "write the text in single quotes, or a path with `/`"),
+        (r#"out-dir = "C:\temp\new""#, false, "write the path in single quotes, or with `/`"),
+        (r#"search = ["parts\neu"]"#, false, "write the path in single quotes, or with `/`"),
+        ("feed = 150.5", true, ""),
+        (r"out-dir = 'temp\new'", true, ""),
+        (r#"out-dir = "temp/new""#, true, ""),
+    ] {
+        let run = Place::new().file("pathbuild.toml", written).run("config show");
+        assert_eq!(run.status == Some(0), is_understood, "{written}: {run}");
+        assert!(run.stderr.contains(help), "{written}: {run}");
+    }
+}
+
+#[test]
 fn a_configuration_that_is_no_text_is_refused() {
     let place = Place::new().file("pathbuild.toml", b"feed = 1 # \xff");
     assert_snapshot!(place.run("config show --format concise"));

@@ -18,14 +18,14 @@ const FOR_BOTH: &str = "a\\b\\ c\\\\ d\u{85}/1301.1P a  b#c$d$$e:f::g \u{2028}\u
 /// Path with special characters that `make` supports, but Ninja does not.
 const FOR_MAKE: &str = "a\\#b\\:c\\;d/1301.1P a;touch$IFS$9b;\"'`&<>";
 
-/// A place with a drawing, its program, and the make rule for them.
-struct Emitted {
+/// A test directory with a drawing, its program, and the make rule for them.
+struct EmittedDrawing {
     place: Place,
     drawing: String,
     program: String,
 }
 
-impl Emitted {
+impl EmittedDrawing {
     fn new(name: &str) -> Self {
         let drawing = format!("{name}.dxf");
         let place = Place::new().file("pathbuild.toml", CONFIGURATION);
@@ -63,7 +63,7 @@ fn command(name: &str) -> Option<Command> {
 fn make_finds_files_of_any_name() {
     for name in [FOR_BOTH, FOR_MAKE] {
         let Some(mut make) = command("make") else { return };
-        let emitted = Emitted::new(name);
+        let emitted = EmittedDrawing::new(name);
         fs::write(emitted.place.path().join("Makefile"), "include out.d\n%.gcode: ; false\n").unwrap();
         make.args(["--question", &emitted.program]).current_dir(emitted.place.path());
         emitted.is_found_by(|| {
@@ -77,7 +77,7 @@ fn make_finds_files_of_any_name() {
 #[test]
 fn ninja_finds_files_of_any_name() {
     let Some(mut ninja) = command("ninja") else { return };
-    let emitted = Emitted::new(FOR_BOTH);
+    let emitted = EmittedDrawing::new(FOR_BOTH);
     let program = emitted.program.replace('$', "$$").replace(' ', "$ ").replace(':', "$:");
     let build = format!("rule emit\n  command = true\n  depfile = out.d\nbuild {program}: emit\n");
     fs::write(emitted.place.path().join("build.ninja"), build).unwrap();
@@ -140,7 +140,7 @@ fn ends_that_no_rule_can_have_are_refused() {
 /// Line feeds in a name are escaped: otherwise the rest of the name would become a rule of its own.
 #[test]
 fn no_name_makes_a_line_of_its_own() {
-    let emitted = Emitted::new("a\nall: ;@echo\u{7f}\r/1301.1P");
+    let emitted = EmittedDrawing::new("a\nall: ;@echo\u{7f}\r/1301.1P");
     let rule = "a\\nall\\:\\ \\\\\\;@echo\\u{7f}\\r/1301.1P";
     assert_eq!(emitted.place.read("out.d"), format!("{rule}_Milling.gcode: {rule}.dxf pathbuild.toml\n"));
 }

@@ -220,9 +220,9 @@ pub struct MText {
     pub width: Option<f64>,
     /// Rotation in degrees, from 50 or the direction 11/21.
     pub rotation: f64,
-    /// Horizontal attachment from 71.
+    /// Horizontal position of the anchor (group code 71).
     pub horizontal: HorizontalAlign,
-    /// Vertical attachment from 71.
+    /// Vertical position of the anchor (group code 71).
     pub vertical: VerticalAlign,
 }
 

@@ -145,7 +145,7 @@ pub enum ElementClass {
     Unread,
 }
 
-/// The use of a letter on an element: a cell of the table.
+/// How a class of elements uses a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LetterUse {
     /// `!`: from the element or the path; an error if neither gives it.

@@ -193,7 +193,7 @@ impl<'t> ParameterText<'t> {
         unread.fold(Letters::default(), |all, piece| all.and(meant(piece)))
     }
 
-    /// Returns all letters that the text may have been meant to give to some element.
+    /// Returns all letters that the text sets or may have been intended to set, whatever its element.
     pub(crate) fn possible_letters(self) -> Letters {
         match mistake_in_text(self, ElementClass::Unread) {
             Some(misreading) => misreading.unread,
@@ -412,7 +412,7 @@ fn is_blank(byte: u8) -> bool {
     byte <= b' ' && matches!(byte, b' ' | b'\t' | b'\n' | b'\r')
 }
 
-/// Returns the first piece at or after a byte offset.
+/// Returns the first blank-separated piece of a text, usually a letter with its value, at or after a byte offset.
 fn next_piece(text: &str, from: usize) -> Option<LetterValue> {
     let bytes = text.as_bytes();
     let start = from + bytes[from..].iter().position(|byte| !is_blank(*byte))?;

@@ -348,7 +348,7 @@ impl Triangulation {
     fn weights(&self, at: Xy) -> Vec<(usize, f64)> {
         match self.containing_triangle(at) {
             Some((number, parts)) => self.shared_weights(self.triangles[number].into_iter().zip(parts)),
-            None => self.on_border(at),
+            None => self.border_weights(at),
         }
     }
 
@@ -383,7 +383,7 @@ impl Triangulation {
         parts.iter().all(|part| *part >= -ROUNDING).then_some(parts)
     }
 
-    fn on_border(&self, at: Xy) -> Vec<(usize, f64)> {
+    fn border_weights(&self, at: Xy) -> Vec<(usize, f64)> {
         match self.nearest(at) {
             Some(([start, end], along, _)) => self.shared_weights([(start, 1.0 - along), (end, along)]),
             None => self.shared_weights(self.places.first().map(|_| (0, 1.0))),

@@ -11,5 +11,5 @@ pub mod exports;
 mod message;
 mod opened;
 
-pub use message::{LossReason, LostPath, Options, Question};
+pub use message::{AbortReason, AbortedItem, Options, Question};
 pub use opened::Compiler;

@@ -22,7 +22,7 @@ pub enum Question {
         options: Options,
         /// Paths and drawings that made earlier instances of the compiler end.
         #[serde(default)]
-        lost: Vec<LostPath>,
+        lost: Vec<AbortedItem>,
     },
     /// Requests the paths of a drawing, without their states. The answer is `{ rows }`; a drawing with an error of its own has a row without a path.
     Index {
@@ -82,19 +82,19 @@ pub struct Options {
 
 /// A path or drawing that took too long or triggered a bug, so that the instance of the compiler ended.
 #[derive(Clone, Debug, Deserialize)]
-pub struct LostPath {
+pub struct AbortedItem {
     /// The path or drawing that was being processed.
     #[serde(flatten)]
     pub place: Place,
     /// The reason. In JSON, its fields are at the same level as those of the place.
     #[serde(flatten)]
-    pub why: LossReason,
+    pub why: AbortReason,
 }
 
 /// The reason why the compiler ended.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "why", rename_all = "kebab-case")]
-pub enum LossReason {
+pub enum AbortReason {
     /// The path took too long: PB005.
     Time,
     /// The path triggered a bug: PB006.

@@ -22,7 +22,7 @@ use pathbuild_workspace::session::Session;
 use pathbuild_workspace::{Inputs, SilentReporter, Workspace};
 use serde_json::{Value, json};
 
-use crate::message::{Answer, LossReason, LostPath, Options, Place, Question};
+use crate::message::{AbortReason, AbortedItem, Answer, Options, Place, Question};
 
 /// The files opened with one configuration.
 #[derive(Debug)]
@@ -36,7 +36,7 @@ pub(crate) struct OpenedFiles {
 
 impl OpenedFiles {
     /// Opens the files; `None` if the configuration or its post is invalid. Also returns the answer, which contains the problems.
-    pub(crate) fn new(files: &Arc<Files>, options: Options, lost: Vec<LostPath>) -> (Option<Self>, Value) {
+    pub(crate) fn new(files: &Arc<Files>, options: Options, lost: Vec<AbortedItem>) -> (Option<Self>, Value) {
         let system: Arc<dyn System> = Arc::<Files>::clone(files);
         let Options { feed, sweep_height, rapid, probe_feed, post, lang } = options;
         let texts =
@@ -84,10 +84,10 @@ impl OpenedFiles {
             "seconds": limit.as_secs_f64(),
         });
         let problem = |why| match why {
-            LossReason::Time => too_slow(limit),
-            LossReason::Bug { reason } => bug(&reason),
+            AbortReason::Time => too_slow(limit),
+            AbortReason::Bug { reason } => bug(&reason),
         };
-        let lost = lost.into_iter().map(|LostPath { place, why }| (place, problem(why))).collect();
+        let lost = lost.into_iter().map(|AbortedItem { place, why }| (place, problem(why))).collect();
         (
             Some(Self { files: Arc::clone(files), session, post_processor, lost, rows: BTreeMap::new() }),
             answer,
@@ -285,9 +285,8 @@ impl Compiler {
     }
 }
 
-// The files of a page: those that it added, and those that were written but not yet handed over. The added files are never modified, so that the
-// state of a program reflects the visitor's disk.
-
+/// The files of a page: those that it added, and those that were written but not yet handed over. The added files are never modified, so that the
+/// state of a program reflects the visitor's disk.
 #[derive(Debug)]
 pub(crate) struct Files {
     given: MemorySystem,

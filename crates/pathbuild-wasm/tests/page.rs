@@ -1,4 +1,4 @@
-//! Tests the answers to a page outside of a browser. The page itself is tested by crates/pathbuild-view/page/web-test.mjs.
+//! Tests, without a browser, how the compiler answers the messages of the page. The page itself is tested by crates/pathbuild-view/page/web-test.mjs.
 
 #![allow(
     clippy::unwrap_used,

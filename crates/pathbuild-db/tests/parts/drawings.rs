@@ -503,7 +503,7 @@ fn a_bar_round_a_corner_is_one_bar() {
     assert_eq!(corner, [([1.96, 3.0, 1.0], at(0.0))]);
     // Two elements that take the same bar are one finding, at the element that takes most of it.
     assert_eq!(lost("mill -3,0 -0.5,0\nmill to 1,0\nsweep 1,0 60,-5"), [([2.48, 3.0, 1.0], at(0.0))]);
-    // The second element only takes the two bars between the corners and the last corner.
+    // The second element cuts away three bars: the two between the corners, and the one at the far corner.
     let side = lost("mill -3,0 5,0\nmill to 45,0\nsweep 45,0 60,-5");
     assert_eq!(side.iter().map(|(numbers, _)| numbers[2]).collect::<Vec<_>>(), [1.0, 3.0], "{side:?}");
 }

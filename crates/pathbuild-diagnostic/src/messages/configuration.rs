@@ -7,8 +7,8 @@ messages! {
     CONFIGURATION_UNREADABLE: InvalidConfiguration {
         en: "cannot read the configuration: {reason}",
         de: "die Konfiguration ist nicht lesbar: {reason}",
-        help_en: "check the file's name, or write a new configuration with `pathbuild init`",
-        help_de: "den Dateinamen prüfen oder mit `pathbuild init` eine neue Konfiguration schreiben",
+        help_en: "check the file's name and, in your editor, its encoding (UTF-8), or write a new configuration with `pathbuild init`",
+        help_de: "den Dateinamen und im Editor die Kodierung (UTF-8) prüfen oder mit `pathbuild init` eine neue Konfiguration schreiben",
     }
     /// A configuration that is not valid TOML, with the parser's reason.
     TOML_SYNTAX: InvalidConfiguration {
@@ -16,6 +16,27 @@ messages! {
         de: "das ist kein gültiges TOML: {reason}",
         help_en: "write texts in double quotes and patterns in single quotes; the file that `pathbuild init` writes shows the form of each key",
         help_de: "Texte in doppelte Anführungszeichen setzen, Muster in einfache; die Datei, die `pathbuild init` schreibt, zeigt die Form jedes Schlüssels",
+    }
+    /// A number with a decimal comma.
+    TOML_COMMA: InvalidConfiguration {
+        en: "this number has a comma",
+        de: "diese Zahl hat ein Komma",
+        help_en: "write a point: numbers in this file have a decimal point",
+        help_de: "einen Punkt schreiben: Zahlen in dieser Datei haben einen Dezimalpunkt",
+    }
+    /// A backslash in double quotes that begins no valid escape, with the parser's reason.
+    TOML_ESCAPE: InvalidConfiguration {
+        en: "in double quotes, a backslash has a special meaning: {reason}",
+        de: "in doppelten Anführungszeichen hat ein Backslash eine besondere Bedeutung: {reason}",
+        help_en: "write the text in single quotes, or a path with `/`",
+        help_de: "den Text in einfache Anführungszeichen setzen oder einen Pfad mit `/` schreiben",
+    }
+    /// A file or directory with a control character in its name, such as the tab that `"C:\temp"` has.
+    CONTROL_CHARACTER: InvalidConfiguration {
+        en: "the value of `{key}` contains a control character: in double quotes, a backslash has a special meaning",
+        de: "der Wert von `{key}` enthält ein Steuerzeichen: in doppelten Anführungszeichen hat ein Backslash eine besondere Bedeutung",
+        help_en: "write the path in single quotes, or with `/`",
+        help_de: "den Dateipfad in einfache Anführungszeichen setzen oder mit `/` schreiben",
     }
     /// An unknown key that is similar to a known one.
     UNKNOWN_KEY: InvalidConfiguration {

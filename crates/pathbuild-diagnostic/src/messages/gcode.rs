@@ -437,7 +437,7 @@ messages! {
     CALLS_TOO_DEEP: WordNotFollowed {
         en: "subprograms and loops are nested more than {most} levels deep: this one is left out",
         de: "Unterprogramme und Schleifen sind mehr als {most} Ebenen tief verschachtelt: diese Ebene wird ausgelassen",
-        help_en: "write the innermost moves out",
+        help_en: "nest fewer levels: replace the innermost calls and loops with the moves that they make",
         help_de: "die innersten Bewegungen ausschreiben",
     }
     /// Calls and loops that execute more lines than the limit.
@@ -458,7 +458,7 @@ messages! {
     REFERENCED: WordNotFollowed {
         en: "{dialect} moves to the reference switches at {word} and counts from them afterwards, no longer from the zero of the part",
         de: "{dialect} fährt bei {word} auf die Referenzschalter und zählt danach von ihnen aus, nicht mehr vom Nullpunkt des Werkstücks",
-        help_en: "reference the machine before the program; to park it, raise the cutter and move to a position of the program",
+        help_en: "home the machine before you start the program; to park it at the end, raise the cutter and move to a position in the coordinates of the part",
         help_de: "vor dem Programm referenzieren; zum Parken den Fräser anheben und eine Position des Programms anfahren",
     }
     /// A word that common builds of a control ignore.

@@ -451,7 +451,7 @@ messages! {
     INVALID_REGEX: InvalidRegex {
         en: "E is not a regular expression: {reason}",
         de: "E ist kein regulärer Ausdruck: {reason}",
-        help_en: "write an expression to be found in the names of embedded paths, such as E^2050 or E[.]1P",
+        help_en: "write a regular expression that matches the names of embedded paths or parts of them, such as E^2050 or E[.]1P",
         help_de: "einen Ausdruck schreiben, der in den Namen eingebetteter Pfade gesucht wird, etwa E^2050 oder E[.]1P",
     }
     /// A letter that is permitted but has no effect.

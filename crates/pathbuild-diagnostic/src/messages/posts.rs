@@ -57,7 +57,7 @@ messages! {
     POST_WRONG_ROOT: InvalidPost {
         en: "the file contains <{found}>, not <PostProcessor>",
         de: "die Datei enthält <{found}>, nicht <PostProcessor>",
-        help_en: "give the file of a CamBam definition: it begins with <PostProcessor>",
+        help_en: "name a CamBam definition, a file whose first element is <PostProcessor>",
         help_de: "die Datei einer CamBam-Definition angeben: sie beginnt mit <PostProcessor>",
     }
     /// An option of a definition with an invalid value.
@@ -93,8 +93,10 @@ messages! {
     }
     /// An element that neither CamBam nor pathbuild knows.
     POST_UNKNOWN_ELEMENT: DoubtfulPost {
-        en: "<{element}> is unknown and ignored",
-        de: "<{element}> ist unbekannt und wird übergangen",
+        en: "<{element}> is not an element of CamBam definitions and is ignored",
+        de: "<{element}> ist kein Element von CamBam-Definitionen und wird übergangen",
+        help_en: "correct its name, or remove it",
+        help_de: "den Namen berichtigen oder es entfernen",
     }
     /// An element that occurs more than once.
     POST_REPEATED_ELEMENT: DoubtfulPost {

@@ -33,8 +33,8 @@ impl Interpreter<'_> {
         self.stated.has_begun |= !block.words.is_empty();
     }
 
-    /// Returns the part of a number that is correction according to its formula. The machine executes the number, so a formula with a different
-    /// result is reported.
+    /// Returns how much of a number is probe correction, according to its formula. The machine executes the number and not the formula, so a formula
+    /// with a different result is reported.
     pub(super) fn correction(&mut self, block: &Block<'_>, formula: &Formula, number: f64) -> f64 {
         if self.stated.is_ours && self.stated.probes.is_empty() {
             self.report(block, &say::FORMULA_WITHOUT_PROBES, formula.span, |d| d);

@@ -110,8 +110,8 @@ impl PostWords {
         }
     }
 
-    /// Turns the words into those of a definition without a dialect. `name` is the name of the definition, `others` are the words that its
-    /// translation omits.
+    /// Marks these as the words of a post-processor definition that names no dialect. `name` is the name of the definition; `others` are the words
+    /// of its output that the translation to RS274 omits.
     pub fn of_definition(self, name: &str, others: impl IntoIterator<Item = String>) -> Self {
         Self { others: others.into_iter().collect(), definition: Some(name.to_owned()), ..self }
     }

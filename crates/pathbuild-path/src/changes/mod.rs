@@ -93,7 +93,7 @@ pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
     let (old_items, new_items) = (items(old), items(new));
     let frame = Frame::between(&old_items, &new_items);
     let pairs = pair(&old_items, &new_items, &frame);
-    let mut found: Vec<FoundChange<'_>> = Vec::new();
+    let mut found: Vec<ItemChange<'_>> = Vec::new();
     for (was, is) in &pairs.both {
         found.extend(element_changes(was, is, &frame).into_iter().map(|change| (*is, change)));
     }
@@ -108,7 +108,7 @@ pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
 }
 
 /// A change with its element in the new drawing, or in the old drawing if the element was removed.
-type FoundChange<'i> = (&'i Item<'i>, ElementChange);
+type ItemChange<'i> = (&'i Item<'i>, ElementChange);
 
 fn element_changes(old: &Item<'_>, new: &Item<'_>, frame: &Frame) -> Vec<ElementChange> {
     let mut changes: Vec<ElementChange> = shape_changes(&old.shape, &new.shape, frame.shift).collect();
@@ -118,7 +118,7 @@ fn element_changes(old: &Item<'_>, new: &Item<'_>, frame: &Frame) -> Vec<Element
 }
 
 /// Groups equal changes of elements of one kind. A group has the position of its first element, by X and then by Y.
-fn group_changes(mut found: Vec<FoundChange<'_>>) -> Vec<DrawnChange> {
+fn group_changes(mut found: Vec<ItemChange<'_>>) -> Vec<DrawnChange> {
     found.sort_by(|(one, _), (other, _)| compare_positions(one.kind, one.at(), other.kind, other.at()));
     let mut groups: Vec<DrawnChange> = Vec::new();
     let mut numbers: BTreeMap<(ElementKind, String), usize> = BTreeMap::new();

@@ -138,8 +138,9 @@ pub struct RangeTable {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Entry {
-    /// The first groups of the first and of the last name.
+    /// First group of the range's first name.
     from: FirstGroup,
+    /// First group of the range's last name.
     to: FirstGroup,
     /// The maximum of `to` over the entries up to this one.
     latest: FirstGroup,

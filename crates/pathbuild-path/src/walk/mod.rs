@@ -37,8 +37,8 @@ pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> 
 /// The reason why a walk failed; `None` if it may follow from other errors.
 type Failure = Option<Box<Diagnostic>>;
 
-/// Number of segments at a point above which they are sorted once instead of being scanned in each step.
-const MIN_JUNCTION_SEGMENTS: usize = 16;
+/// Maximum number of segments at a point that are scanned in each step. If there are more, they are sorted once.
+const MAX_SCANNED_SEGMENTS: usize = 16;
 
 const SEGMENTS_PER_CHECKPOINT: usize = 256;
 
@@ -206,7 +206,7 @@ impl<'a> Walker<'a> {
         let (path, ends) = (self.path, &self.ends);
         let before = |best, other| if comes_before(path, ends, other, best) { other } else { best };
         let next = found.iter().copied().reduce(before);
-        if found.len() > MIN_JUNCTION_SEGMENTS
+        if found.len() > MAX_SCANNED_SEGMENTS
             && let Some(segments) = ends.junction_segments(self.at, |segment| !self.is_traversed[segment])
         {
             self.junctions.insert(self.at, segments, path, ends);

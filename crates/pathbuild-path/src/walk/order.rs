@@ -37,7 +37,7 @@ pub(super) fn length(ends: &Ends, segment: usize) -> f64 {
 #[derive(Default)]
 pub(super) struct Junctions(BTreeMap<Squares, Junction>);
 
-/// A point at which many segments meet (more than `MIN_JUNCTION_SEGMENTS` untraversed ones), with these segments in groups.
+/// A point at which many segments meet (more than `MAX_SCANNED_SEGMENTS` untraversed ones), with these segments in groups.
 pub(super) struct Junction {
     /// The corners of the bounding box of the ends that meet here.
     corners: [Xy; 2],

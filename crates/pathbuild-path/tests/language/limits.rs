@@ -210,7 +210,7 @@ fn the_default_sweep_height_is_above_every_t() {
     let subpath = compile(&path("T5 O3 I1 B0", "subpath 0,0 40,0 \">1111.1P T7\"\nend 40,0")).path.unwrap();
     assert_eq!(check(&subpath, 7.1), [""; 0]);
     assert_eq!(check(&subpath, 7.0), ["PB203"]);
-    // An explicit S was checked together with the other values.
+    // An explicit S is checked with the other values when the path is compiled.
     let with = compile(&path("T5 O3 I1 B0 S20", "mill 0,0 40,0\nend 40,0")).path.unwrap();
     assert_eq!(check(&with, 1.0), [""; 0]);
 }

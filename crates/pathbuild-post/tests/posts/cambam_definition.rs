@@ -62,7 +62,12 @@ fn a_byte_order_mark_and_any_line_ends_are_fine() {
 #[test]
 fn an_unknown_element_is_a_warning() {
     let written = output(&bare("<Wobble>1</Wobble>"), &job(vec![]), &PostOptions::default()).unwrap();
-    assert_eq!(texts(&written.warnings), ["3: PB752 <Wobble> is unknown and ignored"]);
+    assert_eq!(
+        texts(&written.warnings),
+        [
+            "3: PB752 <Wobble> is not an element of CamBam definitions and is ignored (correct its name, or remove it)"
+        ]
+    );
 }
 
 #[test]
@@ -132,7 +137,7 @@ fn what_is_no_definition_is_refused() {
     assert_eq!(
         texts(&read("<Other/>").unwrap_err()),
         [
-            "PB750 the file contains <Other>, not <PostProcessor> (give the file of a CamBam definition: it begins with <PostProcessor>)"
+            "PB750 the file contains <Other>, not <PostProcessor> (name a CamBam definition, a file whose first element is <PostProcessor>)"
         ]
     );
     assert_eq!(read("<PostProcessor>").unwrap_err()[0].code().to_string(), "PB750");
@@ -233,7 +238,10 @@ fn an_element_within_a_text_is_a_warning() {
     let post = read(&text).unwrap();
     let options = PostOptions { unchecked: true, ..PostOptions::default() };
     let warnings = texts(&post.write(&job(vec![]), &options).unwrap().warnings);
-    let expected = ["3: PB752 <b> is unknown and ignored", "3: PB752 <i> is unknown and ignored"];
+    let expected = [
+        "3: PB752 <b> is not an element of CamBam definitions and is ignored (correct its name, or remove it)",
+        "3: PB752 <i> is not an element of CamBam definitions and is ignored (correct its name, or remove it)",
+    ];
     assert_eq!(warnings[..2], expected, "{warnings:?}");
 }
 

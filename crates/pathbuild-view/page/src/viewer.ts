@@ -92,7 +92,7 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
   speak();
 }
 
-/** Places the findings of a program, and fills its fields with the values that it states. */
+/** Shows the controls for G-code programs if the page shows one, with its findings and, as placeholders of input fields, the values that it states. */
 function placeProgram(): void {
   const { program } = scene;
   document.getElementById("download")?.toggleAttribute("hidden", program !== undefined);

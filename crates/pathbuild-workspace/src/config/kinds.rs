@@ -238,8 +238,8 @@ pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
 };
 
 pub(in crate::config) const ABSOLUTE_DIRECTORY: ValueType<Utf8PathBuf> = ValueType {
-    read: |value, reader| match reader.text(value).map(Utf8PathBuf::from)? {
-        path if path.is_absolute() => Some(path),
+    read: |value, reader| match reader.text(value)? {
+        name if Utf8Path::new(name).is_absolute() => reader.path(name, value),
         _ => reader.expected(&messages::ABSOLUTE, value),
     },
     show: |path| Some(quoted(path.as_str())),
@@ -250,7 +250,7 @@ pub(in crate::config) const ABSOLUTE_DIRECTORIES: ValueType<Directories> = Value
     read: |value, reader| {
         let names = texts(value, reader)?;
         if names.iter().all(|(name, _)| Utf8Path::new(name).is_absolute()) {
-            Some(names.into_iter().map(|(name, _)| name.into()).collect())
+            Some(names.into_iter().filter_map(|(name, value)| reader.path(name, value)).collect())
         } else {
             reader.expected(&messages::ABSOLUTES, value)
         }

@@ -121,7 +121,21 @@ pub(super) fn read_table<T: Default>(
 
 fn syntax_fault(error: &toml::de::Error, source: &Source<'_>) -> Diagnostic {
     let reason = error.message().lines().next().unwrap_or_default();
-    source.fault(&messages::TOML_SYNTAX, error.span().unwrap_or(0..0)).with("reason", Value::foreign(reason))
+    let span = error.span().unwrap_or(0..0);
+    let message = if is_decimal_comma(source, span.start) {
+        &messages::TOML_COMMA
+    } else if reason.contains("escape") {
+        &messages::TOML_ESCAPE
+    } else {
+        &messages::TOML_SYNTAX
+    };
+    source.fault(message, span).with("reason", Value::foreign(reason))
+}
+
+/// Whether a byte of the text is a comma between two digits.
+fn is_decimal_comma(source: &Source<'_>, byte: usize) -> bool {
+    let around = source.slice(byte.saturating_sub(1)..byte + 2).as_bytes();
+    matches!(around, [before, b',', behind] if before.is_ascii_digit() && behind.is_ascii_digit())
 }
 
 /// A search for the configuration that applies to a run or a directory.

@@ -87,6 +87,12 @@ impl<'a> TomlReader<'a> {
 
     /// Returns the file or directory that a value names, relative to the configuration's directory.
     pub(super) fn path(&mut self, name: &str, value: &Spanned<DeValue<'_>>) -> Option<Utf8PathBuf> {
+        // In double quotes, the \t of C:\temp is a tab.
+        if name.contains(char::is_control) {
+            let fault = self.fault(&messages::CONTROL_CHARACTER, value.span());
+            self.report(fault);
+            return None;
+        }
         let path: Utf8PathBuf = with_forward_slashes(self.directory.join(name).components().collect());
         match self.confined.filter(|confined| !confined.is_in_configured_root(&path)) {
             None => Some(path),

@@ -239,7 +239,7 @@ pub fn sheet_of(
     what: &str,
 ) -> Result<SheetOutcome, String> {
     session.with_stable_files(|session| match resolve_target(session, what)? {
-        Ok(target) => of_target(session, post_processor, target),
+        Ok(target) => scenes_of_target(session, post_processor, target),
         Err(diagnostics) => Ok(SheetOutcome { sheet: None, diagnostics: session.with_hints(diagnostics) }),
     })
 }
@@ -267,7 +267,7 @@ fn resolve_target(session: &Session<'_>, what: &str) -> Result<Result<Target, Ve
     }
 }
 
-fn of_target(
+fn scenes_of_target(
     session: &Session<'_>,
     post_processor: Option<&PostProcessor>,
     target: Target,

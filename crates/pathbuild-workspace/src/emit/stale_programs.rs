@@ -193,7 +193,7 @@ impl<'a> EarlierPrograms<'a> {
         // Two drawings may yield the same program.
         let mut known = HashSet::new();
         let older = |target: &Target| {
-            let programs = self.of_target(*target, &mut listings).into_iter();
+            let programs = self.programs_of_target(*target, &mut listings).into_iter();
             let programs = programs.filter(|program| known.insert(program.clone()));
             let name = target.name(self.session.db());
             programs.map(|program| earlier_outcome(program, name, self.task)).collect::<Vec<_>>()
@@ -205,7 +205,7 @@ impl<'a> EarlierPrograms<'a> {
 
     /// Returns the programs on disk that belong to a target. Their names begin with the name of the drawing or of the path, and the head of each
     /// program names its path.
-    fn of_target(&self, target: Target, listings: &mut Listings) -> Vec<Utf8PathBuf> {
+    fn programs_of_target(&self, target: Target, listings: &mut Listings) -> Vec<Utf8PathBuf> {
         let db = self.session.db();
         let (drawing, path) = (target.file(db).path(db), &**target.name(db));
         let directory = output_directory(self.session.out_dir().as_deref(), drawing);

@@ -147,7 +147,7 @@ impl<'w> Verifier<'w> {
     ///
     /// The text is interpreted twice instead of keeping its steps, because the rules need to know the material first.
     pub fn verify(&self, file: &Utf8Path, text: Vec<u8>) -> VerifiedProgram {
-        let mut as_written = WrittenSteps::new(self.machine.as_ref());
+        let mut as_written = AsWrittenSteps::new(self.machine.as_ref());
         let by_definition = |text: &[u8], guess: Option<&Guess>| self.writers.translate(text, guess);
         let each = &mut |step| as_written.step(&step);
         let program =
@@ -174,14 +174,14 @@ impl<'w> Verifier<'w> {
         self.examine(program, self.stored_as_written(program)).diagnostics
     }
 
-    fn stored_as_written(&self, program: &Program) -> WrittenSteps<'_> {
-        let mut as_written = WrittenSteps::new(self.machine.as_ref());
+    fn stored_as_written(&self, program: &Program) -> AsWrittenSteps<'_> {
+        let mut as_written = AsWrittenSteps::new(self.machine.as_ref());
         program.read.steps.iter().for_each(|step| as_written.step(step));
         as_written
     }
 
     /// Examines a program, and reports required checks that could not be made.
-    fn examine_with_required(&self, program: &Program, as_written: WrittenSteps<'_>) -> VerifiedProgram {
+    fn examine_with_required(&self, program: &Program, as_written: AsWrittenSteps<'_>) -> VerifiedProgram {
         let mut verified = self.examine(program, as_written);
         let required = self.required();
         let unmade = verified.checks.iter().filter_map(|record| record.missing_check_error(&required));
@@ -191,7 +191,7 @@ impl<'w> Verifier<'w> {
         verified
     }
 
-    fn examine(&self, program: &Program, as_written: WrittenSteps<'_>) -> VerifiedProgram {
+    fn examine(&self, program: &Program, as_written: AsWrittenSteps<'_>) -> VerifiedProgram {
         let has_probed = as_written.has_probed;
         let (header, stated) = as_written.finish(program);
         let verified = Examination::new(self, program, &header, has_probed).run(stated);
@@ -235,7 +235,7 @@ impl<'w> Verifier<'w> {
 }
 
 /// A collector of facts about the steps of a program as they are written, with corrected heights.
-struct WrittenSteps<'m> {
+struct AsWrittenSteps<'m> {
     header: HeaderReader,
     stated: StatedStatistics,
     limits: Option<MachineRules<'m>>,
@@ -243,13 +243,13 @@ struct WrittenSteps<'m> {
 }
 
 /// Findings about the steps of a program as they are written, with corrected heights.
-struct WrittenFindings {
+struct AsWrittenFindings {
     statistics: Vec<Diagnostic>,
     limits: Vec<Diagnostic>,
     has_several_zeros: bool,
 }
 
-impl<'m> WrittenSteps<'m> {
+impl<'m> AsWrittenSteps<'m> {
     fn new(machine: Option<&'m Machine>) -> Self {
         Self {
             header: HeaderReader::default(),
@@ -269,7 +269,7 @@ impl<'m> WrittenSteps<'m> {
         }
     }
 
-    fn finish(mut self, program: &Program) -> (Header, WrittenFindings) {
+    fn finish(mut self, program: &Program) -> (Header, AsWrittenFindings) {
         if program.by_definition.is_some() {
             self.header.read_head_comments(&program.text);
         }
@@ -280,7 +280,7 @@ impl<'m> WrittenSteps<'m> {
         let statistics = if has_own_statistics { self.stated.finish() } else { Vec::new() };
         let has_several_zeros = self.limits.as_ref().is_some_and(MachineRules::has_several_frames);
         let limits = self.limits.map(MachineRules::finish).unwrap_or_default();
-        (self.header.finish(program.inch_word()), WrittenFindings { statistics, limits, has_several_zeros })
+        (self.header.finish(program.inch_word()), AsWrittenFindings { statistics, limits, has_several_zeros })
     }
 }
 
@@ -399,7 +399,7 @@ impl<'v> Examination<'v> {
     ///
     /// # Errors
     /// The problem that prevents the verification.
-    fn run(&self, written: WrittenFindings) -> Result<VerifiedProgram, Vec<Diagnostic>> {
+    fn run(&self, written: AsWrittenFindings) -> Result<VerifiedProgram, Vec<Diagnostic>> {
         self.refuse_joined_paths()?;
         let rewritten = self.rewritten_program()?;
         let mut evidence = CheckEvidence {
@@ -448,7 +448,7 @@ impl<'v> Examination<'v> {
     /// Applies the rules and returns their findings, with the comparison if a drawing was named.
     fn findings(
         &self,
-        written: WrittenFindings,
+        written: AsWrittenFindings,
         rewritten: Option<&RewrittenProgram>,
         evidence: &mut CheckEvidence,
     ) -> (Vec<Diagnostic>, Option<MoveComparison>) {

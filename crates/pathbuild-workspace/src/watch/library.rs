@@ -273,8 +273,8 @@ impl<'a> Library<'a> {
         files
     }
 
-    /// Updates the names of directories in which files were added or removed, and collects the drawings that looked up names there and may be
-    /// affected. Returns whether any names changed.
+    /// Lists the directories again in which files were added or removed, and collects the drawings that looked up a name which has appeared or
+    /// disappeared there. Returns whether any file name has changed.
     fn apply_names(
         &mut self,
         changes: &Changes,

@@ -77,7 +77,7 @@ fn texts(
         let paths = of_whole.chain(path).filter(|_| pattern.is_none());
         shown.extend(assigned_texts(db, file).iter().filter(is_wanted).map(|text| match context.format {
             Format::Json => OutputItem::Row("text", object(&context.file(file.path(db)), text)),
-            _ => OutputItem::Lines(lines(context, name, text)),
+            _ => OutputItem::Lines(format_text(context, name, text)),
         }));
         shown.extend(paths.flat_map(|path| table_of(context, db, file, path)));
     }
@@ -85,7 +85,7 @@ fn texts(
 }
 
 /// Formats a text in a few lines: its content, its place, and the elements that it belongs to.
-fn lines(context: &Context, file: &str, text: &AssignedText) -> String {
+fn format_text(context: &Context, file: &str, text: &AssignedText) -> String {
     let TextCircle { centre, radius } = text.circle;
     let layer = context.choose("layer", "Layer");
     let [file, of_layer] = [file, &text.layer].map(shown::line);

@@ -61,8 +61,8 @@ impl Endpoint {
     pub(super) fn link(&self) -> String {
         let host = match &self.host {
             Host::Name(name) => name.clone(),
-            Host::Ip(ip) if ip.is_unspecified() => literal(own_address(*ip)),
-            Host::Ip(ip) => literal(*ip),
+            Host::Ip(ip) if ip.is_unspecified() => url_address(own_address(*ip)),
+            Host::Ip(ip) => url_address(*ip),
         };
         let fragment = self.token.as_ref().map(|token| format!("#token={token}")).unwrap_or_default();
         format!("http://{host}:{}/{fragment}", self.port())
@@ -80,8 +80,8 @@ impl Endpoint {
         };
         let is_own = match &self.host {
             Host::Name(name) => name == host,
-            Host::Ip(ip) if ip.is_unspecified() => is_literal(host),
-            Host::Ip(ip) => literal(*ip) == host,
+            Host::Ip(ip) if ip.is_unspecified() => is_ip_address(host),
+            Host::Ip(ip) => url_address(*ip) == host,
         };
         is_own || matches!(host, "localhost" | "127.0.0.1" | "[::1]")
     }
@@ -98,7 +98,7 @@ fn bind(host: &Host, port: u16) -> io::Result<TcpListener> {
 }
 
 /// Formats an IP address for a URL.
-fn literal(ip: IpAddr) -> String {
+fn url_address(ip: IpAddr) -> String {
     match ip {
         IpAddr::V4(ip) => ip.to_string(),
         IpAddr::V6(ip) => format!("[{ip}]"),
@@ -106,7 +106,7 @@ fn literal(ip: IpAddr) -> String {
 }
 
 /// Whether a host is an IP address, which DNS cannot redirect.
-fn is_literal(host: &str) -> bool {
+fn is_ip_address(host: &str) -> bool {
     let inner = host.strip_prefix('[').and_then(|host| host.strip_suffix(']'));
     inner.map_or_else(|| host.parse::<Ipv4Addr>().is_ok(), |host| host.parse::<Ipv6Addr>().is_ok())
 }
