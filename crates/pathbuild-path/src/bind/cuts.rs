@@ -61,7 +61,7 @@ impl Binder<'_> {
     pub(super) fn bars(&mut self, scope: &Scope<'_>, length: f64, tool: Option<f64>) -> Option<Bars> {
         let [top, bar, distance] = [Letter::D, Letter::P, Letter::U].map(|letter| self.value(scope, letter));
         let bars = Bars { top: top?, length: bar?, distance: distance? };
-        self.note_thin_bars(scope, bars.top);
+        self.report_doubt(scope, check_bar(bars.top, scope.values, &self.values));
         let (tool, count) = (tool?, bars.count(length));
         let pitch = length / count;
         if count > 0.0 && !at_least(pitch, bars.length + tool) {
@@ -72,17 +72,6 @@ impl Binder<'_> {
             self.report(scope.at, problem);
         }
         Some(bars)
-    }
-
-    /// Reports PB211 for support bars that are too thin to hold a part. Of the bars whose height is the path's D, only the first is reported.
-    fn note_thin_bars(&mut self, scope: &Scope<'_>, top: f64) {
-        let Some((problem, is_path)) = check_bar(top, scope.values, &self.values) else { return };
-        if !is_path {
-            self.report(scope.at, problem);
-        } else if !self.has_thin_bars {
-            self.has_thin_bars = true;
-            self.report_at_start(problem);
-        }
     }
 
     fn note_gap(&mut self, scope: &Scope<'_>, bars: &Bars, length: f64) {

@@ -71,11 +71,8 @@ struct Binder<'a> {
     problems: Vec<Diagnostic>,
     /// Indices of the diagnostics about each text.
     by_text: HashMap<TextId, Vec<usize>>,
-    /// Whether the path's D was reported as doubtful for marks.
-    has_doubtful_marks: bool,
-    /// Whether the path's B or D was reported as deeper than the cutting edges of the tool.
-    has_deep_cuts: bool,
-    has_thin_bars: bool,
+    /// Keys of the messages that doubt values of the path itself: each is reported only once.
+    doubted_at_start: Vec<&'static str>,
     /// Whether any segment with support bars has a gap between them.
     has_gap: bool,
     /// The finding about the first segment without a gap.
@@ -133,9 +130,7 @@ impl<'a> Binder<'a> {
             helices: Vec::new(),
             problems: Vec::new(),
             by_text: HashMap::new(),
-            has_doubtful_marks: false,
-            has_deep_cuts: false,
-            has_thin_bars: false,
+            doubted_at_start: Vec::new(),
             has_gap: false,
             gapless: None,
             unknown: UnknownValues::default(),
@@ -297,30 +292,24 @@ impl<'a> Binder<'a> {
         });
     }
 
-    /// Returns the bottom of a cut, from its own text or the path's. Reports doubtful marks; of those that use the path's D, only the first.
+    /// Returns the bottom of a cut, from its own text or the path's. Reports doubtful marks, and cuts deeper than the cutting edges of the tool.
     fn bottom(&mut self, scope: &Scope<'_>, cut: Cut) -> Option<f64> {
         let bottom = self.value(scope, cut.depth())?;
         let doubts = &self.language.doubts;
         let doubt = (cut == Cut::Mark).then(|| check_mark(bottom, scope.values, &self.values, doubts));
-        match doubt.flatten() {
-            Some((problem, false)) => self.report(scope.at, problem),
-            Some((problem, true)) if !self.has_doubtful_marks => {
-                self.has_doubtful_marks = true;
-                self.report_at_start(problem);
-            }
-            _ => {}
-        }
-        self.check_cutting_depth(scope, cut.depth(), bottom);
+        self.report_doubt(scope, doubt.flatten());
+        let length = self.tool.as_ref().and_then(|tool| tool.cutting_length);
+        let doubt = check_cutting_depth(bottom, cut.depth(), scope.values, &self.values, length);
+        self.report_doubt(scope, doubt);
         Some(bottom)
     }
 
-    /// Reports a cut that is deeper than the cutting edges of the tool are long; of cuts that use the path's value, only the first.
-    fn check_cutting_depth(&mut self, scope: &Scope<'_>, letter: Letter, bottom: f64) {
-        let length = self.tool.as_ref().and_then(|tool| tool.cutting_length);
-        match check_cutting_depth(bottom, letter, scope.values, &self.values, length) {
+    /// Reports a doubt about a value, at the element or, if it is the path's own value, once at the start.
+    fn report_doubt(&mut self, scope: &Scope<'_>, doubt: Option<(Diagnostic, bool)>) {
+        match doubt {
             Some((problem, false)) => self.report(scope.at, problem),
-            Some((problem, true)) if !self.has_deep_cuts => {
-                self.has_deep_cuts = true;
+            Some((problem, true)) if !self.doubted_at_start.contains(&problem.message.key) => {
+                self.doubted_at_start.push(problem.message.key);
                 self.report_at_start(problem);
             }
             _ => {}
