@@ -190,11 +190,11 @@ impl Comparison<'_> {
                 kinds[0][index] = self.kind_of_old(&moves[0][index]);
             }
             for index in new {
-                kinds[1][index] = self.kind_of_new(&moves[1][index]);
+                kinds[1][index] = Some(self.kind_of_new(&moves[1][index]));
             }
         }
         for (side, (pieces, kinds)) in pieces.into_iter().zip(kinds).enumerate() {
-            self.add_pieces(side, pieces, &kinds);
+            self.add_pieces(side, &pieces, &kinds);
         }
         self.done = runs.map(|run| run.end);
     }
@@ -209,7 +209,7 @@ impl Comparison<'_> {
     }
 
     /// Adds the pieces of consecutive moves. A move of which all pieces changed in the same way stays whole.
-    fn add_pieces(&mut self, side: usize, pieces: Vec<ComparedMove>, kinds: &[Option<ChangeKind>]) {
+    fn add_pieces(&mut self, side: usize, pieces: &[ComparedMove], kinds: &[Option<ChangeKind>]) {
         let mut first = 0;
         for group in pieces.chunk_by(|a, b| a.number == b.number) {
             let kinds = &kinds[first..first + group.len()];
@@ -256,23 +256,23 @@ impl Comparison<'_> {
     }
 
     /// Returns the kind of change of a new piece.
-    fn kind_of_new(&mut self, piece: &SceneMove) -> Option<ChangeKind> {
+    fn kind_of_new(&mut self, piece: &SceneMove) -> ChangeKind {
         if is_rapid(piece) {
-            return Some(ChangeKind::Added);
+            return ChangeKind::Added;
         }
         let line = self.identities.line(piece);
         let [was, is] = &self.milled;
         let (Some(was), Some(is)) = (was.lines.get(&line), is.lines.get(&line)) else {
             let is_milled = self.milled[0].reaches(piece, &mut self.identities);
-            return Some(if is_milled { ChangeKind::Reordered } else { ChangeKind::Added });
+            return if is_milled { ChangeKind::Reordered } else { ChangeKind::Added };
         };
         let raised = was.raised(is);
         let feed = ((is.feed - was.feed).abs() > END_TOLERANCE).then_some([was.feed, is.feed]);
         let passes = (is.passes != was.passes).then_some([was.passes, is.passes]);
-        Some(match (feed, passes) {
+        match (feed, passes) {
             (None, None) if raised == [0.0; 2] => ChangeKind::Reordered,
             _ => ChangeKind::Altered { raised, feed, passes },
-        })
+        }
     }
 }
 

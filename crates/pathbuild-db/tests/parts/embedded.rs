@@ -264,7 +264,8 @@ fn an_outline_in_an_opening_with_a_layer_of_its_own_is_a_part() {
 #[test]
 fn circles_round_a_hole_and_in_it_are_no_parts() {
     for others in [&[7.0][..], &[8.0], &[12.0], &[7.0, 12.0]] {
-        let circles: String = others.iter().map(|diameter| format!("circle 20,13 d {diameter}\n")).collect();
+        let circles = others.iter().map(|diameter| format!("circle 20,13 d {diameter}\n"));
+        let circles = circles.collect::<Vec<_>>().concat();
         let drawing = format!(
             "layer 1234.1P\nstart -5,-5 \"T2 O2 I1 B0 D1 P2 U8 S5\"\nsweep -5,-5 20,13\nbars circle 20,13 d 10\n\
              sweep 20,13 50,-5\nend 50,-5\nlayer Part\npolyline 1,1 41,1 41,26 1,26 closed\ncircle 20,13 d 10\n{circles}"

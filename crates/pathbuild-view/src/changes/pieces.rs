@@ -163,6 +163,7 @@ impl Divider {
         let (mut near, mut step, mut from) = (Vec::new(), 0.0, point(0.0));
         while step < count {
             step += 1.0;
+            self.searched += 1;
             let to = point(step);
             // An eighth of a circle is at most a tenth of its chord away from it.
             let margin = CURVE_TOLERANCE + 0.1 * libm::hypot(to[0] - from[0], to[1] - from[1]);
@@ -177,7 +178,7 @@ impl Divider {
             }
             from = to;
         }
-        self.searched += count as usize + near.len();
+        self.searched += near.len();
         near.sort_unstable();
         near.dedup();
         near
@@ -186,18 +187,15 @@ impl Divider {
 
 /// Returns the shares of a move, strictly between its ends, at which it passes the point of its line or circle that is nearest to a point.
 fn shares(way: &Move, point: Point) -> impl Iterator<Item = f64> + use<> {
-    let (first, period, length) = match (way.course(), way.shape) {
-        (Some(course), MoveShape::Arc(arc)) => {
-            let ahead = arc.angle_ahead(&way.from.at, &[point[0], point[1], 0.0]);
-            let sweep = course.sweep();
-            ((ahead + if ahead < 0.0 { TAU } else { 0.0 }) / sweep, TAU / sweep, course.length_in_plane())
-        }
-        _ => {
-            let [x, y] = [0, 1].map(|axis| way.to.at[axis] - way.from.at[axis]);
-            let length = libm::hypot(x, y);
-            let along = (point[0] - way.from.x()) * x + (point[1] - way.from.y()) * y;
-            (along / (length * length), f64::INFINITY, length)
-        }
+    let (first, period, length) = if let (Some(course), MoveShape::Arc(arc)) = (way.course(), way.shape) {
+        let ahead = arc.angle_ahead(&way.from.at, &[point[0], point[1], 0.0]);
+        let sweep = course.sweep();
+        ((ahead + if ahead < 0.0 { TAU } else { 0.0 }) / sweep, TAU / sweep, course.length_in_plane())
+    } else {
+        let [x, y] = [0, 1].map(|axis| way.to.at[axis] - way.from.at[axis]);
+        let length = libm::hypot(x, y);
+        let along = (point[0] - way.from.x()) * x + (point[1] - way.from.y()) * y;
+        (along / (length * length), f64::INFINITY, length)
     };
     let margin = END_TOLERANCE / length;
     let times = std::iter::successors(Some(first), move |share| Some(share + period));
