@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use pathbuild_path::{
-    Bars, Curve, Cut, CutElement, EmbeddedPlace, Item, Line, PartCut, Path, PathCuts, PlacedSubpath, Role,
-    SegmentKind, Shape, StandingBar, TipMove, WalkedPath, Xy, approx,
+    Bars, Curve, Cut, CutElement, EmbeddedPlace, Item, Line, PartCut, PartSweep, Path, PathCuts,
+    PlacedSubpath, Role, SegmentKind, Shape, StandingBar, TipMove, WalkedPath, Xy, approx,
 };
 
 use crate::chain::last_pass;
@@ -39,6 +39,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
             Item::Sweep(_) => {}
         }
     }
+    let sweeps = found.sweeps();
     // The cuts are stored as long as the drawing's index, so free the spare capacity.
     found.cuts.shrink_to_fit();
     PathCuts {
@@ -48,6 +49,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
         is_slot,
         elements: found.elements,
         cuts: found.cuts,
+        sweeps,
         bars: bars(path),
         ends: (path.start, path.end),
         embedded,
@@ -84,6 +86,19 @@ impl CutCollector<'_> {
         }
         let element = &mut self.elements[number];
         element.lowest = element.lowest.min(lowest);
+    }
+
+    /// Returns the sweeps of the path, and adds their elements.
+    fn sweeps(&mut self) -> Vec<PartSweep> {
+        let mut sweeps = Vec::new();
+        for segment in &self.path.segments {
+            let shape = self.path.drawn.elements[segment.element as usize].shape;
+            let (SegmentKind::Sweep { .. }, Shape::Curve(curve)) = (&segment.kind, shape) else { continue };
+            let element = u32::try_from(self.elements.len()).unwrap_or(u32::MAX);
+            self.elements.push(cut_element(self.path, segment.element, None));
+            sweeps.push(PartSweep { curve, element });
+        }
+        sweeps
     }
 }
 

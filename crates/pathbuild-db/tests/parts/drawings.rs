@@ -720,6 +720,43 @@ fn a_mark_along_an_outline_does_not_cut_it() {
     }
 }
 
+/// The upper side of the contour is a sweep by mistake.
+#[test]
+fn a_sweep_in_place_of_one_side_of_the_contour_leaves_that_side() {
+    let with = |upper: &str| {
+        let drawing = plate("bars").replace(
+            "bars to 42,27 0,27 0,0",
+            &format!("bars to 42,27\nsweep 42,27 {upper} 0,27\nbars 0,27 0,0"),
+        );
+        messages(&drawing).into_iter().filter(|found| found.starts_with("PB215")).collect::<Vec<_>>()
+    };
+    let found = with("");
+    assert!(found.len() == 1 && found[0].contains("only a sweep runs along the outline"), "{found:?}");
+    assert_eq!(with("42,27.019 0,27.019").len(), 1, "within the tolerance");
+    assert_eq!(with("42,27.021 0,27.021"), [""; 0], "farther outside");
+    assert_eq!(with("42,26.979 0,26.979"), [""; 0], "farther inside");
+    assert_eq!(with("20,40"), [""; 0], "leads away");
+    assert_eq!(with("39,27 38,40"), [""; 0], "beside a short stretch only");
+}
+
+/// The ends of a flat bar are cut, and a sweep along one of its edges leads from one cut to the other.
+#[test]
+fn a_sweep_along_the_edge_of_a_flat_bar_is_no_missing_cut() {
+    let flat_bar = |right: &str| {
+        format!(
+            "{START}sweep -5,-5 0,0\nmill 0,0 0,27\nsweep 0,27 42,27\nmill 42,27 42,0\n{right}\nend 50,-5\n\
+             layer Part\npolyline 1,1 41,1 41,26 1,26 closed\n"
+        )
+    };
+    let is_found = |right: &str| codes(&flat_bar(right)).contains(&"PB215".to_owned());
+    assert!(!is_found("sweep 42,0 50,-5"));
+    assert!(is_found("mill 42,0 0,0\nsweep 0,0 50,-5"), "three sides are cut");
+    let other =
+        "layer 1234.1L\nstart -5,40 \"T2 O2 I0.5 B-0.2 S5\"\nsweep -5,40 0,27\nmill 0,27 42,27\nend 42,27\n";
+    let both = format!("{}{other}", flat_bar("mill 42,0 0,0\nsweep 0,0 50,-5"));
+    assert!(!codes(&both).contains(&"PB215".to_owned()), "another path cuts the fourth");
+}
+
 /// Both holes have the diameter of the cutter, and one of them is only marked.
 #[test]
 fn a_marked_hole_is_not_made() {

@@ -36,6 +36,13 @@ messages! {
         help_en: "to cut through, draw it with CONTINUOUS lines and set B to 0 or below; a mark (DIVIDE) only goes down to D",
         help_de: "zum Durchtrennen mit CONTINUOUS zeichnen und B auf 0 oder darunter setzen; eine Markierung (DIVIDE) geht nur bis D",
     }
+    /// A sweep along the outline of a part, where the other sides are cut.
+    SWEEP_ALONG_OUTLINE: LeftoverAtPart {
+        en: "only a sweep runs along the outline of the part, from {from} to {to}, over {length} mm: this side is not cut (places: {count})",
+        de: "am Umriss des Teils, von {from} bis {to}, auf {length} mm, verläuft nur eine Leerfahrt: diese Seite wird nicht gefräst (Stellen: {count})",
+        help_en: "check the line type: draw a cut CONTINUOUS, or BORDER for support bars; if this side is the edge of the plate, draw the sweep farther away",
+        help_de: "den Linientyp prüfen: einen Schnitt CONTINUOUS zeichnen, mit Stützstegen BORDER; ist diese Seite der Rand der Platte, die Leerfahrt weiter entfernt zeichnen",
+    }
     /// Inner corners that are sharper than the cutter.
     UNREACHABLE_CORNER: UnreachableCorner {
         en: "the cutter, O{tool}, does not reach all of the outline: inner corners such as the one at {point} are too sharp, over {length} mm in all",

@@ -11,7 +11,7 @@ use super::cuts::{CutIndex, IndexedCut, PathCuts};
 use super::enclosure::Enclosure;
 use super::gouge::{ClassifiedCut, ClassifiedCuts, Gouge, classify_cuts, gouges};
 use super::intervals::at as at_along;
-use super::leftover::{LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
+use super::leftover::{Beside, LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
 use super::prepared::{PreparedPart, Side};
 use super::{Part, PartRing, PartSettings};
 use crate::element::diagnostic_point;
@@ -207,7 +207,8 @@ impl<'s> PartCheck<'s> {
     ) -> Vec<(usize, Diagnostic)> {
         let mut of_elements: BTreeMap<(usize, u32, bool), Vec<&Leftover>> = BTreeMap::new();
         for left in stretches {
-            of_elements.entry((left.path, left.element, left.height.is_some())).or_default().push(left);
+            let is_through = left.beside == Beside::ThroughCut;
+            of_elements.entry((left.path, left.element, !is_through)).or_default().push(left);
         }
         let mut found: Vec<(usize, Diagnostic)> = Vec::new();
         for ((path, element, _), stretches) in of_elements {
@@ -282,9 +283,10 @@ fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {
 fn leftover_problem(stretches: &[&Leftover]) -> Option<Diagnostic> {
     let longest =
         stretches.iter().reduce(|best, next| if best.is_exceeded_by(next) { next } else { best })?;
-    let problem = match longest.height {
-        Some(height) => Diagnostic::new(&messages::NOT_CUT_THROUGH).with("height", height),
-        None => Diagnostic::new(&messages::LEFTOVER).with("thickness", longest.thickness),
+    let problem = match longest.beside {
+        Beside::ThroughCut => Diagnostic::new(&messages::LEFTOVER).with("thickness", longest.thickness),
+        Beside::ShallowCut(height) => Diagnostic::new(&messages::NOT_CUT_THROUGH).with("height", height),
+        Beside::Sweep => Diagnostic::new(&messages::SWEEP_ALONG_OUTLINE),
     };
     let problem =
         problem.with("from", diagnostic_point(longest.from)).with("to", diagnostic_point(longest.to));
@@ -336,6 +338,7 @@ mod tests {
             is_slot: false,
             elements: (0..4).map(element).collect(),
             cuts: (0..).zip(ways).map(cut).collect(),
+            sweeps: Vec::new(),
             bars: Vec::new(),
             ends: (Xy::origin(), Xy::origin()),
             embedded: Vec::new(),

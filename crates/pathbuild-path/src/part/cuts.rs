@@ -21,10 +21,12 @@ pub struct PathCuts {
     pub thickness: f64,
     /// Whether the path is milled with a slot cutter.
     pub is_slot: bool,
-    /// The elements of the path that cut.
+    /// The elements of the path that cut, then those of its sweeps.
     pub elements: Vec<CutElement>,
     /// The moves in the material, as if each element were milled in a single pass.
     pub cuts: Vec<PartCut>,
+    /// The sweeps that the path draws.
+    pub sweeps: Vec<PartSweep>,
     /// The support bars that the path leaves.
     pub bars: Vec<StandingBar>,
     /// The start and the end of the path.
@@ -46,12 +48,12 @@ pub struct EmbeddedPlace {
     pub cuts_before: usize,
 }
 
-/// A drawn element that cuts, with its depth.
+/// A drawn element, with its depth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutElement {
     /// Location of the drawn element.
     pub origin: Origin,
-    /// Z of the element's lowest cut in mm.
+    /// Z of the element's lowest cut in mm; infinite for a sweep.
     pub lowest: f64,
     /// For an element with support bars, its whole segment: the cuts, and the sections with bars.
     pub supported: Option<Curve>,
@@ -62,6 +64,15 @@ pub struct CutElement {
 pub struct PartCut {
     /// The path of the tool tip.
     pub way: TipMove,
+    /// Index into [`PathCuts::elements`].
+    pub element: u32,
+}
+
+/// A sweep, above the material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartSweep {
+    /// The sweep as drawn.
+    pub curve: Curve,
     /// Index into [`PathCuts::elements`].
     pub element: u32,
 }
@@ -101,6 +112,13 @@ pub(super) struct IndexedCut<'c> {
     pub(super) through: Option<Curve>,
 }
 
+/// A sweep of one of several paths.
+pub(super) struct IndexedSweep<'c> {
+    pub(super) path: usize,
+    pub(super) sweep: &'c PartSweep,
+    pub(super) radius: f64,
+}
+
 /// The cuts of all paths of a drawing, with an index of their boxes.
 pub(super) struct CutIndex<'c> {
     pub(super) paths: &'c [&'c PathCuts],
@@ -108,6 +126,8 @@ pub(super) struct CutIndex<'c> {
     pub(super) contours: Vec<bool>,
     pub(super) cuts: Vec<IndexedCut<'c>>,
     boxes: BoxIndex,
+    pub(super) sweeps: Vec<IndexedSweep<'c>>,
+    sweep_boxes: BoxIndex,
     largest_radius: f64,
 }
 
@@ -123,11 +143,17 @@ impl<'c> CutIndex<'c> {
         };
         let mut cuts = Vec::with_capacity(paths.iter().map(|path| path.cuts.len()).sum());
         paths.iter().enumerate().for_each(|path| cuts.extend(of_path(path)));
+        let sweeps_of_path = |(path, cuts): (usize, &'c &'c PathCuts)| {
+            cuts.sweeps.iter().map(move |sweep| IndexedSweep { path, sweep, radius: cuts.radius })
+        };
+        let sweeps: Vec<_> = paths.iter().enumerate().flat_map(sweeps_of_path).collect();
         Self {
             paths,
             contours: paths.iter().map(|path| path.is_contour()).collect(),
             boxes: BoxIndex::new(cuts.iter().map(|cut| widened_box(&cut.cut.way.curve, 0.0))),
             cuts,
+            sweep_boxes: BoxIndex::new(sweeps.iter().map(|sweep| widened_box(&sweep.sweep.curve, 0.0))),
+            sweeps,
             largest_radius: paths.iter().map(|path| path.radius).fold(0.0, f64::max),
         }
     }
@@ -140,6 +166,11 @@ impl<'c> CutIndex<'c> {
             *radius >= self.largest_radius || widened_box(&cut.way.curve, reach(*radius)).intersects(&extent)
         };
         self.boxes.near(widened(&extent, reach(self.largest_radius))).filter(is_near)
+    }
+
+    /// Returns the numbers of the sweeps that may run beside a curve at a distance of half of O, in ascending order.
+    pub(super) fn sweeps_beside(&self, curve: &Curve, tolerance: f64) -> impl Iterator<Item = usize> {
+        self.sweep_boxes.near(widened_box(curve, self.largest_radius + tolerance))
     }
 
     /// Returns the numbers of the cuts that may cover part of a curve by more than `tolerance` mm, in ascending order.

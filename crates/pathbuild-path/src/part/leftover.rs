@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::Vector2;
 
 use super::boxes::square;
-use super::cuts::{CutIndex, IndexedCut, StandingBar, THROUGH_HEIGHT};
+use super::cuts::{CutIndex, IndexedCut, IndexedSweep, StandingBar, THROUGH_HEIGHT};
 use super::gouge::{ClassifiedCut, ClassifiedCuts};
 use super::intervals::{
     JOIN_GAP, NEIGHBOUR_JOIN_GAP, Stretch, add_stretches_within, at as at_along, difference, gaps_between,
@@ -26,7 +26,7 @@ const SAMPLES: u32 = 16;
 /// A stretch of an outline at which material is left.
 #[derive(Clone, Debug)]
 pub(super) struct Leftover {
-    /// The path and the element of the nearest cut.
+    /// The path and the element of the nearest cut, or of the sweep.
     pub(super) path: usize,
     pub(super) element: u32,
     pub(super) from: Xy,
@@ -35,9 +35,17 @@ pub(super) struct Leftover {
     pub(super) length: f64,
     /// The largest distance in mm between the outline and the cut.
     pub(super) thickness: f64,
-    /// If the cut beside the stretch does not go through the plate, the cut's lowest height in mm.
-    pub(super) height: Option<f64>,
+    pub(super) beside: Beside,
     pub(super) material: LeftMaterial,
+}
+
+/// What runs along a stretch at which material is left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Beside {
+    ThroughCut,
+    /// A cut that does not go through the plate, with its lowest height in mm.
+    ShallowCut(f64),
+    Sweep,
 }
 
 /// Material that is left at an outline.
@@ -100,8 +108,17 @@ struct RingStretches {
     left: Vec<Stretch>,
     /// Stretches that no cut comes near.
     never: Vec<Stretch>,
+    /// Stretches along which only a sweep runs, each with the number of the sweep.
+    swept: Vec<(Stretch, usize)>,
     unreachable: Vec<Stretch>,
     length: f64,
+}
+
+impl RingStretches {
+    /// Returns all stretches at which material is left.
+    fn stretches_left(&self) -> impl Iterator<Item = Stretch> {
+        self.left.iter().copied().chain(self.swept.iter().map(|(stretch, _)| *stretch))
+    }
 }
 
 /// A curve of a ring with the cuts near it.
@@ -137,13 +154,15 @@ impl<'s> LeftoverSearch<'s> {
         let mut longest = 0.0;
         for members in nests.values() {
             let judged = members.iter().filter_map(|ring| Some((*ring, self.ring(*ring)?)));
-            let total =
-                |stretches: &RingStretches| stretches.left.iter().map(|(from, to)| to - from).sum::<f64>();
+            let total = |ring: &RingStretches| ring.stretches_left().map(|(from, to)| to - from).sum::<f64>();
             let best = judged.min_by(|one, other| total(&one.1).total_cmp(&total(&other.1)));
             let Some((ring, stretches)) = best else { continue };
             let described =
                 stretches.left.iter().filter_map(|stretch| self.leftover(ring, *stretch, &stretches));
             found.stretches.extend(described);
+            let swept =
+                stretches.swept.iter().map(|swept| self.swept_leftover(ring, *swept, stretches.length));
+            found.stretches.extend(swept);
             self.add_unreachable(ring, &stretches, &mut longest, &mut found);
         }
         found
@@ -167,6 +186,9 @@ impl<'s> LeftoverSearch<'s> {
         all.never = join_stretches(all.never, NEIGHBOUR_JOIN_GAP);
         if ring == 0 && is_near {
             self.add_notches(&mut all, &mut uncut);
+        }
+        if is_near {
+            self.add_swept_stretches(ring, &mut all);
         }
         let is_long = |(from, to): &Stretch| to - from >= MIN_REPORTED_LENGTH;
         all.left = join_ends(join_stretches(uncut, NEIGHBOUR_JOIN_GAP), all.length)
@@ -280,6 +302,61 @@ impl<'s> LeftoverSearch<'s> {
         }
     }
 
+    /// Adds the stretches that no cut comes near, but along which a sweep runs as a cut would. Nothing is added if other long stretches are not cut
+    /// either: the edge of the plate may be the edge of the part.
+    fn add_swept_stretches(&self, ring: usize, all: &mut RingStretches) {
+        let Some(radius) = self.smallest_radius() else { return };
+        let is_long = |(from, to): &Stretch| to - from > 2.0 * radius;
+        let embeds_others = self.cuts.paths.iter().any(|path| !path.embedded.is_empty());
+        if embeds_others || all.never.is_empty() {
+            return;
+        }
+        let mut never = all.never.clone();
+        let mut swept = Vec::new();
+        for (number, beside) in self.stretches_beside_sweeps(ring) {
+            let here = intersection(&never, &beside).into_iter();
+            swept.extend(
+                here.filter(|(from, to)| to - from >= MIN_REPORTED_LENGTH).map(|here| (here, number)),
+            );
+            never = difference(&never, &beside);
+        }
+        if !never.iter().any(is_long) {
+            all.swept = swept;
+        }
+    }
+
+    /// Returns the numbers of the sweeps that run along a ring, at a distance of half of O and over more than O, with the stretches of the ring beside
+    /// them.
+    fn stretches_beside_sweeps(&self, ring: usize) -> BTreeMap<usize, Vec<Stretch>> {
+        let mut found: BTreeMap<usize, Vec<Stretch>> = BTreeMap::new();
+        let mut start = 0.0;
+        for curve in &self.part.part.rings[ring].curves {
+            for number in self.cuts.sweeps_beside(curve, self.tolerance) {
+                let here = self.stretches_beside_sweep(curve, number).into_iter();
+                let here = here.map(|(from, to)| (from + start, to + start));
+                found.entry(number).or_default().extend(here);
+            }
+            start += curve.length();
+        }
+        for (number, stretches) in &mut found {
+            *stretches = join_stretches(std::mem::take(stretches), NEIGHBOUR_JOIN_GAP);
+            stretches.retain(|(from, to)| to - from > 2.0 * self.cuts.sweeps[*number].radius);
+        }
+        found
+    }
+
+    /// Returns the stretches of a curve beside which a sweep runs where a cut along the curve would.
+    fn stretches_beside_sweep(&self, curve: &Curve, number: usize) -> Vec<Stretch> {
+        let IndexedSweep { path, sweep, radius } = &self.cuts.sweeps[number];
+        let Some(away) = offset_curve(curve, *radius).filter(|_| self.contours[*path]) else {
+            return Vec::new();
+        };
+        let scale = curve.length() / away.length();
+        let mut found = Vec::new();
+        add_stretches_within(&away, &sweep.curve, self.tolerance, &mut found);
+        found.into_iter().map(|(from, to)| (from * scale, to * scale)).collect()
+    }
+
     /// Returns the stretches of the rim within O of support bars.
     fn rim_near_bars(&self) -> Vec<Stretch> {
         let mut found = Vec::new();
@@ -384,12 +461,34 @@ impl<'s> LeftoverSearch<'s> {
             to: place(to),
             length,
             thickness,
-            height: (!is_through).then(|| nearest.cut.way.lowest()),
+            beside: if is_through {
+                Beside::ThroughCut
+            } else {
+                Beside::ShallowCut(nearest.cut.way.lowest())
+            },
             material: LeftMaterial {
                 outline: self.ring_section(ring, (from, to), whole),
                 reach: if is_through { thickness } else { 2.0 * nearest.radius },
             },
         })
+    }
+
+    /// Describes a stretch of a ring along which only a sweep runs.
+    fn swept_leftover(&self, ring: usize, ((from, to), number): (Stretch, usize), whole: f64) -> Leftover {
+        let IndexedSweep { path, sweep, radius } = &self.cuts.sweeps[number];
+        Leftover {
+            path: *path,
+            element: sweep.element,
+            from: self.ring_point(ring, from, whole),
+            to: self.ring_point(ring, to, whole),
+            length: to - from,
+            thickness: 2.0 * radius,
+            beside: Beside::Sweep,
+            material: LeftMaterial {
+                outline: self.ring_section(ring, (from, to), whole),
+                reach: 2.0 * radius,
+            },
+        }
     }
 
     /// Adds the unreachable stretches of a ring. `longest`: the length in mm of the longest stretch so far, which `found` describes.

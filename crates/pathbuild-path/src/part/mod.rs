@@ -25,7 +25,7 @@ pub(crate) use intervals::{Stretch, add_stretches_within, at as at_along, join_s
 
 pub use bars::LostBar;
 pub use check::{PartFindings, check_parts};
-pub use cuts::{CutElement, EmbeddedPlace, PartCut, PathCuts, StandingBar, THROUGH_HEIGHT};
+pub use cuts::{CutElement, EmbeddedPlace, PartCut, PartSweep, PathCuts, StandingBar, THROUGH_HEIGHT};
 pub use displacement::largest_displacement;
 pub use gouge::gouging_moves;
 pub use leftover::LeftMaterial;

@@ -169,7 +169,7 @@ impl<'c> PlacedCuts<'c> {
             from_z: way.from_z + raised,
             to_z: way.to_z + raised,
         };
-        let mut placed = self.cuts.clone();
+        let mut placed = PathCuts { sweeps: Vec::new(), ..self.cuts.clone() };
         placed.cuts.iter_mut().for_each(|cut| *cut = PartCut { way: way(&cut.way), ..*cut });
         placed.elements.iter_mut().for_each(|element| {
             element.lowest += raised;
