@@ -720,6 +720,20 @@ fn a_mark_along_an_outline_does_not_cut_it() {
     }
 }
 
+/// A cut with the whole cutter inside the part is meant as a groove, or as a sweep.
+#[test]
+fn a_cut_inside_the_part_is_told_to_state_b_or_to_be_a_sweep() {
+    let names_b = |y: f64| {
+        let drawing =
+            format!("{START}sweep -5,-5 5,{y}\nmill 5,{y} 35,{y}\nsweep 35,{y} 50,-5\nend 50,-5\n{EDGE}");
+        let found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
+        let gouge = found.iter().find(|found| found.code().to_string() == "PB213").unwrap();
+        gouge.help(Lang::En).unwrap().contains("write B")
+    };
+    assert!(names_b(2.001));
+    assert!(!names_b(1.999), "the cutter touches the edge");
+}
+
 /// The upper side of the contour is a sweep by mistake.
 #[test]
 fn a_sweep_in_place_of_one_side_of_the_contour_leaves_that_side() {

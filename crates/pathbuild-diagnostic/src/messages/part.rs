@@ -8,6 +8,13 @@ messages! {
         help_en: "draw the path at a distance of half of O from the outline, or correct the outline; `part-tolerance` in pathbuild.toml permits small differences",
         help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen oder den Umriss berichtigen; `part-tolerance` in pathbuild.toml erlaubt kleine Abweichungen",
     }
+    /// A cut with the whole cutter inside the part.
+    GOUGE_INSIDE: GougedPart {
+        en: "the cutter goes {depth} mm into the part at {point}, over a length of {length} mm",
+        de: "der Fräser gerät bei {point} {depth} mm tief in das Teil, auf einer Länge von {length} mm",
+        help_en: "for a groove, write B, the height of its bottom, at this element; for a way above the material, draw it HIDDEN; for an opening, draw its outline on the layer of the part",
+        help_de: "für eine Nut B, die Höhe ihres Grunds, an dieses Element schreiben; für einen Weg über dem Material HIDDEN zeichnen; für einen Ausschnitt dessen Umriss auf dem Layer des Teils zeichnen",
+    }
     /// A hole drilled into the part.
     GOUGE_BY_HOLE: GougedPart {
         en: "the hole, O{tool}, goes {depth} mm into the part at {point}",

@@ -270,7 +270,9 @@ fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {
     let problem = if gouge.length == 0.0 {
         Diagnostic::new(&messages::GOUGE_BY_HOLE).with("tool", 2.0 * radius)
     } else {
-        Diagnostic::new(&messages::GOUGE).with("length", gouge.length)
+        let is_inside = gouge.depth >= 2.0 * radius;
+        let message = if is_inside { &messages::GOUGE_INSIDE } else { &messages::GOUGE };
+        Diagnostic::new(message).with("length", gouge.length)
     };
     let mut problem = problem.with("depth", gouge.depth).with("point", diagnostic_point(gouge.at));
     if (1000.0 * gouge.depth).round() <= MAX_WARNING_DEPTH {
