@@ -734,6 +734,24 @@ fn a_cut_inside_the_part_is_told_to_state_b_or_to_be_a_sweep() {
     assert!(!names_b(1.999), "the cutter touches the edge");
 }
 
+/// The contour is O or a little more or less away from the outline.
+#[test]
+fn an_outline_is_either_not_cut_or_has_material_left() {
+    let contour = |distance: f64| {
+        let (low, right, high) = (1.0 - distance, 41.0 + distance, 26.0 + distance);
+        let sides =
+            format!("bars {low},{low} {right},{low}\nbars to {right},{high} {low},{high} {low},{low}");
+        let drawing = plate("bars")
+            .replace("bars 0,0 42,0\nbars to 42,27 0,27 0,0", &sides)
+            .replace("13 0,0", &format!("13 {low},{low}"))
+            .replace("sweep 0,0", &format!("sweep {low},{low}"));
+        codes(&drawing)
+    };
+    assert_eq!(contour(1.99), ["PB215"]);
+    assert_eq!(contour(2.0), ["PB215"]);
+    assert_eq!(contour(2.01), ["PB220"]);
+}
+
 /// The upper side of the contour is a sweep by mistake.
 #[test]
 fn a_sweep_in_place_of_one_side_of_the_contour_leaves_that_side() {

@@ -69,11 +69,14 @@ pub fn check_parts(
     for (number, part) in parts.iter().enumerate() {
         let part = PreparedPart::new(part);
         let check = PartCheck::new(&part, &cuts, settings);
+        let leftovers = if is_complete { check.leftovers() } else { Leftovers::default() };
         if is_complete && !embeds_others {
-            findings.uncut.extend(check.nests_without_cuts().map(|ring| (number, ring)));
+            // PB215 already reports a nest with leftover material.
+            let is_reported = |nest: &usize| leftovers.stretches.iter().any(|left| left.nest == *nest);
+            let uncut = check.nests_without_cuts().filter(|nest| !is_reported(nest));
+            findings.uncut.extend(uncut.map(|ring| (number, ring)));
         }
         findings.inner.extend(check.inner_parts().map(|ring| (number, ring)));
-        let leftovers = if is_complete { check.leftovers() } else { Leftovers::default() };
         for (path, problem) in check.problems(is_complete, &leftovers) {
             if problem.code() == Code::LoosePart {
                 findings.loose.push(number);

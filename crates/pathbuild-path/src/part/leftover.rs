@@ -26,6 +26,8 @@ const SAMPLES: u32 = 16;
 /// A stretch of an outline at which material is left.
 #[derive(Clone, Debug)]
 pub(super) struct Leftover {
+    /// The nest of the ring.
+    pub(super) nest: usize,
     /// The path and the element of the nearest cut, or of the sweep.
     pub(super) path: usize,
     pub(super) element: u32,
@@ -455,6 +457,7 @@ impl<'s> LeftoverSearch<'s> {
         let thickness = (0..SAMPLES).map(sample).map(|at| self.distance(at)).fold(0.0, f64::max);
         let is_through = nearest.through.is_some();
         Some(Leftover {
+            nest: self.part.part.rings[ring].nest,
             path: nearest.path,
             element: nearest.cut.element,
             from: place(from),
@@ -477,6 +480,7 @@ impl<'s> LeftoverSearch<'s> {
     fn swept_leftover(&self, ring: usize, ((from, to), number): (Stretch, usize), whole: f64) -> Leftover {
         let IndexedSweep { path, sweep, radius } = &self.cuts.sweeps[number];
         Leftover {
+            nest: self.part.part.rings[ring].nest,
             path: *path,
             element: sweep.element,
             from: self.ring_point(ring, from, whole),
