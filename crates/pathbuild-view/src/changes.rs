@@ -90,7 +90,31 @@ pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
         comparison.classify_runs(was, is);
     }
     comparison.copy_unchanged([old.len(), new.len()]);
+    unite_slopes(&mut comparison.result.changes);
     comparison.result
+}
+
+/// Gives alterations along slopes that differ only in their heights the same range of heights: on a relief, each move would be a kind of its own.
+fn unite_slopes(changes: &mut [Change]) {
+    let slope = |kind: &ChangeKind| match *kind {
+        ChangeKind::Altered { raised: [least, most], feed, passes } if least != most => {
+            let feed = feed.map(|feed| feed.map(f64::to_bits));
+            Some(([least, most], (least < 0.0, most > 0.0, feed, passes)))
+        }
+        _ => None,
+    };
+    let mut ranges = HashMap::new();
+    for ([least, most], key) in changes.iter().filter_map(|change| slope(&change.kind)) {
+        let range = ranges.entry(key).or_insert([least, most]);
+        *range = [range[0].min(least), range[1].max(most)];
+    }
+    for change in changes {
+        if let Some((_, key)) = slope(&change.kind)
+            && let ChangeKind::Altered { raised, .. } = &mut change.kind
+        {
+            *raised = ranges[&key];
+        }
+    }
 }
 
 /// Returns the runs of moves in which two programs differ, as pairs of ranges in the old and the new one.

@@ -335,6 +335,8 @@ fn compare_programs(
                 return None;
             }
             let reasons = explain_change(sides.map(|side| side.session), paths, problems);
+            // The states themselves say what changed in pathbuild.toml.
+            let reasons = reasons.filter(|reasons| !reasons.is_empty() || !changes.groups.is_empty());
             Outcome::Changed(Box::new(ProgramDiff { states, reasons, ..changes }))
         }
         [Ok(_), Err(_)] => Outcome::Broken,
@@ -419,8 +421,8 @@ impl CompiledSide<'_> {
         let pecks =
             |db: &Database| program(db, known.target).as_deref().map_or_else(Vec::new, PathProgram::pecks);
         let writes_pecks = self.post_processor.is_some() && settings.general.cycles.value;
-        let pecks = if writes_pecks { self.session.query_target(known.target, pecks)? } else { Vec::new() };
-        states.set_pecks(pecks.into_iter().map(|(_, depth)| depth));
+        let pecks = self.session.query_target(known.target, pecks)?;
+        states.set_pecks(pecks.into_iter().map(|(_, depth)| depth.filter(|_| writes_pecks)));
         Ok(states)
     }
 }
