@@ -20,7 +20,7 @@ fn mistakes_of_draughtsmen_are_named() {
         ("commas", "start 0,0 \"O2,T5,B0\"\nmill 0,0 20,0\nend 20,0"),
         ("a remark", "start\nmill 0,0 20,0 \"Deckel links\"\nend 20,0"),
         ("F0", "start\nmill 0,0 20,0 \"F0\"\nend 20,0"),
-        ("a start marker of 1.0001 mm", "start\ncircle PHANTOM 0,0 d 1.0001\nmill 0,0 20,0\nend 20,0"),
+        ("a start marker of 1.002 mm", "start\ncircle PHANTOM 0,0 d 1.002\nmill 0,0 20,0\nend 20,0"),
         ("a non-breaking space", "start 0,0 \"O2\u{a0}T5 I5 B0\"\nmill 0,0 20,0\nend 20,0"),
         ("given twice", "start\nmill 0,0 20,0 \"F100 F200\"\nend 20,0"),
         ("without effect", "start\nsweep 0,0 20,0 \"B0\"\nmill 20,0 40,0\nend 40,0"),
