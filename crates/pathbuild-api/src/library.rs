@@ -9,11 +9,13 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Role, SourceFile, bug, catch_bugs, check_file, path_names};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
+use pathbuild_workspace::check::{self, EarlierFiles};
 use pathbuild_workspace::emit::{SceneReport, ShownText};
+use pathbuild_workspace::list;
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::revision::RevisionFiles;
 use pathbuild_workspace::session::{NamedPaths, NotOnePath, Session, several_paths_error};
-use pathbuild_workspace::{Inputs, Workspace, check, list, verify, watch};
+use pathbuild_workspace::{Inputs, Workspace, verify, watch};
 
 use crate::baseline::SettledFindings;
 use crate::options::date;
@@ -73,7 +75,7 @@ impl Library {
             let inputs = if inputs.inputs.is_empty() { whole_library(workspace) } else { inputs };
             let revision = |name: &String| revision_files(workspace, &inputs, name);
             let revision = options.changed_since.as_ref().map(revision).transpose()?;
-            let changed = revision.as_ref();
+            let changed = revision.as_ref().map(|revision| revision as &dyn EarlierFiles);
             let request =
                 check::Request { inputs: &inputs, with_all_values: options.has_all_values, changed };
             if options.has_timings {

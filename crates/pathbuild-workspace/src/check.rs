@@ -2,6 +2,7 @@
 //! request, only results that depend on changed drawings are shown. (book: reference/commands, `check`; book: language/variables)
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::fmt::Debug;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -20,13 +21,13 @@ use crate::memo::{
     Answer, Coverage, Dependencies, DrawingResult, Memo, NamedLayers, check_query, find, read_drawings,
     subject,
 };
-use crate::revision::RevisionFiles;
 use crate::session::timings::{FINDING_DRAWINGS, STORING_RESULTS, VERIFYING_CACHE};
 use crate::session::{
     ArgumentMatches, CheckedTarget, Checker, Pair, SelectedPath, Selection, Session, compare_paths,
     q_project_pairs,
 };
-use crate::workspace::{Failure, Workspace, relative};
+use crate::workspace::Failure;
+use crate::workspace::{Workspace, relative};
 use crate::{Input, Inputs, waivers};
 
 /// A request to check drawings.
@@ -37,7 +38,7 @@ pub struct Request<'a> {
     /// Whether to check all combinations of the variables' values instead of one example value of each.
     pub with_all_values: bool,
     /// The state of the files at an earlier time. If set, only results that depend on drawings changed since then are shown.
-    pub changed: Option<&'a RevisionFiles<'a>>,
+    pub changed: Option<&'a dyn EarlierFiles>,
 }
 
 /// The diagnostics of a check, and the drawings that were checked.
@@ -201,7 +202,7 @@ impl Request<'_> {
 
     /// Returns the earlier state with which drawings are compared. `None` if all drawings are selected, because the request does not ask for changed
     /// ones only or because a file that affects all results has changed.
-    fn changes_since(&self, session: &Session<'_>, matches: &ArgumentMatches) -> Option<&RevisionFiles<'_>> {
+    fn changes_since(&self, session: &Session<'_>, matches: &ArgumentMatches) -> Option<&dyn EarlierFiles> {
         let past = self.changed?;
         let directories: Vec<Utf8PathBuf> =
             matches.directories().flat_map(|directory| &directory.directories).cloned().collect();
@@ -455,6 +456,20 @@ fn format_values(values: &Bindings) -> String {
     values.join(" ")
 }
 
+/// The state of files at an earlier time, such as a Git revision.
+pub trait EarlierFiles: Debug {
+    /// Returns, for each file, whether it has changed since that time or did not exist then. Files about which nothing is known are reported as
+    /// changed.
+    fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool>;
+
+    /// Returns the file names of the drawings that the directory contained at that time.
+    fn drawings(&self, directory: &Utf8Path) -> &[String];
+
+    /// Returns a changed file that affects all results, such as a configuration or a symbolic link; `None` if there is none. `directories` are the
+    /// searched directories.
+    fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf>;
+}
+
 /// A filter for the results that are shown: all of them, or only those that depend on changed drawings.
 pub(super) struct ChangeFilter<'a> {
     session: &'a Session<'a>,
@@ -468,7 +483,7 @@ impl<'a> ChangeFilter<'a> {
     pub(super) fn new<'r>(
         session: &'a Session<'a>,
         memo: &'a Memo,
-        past: Option<&RevisionFiles<'_>>,
+        past: Option<&dyn EarlierFiles>,
         results: impl Iterator<Item = &'r Answer<DrawingResult>>,
     ) -> Self {
         let changed = past.map(|past| {
@@ -521,7 +536,7 @@ fn add(paths: &mut BTreeSet<Utf8PathBuf>, path: &Utf8Path) {
 }
 
 impl ChangedDrawings {
-    fn new(session: &Session<'_>, past: &RevisionFiles<'_>, reached: ReachedInputs) -> Self {
+    fn new(session: &Session<'_>, past: &dyn EarlierFiles, reached: ReachedInputs) -> Self {
         let ReachedInputs { mut files, directories } = reached;
         let mut gone = BTreeSet::new();
         for directory in &directories {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, is_drawing, join, with_forward_slashes};
 
+use crate::check::EarlierFiles;
 use crate::config::clean;
 use crate::files::{self, FILE_NAME};
 use crate::git::{self, EntryKind, Repository};
@@ -134,10 +135,10 @@ impl<'a> RevisionFiles<'a> {
         let now = ignoring.chain(settings.file.clone()).chain(post);
         old.chain(now.filter(|file| self.workspace.system.kind(file) == FileKind::File)).collect()
     }
+}
 
-    /// Returns, for each file, whether it has changed since the revision or did not exist in it. Files about which nothing is known are reported as
-    /// changed.
-    pub(crate) fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool> {
+impl EarlierFiles for RevisionFiles<'_> {
+    fn changed(&self, files: &[Utf8PathBuf]) -> Vec<bool> {
         let committed: Vec<_> = files.iter().map(|file| self.file_in_revision(file)).collect();
         let comparable: Vec<&Utf8Path> = committed.iter().flatten().map(|(real, _)| &**real).collect();
         let mut ids = self.repository.ids(&comparable).into_iter();
@@ -147,15 +148,12 @@ impl<'a> RevisionFiles<'a> {
         committed.iter().map(|committed| committed.is_none() || same.next() != Some(true)).collect()
     }
 
-    /// Returns the file names of the drawings that the directory contained in the revision.
-    pub(crate) fn drawings(&self, directory: &Utf8Path) -> &[String] {
+    fn drawings(&self, directory: &Utf8Path) -> &[String] {
         let directory = self.below_root(&self.real(directory));
         directory.and_then(|directory| self.drawings.get(&directory)).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns a changed file that affects all results, such as a configuration or a symbolic link; `None` if there is none. `directories` are the
-    /// searched directories.
-    pub(crate) fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf> {
+    fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf> {
         let rules = self.rules(directories);
         let mut changed = self.changed(&rules).into_iter().zip(rules);
         changed.find_map(|(is_changed, rule)| is_changed.then_some(rule)).or_else(|| self.changed_link())
