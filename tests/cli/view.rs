@@ -515,6 +515,30 @@ fn a_program_is_shown_with_its_findings_and_checks() {
     );
 }
 
+/// Without the diameter of one of the tools there is no stock; the given surface is shown all the same.
+#[test]
+fn a_tool_of_unknown_diameter_is_not_shown_with_another_one() {
+    let program = |second: &str| {
+        format!(
+            "(T1 D=6 CR=0 - ZMIN=-2 - flat end mill)\n{second}G21 G90 G17 G94 G54\nT1 M6\nM3 S9000\nG0 Z15\nG0 X0 Y0\n\
+             G1 Z-2 F100\nG1 X40\nG0 Z15\nT2 M6\nM3 S9000\nG0 X0 Y40\nG1 Z-1 F100\nG1 X40\nG0 Z15\nM30\n"
+        )
+    };
+    let place = Place::new()
+        .file("known.nc", program("(T2 D=3 CR=0 - ZMIN=-1 - flat end mill)\n"))
+        .file("unknown.nc", program(""));
+    let view = |file: &str| {
+        let json = place.path().join("x.json").to_str().unwrap().to_owned();
+        let options = ["--dialect", "linuxcnc", "--surface", "5", "-o", &json];
+        let scene = scene(&place.run_with(&[&["view", file], &options[..]].concat()));
+        let path = &scene["paths"][0];
+        let tools = path["tools"].as_array().map_or(0, Vec::len);
+        (path["tool"].clone(), tools, scene["program"]["surface"].clone())
+    };
+    assert_eq!(view("known.nc"), (Value::Null, 2, 5.0.into()));
+    assert_eq!(view("unknown.nc"), (Value::Null, 0, 5.0.into()));
+}
+
 /// A probing move ends at an unknown height, where the probe makes contact.
 #[test]
 fn the_end_of_a_probing_move_is_unknown() {

@@ -105,13 +105,19 @@ const says = (page, id, words) => page.waitForFunction(([id, words]) => document
       dataTransfer.items.add(new File([content], name));
       document.body.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
     }, [name, content]);
-  await drop("O1000", "%\nO1000\nG21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 Z5\nM30\n%\n");
+  const slot = (length) => `%\nO1000\nG21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X${length}\nG0 Z5\nM30\n%\n`;
+  await drop("O1000", slot(20));
   await shows(page, "O1000");
   await page.locator("#assumedTool").fill("3");
   await page.locator("#assumedTool").press("Tab");
   await says(page, "findings", "");
+  // A newer version of the program keeps the entered cutter; another program does not have it.
+  await drop("O1000", slot(30));
+  await says(page, "details", "X 0 … 30");
+  assert.equal(await page.locator("#assumedTool").inputValue(), "3");
   await drop("nonsense.nc", "\u0000\u0001 <img src=x onerror=alert(1)> G1 X");
   await shows(page, "nonsense.nc");
+  assert.equal(await page.locator("#assumedTool").inputValue(), "");
   assert.ok((await page.locator("#findings li").count()) > 0);
   assert.deepEqual(faults, []);
   await page.close();

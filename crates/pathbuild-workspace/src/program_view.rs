@@ -76,9 +76,11 @@ pub fn program_scene(
     let program = &verifier.read(file, text).map_err(|problem| Failure::Found(vec![*problem]))?;
     let verified = verifier.verify_stored(program);
     let rapids = verified.checks.iter().find_map(CheckRecord::values);
-    let (header, cutters, surface) = stated_cutters_and_surface(program, rapids);
+    let (header, cutters, surface) = stated_cutters_and_surface(program, rapids, given_surface);
     let mut path = program.scene_path(workspace);
-    set_cutters(&mut path, cutter, &cutters, rapids);
+    // With the cutter of another tool, grooves would have a wrong width.
+    let are_stated = header.tools.iter().all(|tool| tool.cutter.is_some());
+    set_cutters(&mut path, cutter, if are_stated { &cutters } else { &[] }, rapids);
     if let (Some(stock), _) = verifier.stock(program) {
         path.tools = stock.spans().iter().map(tool_span).collect();
     }
@@ -152,10 +154,11 @@ impl Assumptions {
 }
 
 /// Returns the header of a program, the cutters that it states, and the height of the material's upper face: the one that rapid moves were checked
-/// with, if it is level, or else the stated one.
+/// with, if it is level, or else the given one, or else the stated one.
 fn stated_cutters_and_surface(
     program: &Program,
     rapids: Option<&RapidValues>,
+    given_surface: Option<f64>,
 ) -> (Header, Vec<ToolSpan>, Option<f64>) {
     let mut header = HeaderReader::default();
     for step in &program.read.steps {
@@ -165,7 +168,8 @@ fn stated_cutters_and_surface(
     let span = |tool: &pathbuild_gcode::header::CuttingTool| {
         Some(ToolSpan { line: tool.line, diameter: tool.cutter?.diameter, surface: None })
     };
-    let surface = rapids.filter(|values| values.is_level).map(|values| values.surface).or(header.surface);
+    let checked = rapids.filter(|values| values.is_level).map(|values| values.surface);
+    let surface = checked.or(given_surface).or(header.surface);
     let cutters = header.tools.iter().filter_map(span).collect();
     (header, cutters, surface)
 }

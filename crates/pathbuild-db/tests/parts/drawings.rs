@@ -421,9 +421,10 @@ fn components_are_checked_with_the_values_of_the_project() {
     assert_eq!(found("mill", "0,0.5", "0.5"), ["PB215", "PB217"], "of the project, and of the component");
 }
 
-/// A path that only engraves leaves the outline to others. A path with a through cut anywhere should also cut through along the outline.
+/// A path that only engraves leaves the outline to others. A path with a through cut or support bars anywhere should also cut through along the
+/// outline: bars hold nothing where the plate is whole.
 #[test]
-fn only_paths_with_through_cuts_leave_material() {
+fn only_paths_with_through_cuts_or_bars_leave_material() {
     let path = |other: &str| {
         format!(
             "{START}sweep -5,-5 0,0\nmill 0,0 40,0 \"B0.5\"\nsweep 40,0 0,-10\nmill 0,-10 20,-10 \"B{other}\"\n\
@@ -433,6 +434,17 @@ fn only_paths_with_through_cuts_leave_material() {
     let left = |other: &str| codes(&path(other)).contains(&"PB215".to_owned());
     assert!(!left("0.5"), "it only engraves");
     assert!(left("0"), "it goes through elsewhere");
+    let with_bars = path("0.5").replace("mill 0,-10 20,-10", "bars 0,-10 20,-10");
+    assert!(codes(&with_bars).contains(&"PB215".to_owned()), "it has support bars elsewhere");
+    // A minus sign was forgotten: nothing is cut out.
+    let contour = |bottom: &str| {
+        format!(
+            "layer 1234.1P\nstart -1,-1 \"T2 O2 I0.5 B{bottom} D1 P3 U8 MX\"\nbars -1,-1 41,-1\nbars to 41,21 -1,21 -1,-1\n\
+             sweep -1,-1 50,-1\nend 50,-1\nlayer Part\npolyline 0,0 40,0 40,20 0,20 closed\n"
+        )
+    };
+    assert_eq!(codes(&contour("-0.2")), [""; 0]);
+    assert_eq!(codes(&contour("0.2")), ["PB215"]);
 }
 
 /// A neighbour's contour that meets the cuts beside the support bars separates the bars from the plate, though it does not cut the bars.

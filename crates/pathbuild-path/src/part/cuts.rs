@@ -97,9 +97,11 @@ impl PathCuts {
         self.elements[element as usize].origin.at(problem).in_path(self.name.as_str())
     }
 
-    /// Whether the path cuts parts out: one of its cuts goes through the plate, and it is not milled with a slot cutter.
+    /// Whether the path cuts parts out: one of its cuts goes through the plate or leaves support bars, which hold nothing where the plate is whole, and
+    /// it is not milled with a slot cutter.
     fn is_contour(&self) -> bool {
-        !self.is_slot && self.elements.iter().any(|element| element.lowest <= THROUGH_HEIGHT)
+        let cuts_out = |element: &CutElement| element.lowest <= THROUGH_HEIGHT || element.supported.is_some();
+        !self.is_slot && self.elements.iter().any(cuts_out)
     }
 }
 

@@ -140,14 +140,12 @@ class Page {
     this.isPulling = false;
   }
 
-  /** Opens a program, with the settings from the address if there are any. */
+  /** Opens a program, with the settings from the address if there are any. Those entered for another program do not apply to it. */
   take(program: DroppedProgram): void {
+    const isOther = this.program !== null && this.program.name !== program.name;
     this.program = program;
-    if (this.settings) this.follow();
-    else {
-      history.pushState(null, "", "#program");
-      this.follow();
-    }
+    if (!this.settings || isOther) history.pushState(null, "", "#program");
+    this.follow();
   }
 
   private hear(news: LibraryNews): void {
