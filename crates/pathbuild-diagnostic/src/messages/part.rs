@@ -12,7 +12,7 @@ messages! {
     GOUGE_INSIDE: GougedPart {
         en: "the cutter goes {depth} mm into the part at {point}, over a length of {length} mm",
         de: "der Fräser gerät bei {point} {depth} mm tief in das Teil, auf einer Länge von {length} mm",
-        help_en: "for a groove, write B, the height of its bottom, at this element; for a way above the material, draw it HIDDEN; for an opening, draw its outline on the layer of the part",
+        help_en: "for a groove, write B, the height of its bottom, at this element; to travel above the material, draw it HIDDEN; for an opening, draw its outline on the layer of the part",
         help_de: "für eine Nut B, die Höhe ihres Grunds, an dieses Element schreiben; für einen Weg über dem Material HIDDEN zeichnen; für einen Ausschnitt dessen Umriss auf dem Layer des Teils zeichnen",
     }
     /// A hole drilled into the part.
