@@ -20,12 +20,14 @@ macro_rules! messages {
 pub mod configuration;
 pub mod drawing;
 pub mod files;
+mod following;
 pub mod gcode;
 pub mod import;
 pub mod outputs;
 pub mod parameters;
 pub mod part;
 pub mod paths;
+mod posting;
 pub mod posts;
 pub mod probes;
 mod verify;
@@ -43,8 +45,10 @@ pub fn all() -> impl Iterator<Item = &'static crate::Message> {
         probes::ALL,
         import::ALL,
         gcode::ALL,
+        following::ALL,
         verify::ALL,
         posts::ALL,
+        posting::ALL,
     ]
     .into_iter()
     .flatten()

@@ -1,0 +1,443 @@
+//! Messages about programs that post-processors write: jobs that they cannot write, and texts that do not do what the job does. (PB750 to PB769)
+
+messages! {
+    /// A hole with too many pecks.
+    TOO_MANY_PECKS: EndlessMacro {
+        en: "the hole at {place} requires more than {limit} pecks",
+        de: "die Bohrung bei {place} braucht mehr als {limit} Stufen",
+        help_en: "check C, the depth of a peck, at this hole",
+        help_de: "C, die Tiefe einer Stufe, bei dieser Bohrung prüfen",
+    }
+    /// A tolerance for chords that is so small that an arc would become too many lines.
+    TOO_MANY_CHORDS: EndlessMacro {
+        en: "an arc of radius {radius} requires more than {limit} lines",
+        de: "ein Bogen mit Radius {radius} braucht mehr als {limit} Strecken",
+        help_en: "raise the post's tolerance for arcs",
+        help_de: "die Toleranz für Bögen im Postprozessor erhöhen",
+    }
+    /// A hole for which nothing is written.
+    DRILLING_LOST: LostDrilling {
+        en: "the post writes nothing that drills the hole at {place}: {section} is empty",
+        de: "der Postprozessor schreibt nichts, was die Bohrung bei {place} ausführt: {section} ist leer",
+        help_en: "write the hole as moves (cycles = false), or give the post a text for it",
+        help_de: "die Bohrung als Bewegungen schreiben (cycles = false) oder dem Postprozessor einen Text dafür geben",
+    }
+    /// An arc with different radii at its ends after rounding.
+    ARC_ROUNDED: RoundedArc {
+        en: "in the output, the arc to {place} has the radius {start} at its start and {end} at its end",
+        de: "in der Ausgabe hat der Bogen nach {place} am Anfang den Radius {start} und am Ende {end}",
+        help_en: "give the post's number format more decimals",
+        help_de: "dem Zahlenformat des Postprozessors mehr Nachkommastellen geben",
+    }
+    /// An arc that is written as a line, because its radius exceeds `MaximumArcRadius`.
+    ARC_FLATTENED: FlattenedArc {
+        en: "the arc to {place} has the radius {radius}; the post writes a line that deviates from it by up to {distance} mm",
+        de: "der Bogen nach {place} hat den Radius {radius}; der Postprozessor schreibt eine Gerade, die bis zu {distance} mm davon abweicht",
+        help_en: "raise MaximumArcRadius in the post",
+        help_de: "MaximumArcRadius im Postprozessor erhöhen",
+    }
+    /// A line of output that is not G-code.
+    LINE_UNREADABLE: UnreadableLine {
+        en: "the post writes \"{line}\", which is not G-code; its effect on the machine is unknown",
+        de: "der Postprozessor schreibt \"{line}\"; das ist kein G-Code, und die Wirkung an der Maschine ist unbekannt",
+        help_en: "if that is intended, set SuppressParserErrors in the post",
+        help_de: "wenn das so gewollt ist, SuppressParserErrors im Postprozessor setzen",
+    }
+    /// A cutter diameter that is missing from the tool table.
+    TOOL_UNKNOWN: UnknownTool {
+        en: "the tool table has no cutter with O = {diameter} for {path}; it is written as tool {index}",
+        de: "die Werkzeugtabelle hat keinen Fräser mit O = {diameter} für {path}; er wird als Werkzeug {index} geschrieben",
+        help_en: "add it as [tool.NAME] to pathbuild.toml",
+        help_de: "als [tool.NAME] in pathbuild.toml aufnehmen",
+    }
+    /// A tool number that is missing from the tool table.
+    TOOL_NUMBER_UNKNOWN: UnknownTool {
+        en: "the tool table has no tool with the number {index}: the diameter of T{index} is unknown, and the post writes 0 for it",
+        de: "die Werkzeugtabelle hat kein Werkzeug mit der Nummer {index}: der Durchmesser von T{index} ist unbekannt, und der Postprozessor schreibt dafür 0",
+        help_en: "add it as [tool.NAME] with `number` to pathbuild.toml",
+        help_de: "als [tool.NAME] mit `number` in pathbuild.toml aufnehmen",
+    }
+    /// A tool number that is missing from the tool table and not written.
+    TOOL_NOT_IN_TABLE: UnknownTool {
+        en: "T{index} is not in the tool table",
+        de: "T{index} ist nicht in der Werkzeugtabelle",
+        help_en: "add the tool to the machine's table, and to pathbuild.toml as [tool.NAME] with `number`; or correct T",
+        help_de: "das Werkzeug in die Tabelle der Maschine und als [tool.NAME] mit `number` in pathbuild.toml aufnehmen, oder T berichtigen",
+    }
+    /// A program without operations.
+    JOB_EMPTY: NothingToPost {
+        en: "the program mills nothing: there is nothing to write",
+        de: "das Programm fräst nichts: es gibt nichts zu schreiben",
+    }
+    /// A coordinate or feed that is NaN or infinite.
+    JOB_NOT_FINITE: NothingToPost {
+        en: "{operation} has a coordinate or feed that is not a number",
+        de: "{operation} hat eine Koordinate oder einen Vorschub, der keine Zahl ist",
+        help_en: "look for values in the program that are far too large, or divided by 0",
+        help_de: "im Programm nach viel zu großen Werten oder nach Divisionen durch 0 suchen",
+    }
+    /// A text that is written outside of a comment, where the control would execute it.
+    TEXT_AMONG_WORDS: RejectedWord {
+        en: "{macro} in {section} puts \"{text}\" outside a comment, where the machine would execute it",
+        de: "{macro} in {section} setzt \"{text}\" außerhalb eines Kommentars, wo die Maschine es ausführen würde",
+        help_en: "write it in a comment in the post, or give the drawing another name",
+        help_de: "den Text im Postprozessor in einen Kommentar setzen oder die Zeichnung anders nennen",
+    }
+    /// A program to be wrapped around a cylinder with a radius of 0 or less.
+    NO_RADIUS: NothingToPost {
+        en: "{operation} cannot be wrapped round a cylinder: its surface T, which is the radius, is not above 0",
+        de: "{operation} lässt sich nicht um einen Zylinder legen: die Oberfläche T, das ist der Radius, liegt nicht über 0",
+        help_en: "give the radius with --surface, or write the program from the drawing with emit, which knows T",
+        help_de: "den Radius mit --surface angeben oder das Programm mit emit aus der Zeichnung schreiben, die T enthält",
+    }
+    /// A program wrapped around a cylinder more than once.
+    WRAPPED_TWICE: DoubtfulPost {
+        en: "wrapped round the cylinder, the program covers {degrees} degrees: it mills some places twice",
+        de: "um den Zylinder gelegt, reicht das Programm über {degrees} Grad: es fräst manche Stellen zweimal",
+        help_en: "keep the width of the drawing within the circumference, 2 x pi x T",
+        help_de: "die Breite der Zeichnung innerhalb des Umfangs halten, 2 x Pi x T",
+    }
+    /// A word for an axis that is replaced by an angle.
+    REPLACED_AXIS_WRITTEN: PostDiffers {
+        en: "the post writes \"{line}\" although {angle} replaces {axis}: the machine would move both axes",
+        de: "der Postprozessor schreibt \"{line}\", obwohl {angle} an die Stelle von {axis} tritt: die Maschine würde beide Achsen bewegen",
+        help_en: "remove {axis} from the post's texts",
+        help_de: "{axis} aus den Texten des Postprozessors nehmen",
+    }
+    /// A cutter without a known spindle speed.
+    SPINDLE_UNKNOWN: MissingPostValue {
+        en: "no spindle speed is known for {operation} (cutter O = {diameter}): the spindle would not turn",
+        de: "für {operation} (Fräser O = {diameter}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
+        help_en: "add spindle = 12000 to [tool.NAME] with diameter = {diameter} in pathbuild.toml; if the spindle is switched by hand, write spindle = \"manual\" outside all tables",
+        help_de: "spindle = 12000 in pathbuild.toml unter [tool.NAME] mit diameter = {diameter} eintragen; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen schreiben",
+    }
+    /// A tool without a known spindle speed, in a program that states only the number of the tool.
+    SPINDLE_UNKNOWN_OF_NUMBER: MissingPostValue {
+        en: "no spindle speed is known for {operation} (T{index}): the spindle would not turn",
+        de: "für {operation} (T{index}) ist keine Spindeldrehzahl bekannt: die Spindel stünde still",
+        help_en: "put S and M3 into the program, or add [tool.NAME] with number = {index}, diameter and spindle to pathbuild.toml; if the spindle is switched by hand, write spindle = \"manual\" outside all tables",
+        help_de: "S und M3 in das Programm aufnehmen oder [tool.NAME] mit number = {index}, diameter und spindle in pathbuild.toml eintragen; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen schreiben",
+    }
+    /// A program without a known spindle speed and without a tool.
+    SPINDLE_UNSTATED: MissingPostValue {
+        en: "no spindle speed is known for {operation}: the program has no S with M3 or M4, and names no tool",
+        de: "für {operation} ist keine Spindeldrehzahl bekannt: das Programm hat kein S mit M3 oder M4 und nennt kein Werkzeug",
+        help_en: "put S and M3, or the tool (T1 M6), into the program; if the spindle is switched by hand, write spindle = \"manual\" outside all tables of pathbuild.toml",
+        help_de: "S und M3 oder das Werkzeug (T1 M6) in das Programm aufnehmen; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml schreiben",
+    }
+    /// Different spindle speeds for one tool, with a definition that writes the speed only at tool changes.
+    ONE_SPEED_A_TOOL: NothingToPost {
+        en: "T{index} runs at {speed} and, in {operation}, at {other} 1/min, but this post writes one speed for each tool",
+        de: "T{index} läuft mit {speed} und in {operation} mit {other} 1/min, dieser Postprozessor schreibt aber eine Drehzahl je Werkzeug",
+        help_en: "give the second speed a tool number of its own in pathbuild.toml, or write a program for each path",
+        help_de: "der zweiten Drehzahl in pathbuild.toml eine eigene Werkzeugnummer geben oder je Pfad ein Programm schreiben",
+    }
+    /// Note: the output does not switch the coolant.
+    COOLANT_NOT_WRITTEN: DoubtfulPost {
+        en: "the post has no {macro}: the output does not follow the coolant that the program or the tool table sets",
+        de: "der Postprozessor hat kein {macro}: die Ausgabe richtet sich nicht nach der Kühlung, die das Programm oder die Werkzeugtabelle bestimmt",
+        help_en: "add {macro} to the post, or check how its texts switch the coolant",
+        help_de: "{macro} in den Postprozessor aufnehmen oder prüfen, wie seine Texte die Kühlung schalten",
+    }
+    /// Note: the output does not switch the spindle.
+    SPINDLE_NOT_WRITTEN: DoubtfulPost {
+        en: "the post has no {macro}: the output does not follow the direction of the spindle that the program or the tool table sets",
+        de: "der Postprozessor hat kein {macro}: die Ausgabe richtet sich nicht nach der Drehrichtung, die das Programm oder die Werkzeugtabelle bestimmt",
+        help_en: "add {macro} to the post, or check how its texts start the spindle",
+        help_de: "{macro} in den Postprozessor aufnehmen oder prüfen, wie seine Texte die Spindel einschalten",
+    }
+    /// Note: the output does not wait until the spindle is up to speed.
+    SPIN_UP_NOT_WRITTEN: DoubtfulPost {
+        en: "the post has no {macro}: the output does not wait for the time that `spin-up` under [machine] gives the spindle",
+        de: "der Postprozessor hat kein {macro}: die Ausgabe wartet nicht so lange auf die Spindel, wie [machine] spin-up angibt",
+        help_en: "add {macro} to the post, after the words that start the spindle",
+        help_de: "{macro} in den Postprozessor aufnehmen, hinter den Wörtern, die die Spindel einschalten",
+    }
+    /// A word or character that the controller does not accept.
+    WORD_REJECTED: RejectedWord {
+        en: "line {line} of the output: {dialect} does not accept \"{word}\"",
+        de: "Zeile {line} der Ausgabe: {dialect} nimmt \"{word}\" nicht an",
+        help_en: "change the post's text, or name the dialect that the control really has",
+        help_de: "den Text im Postprozessor ändern oder den Dialekt nennen, den die Steuerung wirklich hat",
+    }
+    /// Two words of a group in one line, such as G0 and G1, in the output of a definition without a dialect.
+    WORDS_EXCLUDE: RejectedWord {
+        en: "{first} and {second} must not be on the same line: controls refuse the line, or obey only one of the two",
+        de: "{first} und {second} dürfen nicht in derselben Zeile stehen: Steuerungen lehnen sie ab oder befolgen nur eines von beiden",
+        help_en: "write them on separate lines, or remove one of them",
+        help_de: "in getrennte Zeilen schreiben oder eines entfernen",
+    }
+    /// A repeated letter in the output of a definition without a dialect.
+    LETTER_REPEATED: RejectedWord {
+        en: "{letter} occurs twice on one line: controls refuse the line, or obey only one of the two",
+        de: "{letter} kommt in einer Zeile zweimal vor: Steuerungen lehnen sie ab oder befolgen nur eines von beiden",
+        help_en: "remove one, or write it on a line of its own",
+        help_de: "eines entfernen oder in eine eigene Zeile schreiben",
+    }
+    /// P beside G54 to G59 in the output of a definition without a dialect.
+    SYSTEM_WITH_P: RejectedWord {
+        en: "{word} with P is another coordinate system on some controls, and an error on others",
+        de: "{word} mit P ist bei manchen Steuerungen ein anderes Koordinatensystem, bei anderen ein Fehler",
+        help_en: "remove P, or name the control in the definition with <Dialect> or dialect = (see program/posts in the book)",
+        help_de: "P entfernen oder die Steuerung in der Definition mit <Dialect> oder dialect = nennen (siehe program/posts im Buch)",
+    }
+    /// A `/` before a line that must not be skipped.
+    LINE_SKIPPABLE: RejectedWord {
+        en: "`/` begins a line that moves, sets the tool or its length, or switches the spindle: a switch at the machine (block delete) can skip it",
+        de: "`/` beginnt eine Zeile, die fährt, das Werkzeug oder dessen Länge setzt oder die Spindel schaltet: ein Schalter an der Maschine (Sätze ausblenden) kann sie überspringen",
+        help_en: "remove `/` from the text of the definition",
+        help_de: "`/` aus dem Text der Definition entfernen",
+    }
+    /// A line of output that is longer than the dialect accepts.
+    LINE_TOO_LONG: LineTooLong {
+        en: "line {line} of the output has {length} characters; {dialect} accepts at most {longest}",
+        de: "Zeile {line} der Ausgabe hat {length} Zeichen; {dialect} nimmt höchstens {longest} an",
+        help_en: "give the post's number format fewer decimals, or split its texts into several lines",
+        help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben oder seine Texte auf mehrere Zeilen verteilen",
+    }
+    /// Output that differs from the program when read back.
+    POST_DIFFERS: PostDiffers {
+        en: "line {line} of the output differs from the program",
+        de: "Zeile {line} der Ausgabe weicht vom Programm ab",
+        help_en: "check the post's text for this line; if you take responsibility for the output, set unchecked = true in [post] of pathbuild.toml",
+        help_de: "den Text im Postprozessor für diese Zeile prüfen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
+    }
+    /// Output that ends before all moves of the program are made.
+    MOVES_LOST: PostDiffers {
+        en: "the output ends before all moves of the program are complete",
+        de: "die Ausgabe endet, bevor alle Bewegungen des Programms ausgeführt sind",
+        help_en: "check the post's texts for moves; if you take responsibility for the output, set unchecked = true in [post] of pathbuild.toml",
+        help_de: "die Texte für Bewegungen im Postprozessor prüfen; wer selbst für die Ausgabe einsteht, setzt unchecked = true in [post] von pathbuild.toml",
+    }
+    /// A cut at an unknown position, which cannot be compared.
+    CUT_AT_UNKNOWN_PLACE: PostDiffers {
+        en: "step {step} of the program cuts from or to an unknown position",
+        de: "Schritt {step} des Programms fräst von oder zu einer unbekannten Position",
+        help_en: "begin the program with absolute moves in Z, X and Y",
+        help_de: "das Programm mit absoluten Bewegungen in Z, X und Y beginnen",
+    }
+    /// Note: a dwell of another length than in the program.
+    DWELL_DIFFERS: PostDiffers {
+        en: "the program dwells for {seconds} s, but the output for {found} s",
+        de: "das Programm wartet {seconds} s, die Ausgabe aber {found} s",
+    }
+    /// Note: a dwell of the program that the output lacks.
+    DWELL_LOST: PostDiffers {
+        en: "the program dwells for {seconds} s here, but the rest of the output has no such dwell",
+        de: "das Programm wartet hier {seconds} s, diese Wartezeit fehlt aber im Rest der Ausgabe",
+    }
+    /// Note: the spindle is not started before the first cut.
+    SPINDLE_NOT_STARTED: PostDiffers {
+        en: "the tool cuts here, but the output has not switched the spindle on, although the tool has a `spindle` speed; if the spindle is switched by hand, write spindle = \"manual\" outside all tables of pathbuild.toml",
+        de: "hier wird gefräst, aber die Ausgabe hat die Spindel nicht eingeschaltet, obwohl `spindle` beim Werkzeug eine Drehzahl angibt; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml schreiben",
+    }
+    /// Note: the spindle turns in the wrong direction.
+    SPINDLE_OTHER_WAY: PostDiffers {
+        en: "here the spindle turns in the direction opposite to the tool's `direction`",
+        de: "hier dreht sich die Spindel entgegen der `direction` des Werkzeugs",
+    }
+    /// Note: the spindle turns at a stop for the operator at which it stands still in the program.
+    SPINDLE_TURNS_AT_STOP: PostDiffers {
+        en: "the spindle turns at this stop, but in the program it stands still there",
+        de: "bei diesem Halt dreht sich die Spindel, im Programm steht sie dort",
+    }
+    /// Note: the spindle turns at another speed.
+    SPINDLE_OTHER_SPEED: PostDiffers {
+        en: "the spindle speed is {found} here, but {expected} in the program",
+        de: "die Drehzahl ist hier {found}, im Programm aber {expected}",
+    }
+    /// Note: a cut with another tool than in the program.
+    TOOL_OTHER: PostDiffers {
+        en: "the output makes this cut with T{found}, but the program uses T{expected}",
+        de: "die Ausgabe führt diesen Schnitt mit T{found} aus, das Programm aber mit T{expected}",
+    }
+    /// Note: a cut before T selects a tool or, if the post writes M6, before M6 inserts the tool.
+    TOOL_NOT_SELECTED: PostDiffers {
+        en: "the output has not changed to T{expected}, with which the program makes this cut",
+        de: "die Ausgabe hat nicht auf T{expected} gewechselt, mit dem das Programm diesen Schnitt macht",
+    }
+    /// Note: a cut after T alone, on a control that changes tools only by M6 or by hand.
+    TOOL_NOT_CHANGED: PostDiffers {
+        en: "T alone does not change the tool on this control, and the output does not stop (M0) for T{expected}",
+        de: "T allein wechselt auf dieser Steuerung kein Werkzeug, und die Ausgabe hält für T{expected} nicht an (M0)",
+    }
+    /// Note: a cut with the length of another tool, or with none.
+    LENGTH_OTHER: PostDiffers {
+        en: "the tool length in effect here is not that of T{expected}",
+        de: "hier gilt nicht die Werkzeuglänge von T{expected}",
+    }
+    /// Note: the beam may be on during a rapid move.
+    BEAM_ON: PostDiffers {
+        en: "the beam is still on during this rapid move, and the post writes no Z that would raise it",
+        de: "der Strahl ist während dieses Eilgangs noch an, und der Postprozessor hebt ihn nicht ab: er schreibt kein Z",
+    }
+    /// Note: a move to another point than in the program.
+    GOES_ELSEWHERE: PostDiffers {
+        en: "the tool goes to {found} here, but to {expected} in the program",
+        de: "hier fährt das Werkzeug nach {found}, im Programm nach {expected}",
+    }
+    /// Note: a move to the right point along another curve than in the program.
+    GOES_ANOTHER_WAY: PostDiffers {
+        en: "the tool goes to {place} as in the program, but by a different route",
+        de: "das Werkzeug fährt wie im Programm nach {place}, aber auf anderem Weg",
+    }
+    /// Note: a rapid move instead of a cut, or the reverse.
+    GOES_AT_ANOTHER_PACE: PostDiffers {
+        en: "this move is {found}, but in the program it is {expected}",
+        de: "diese Bewegung ist {found}, im Programm aber {expected}",
+    }
+    /// Note: a move with another feed than in the program.
+    GOES_WITH_ANOTHER_FEED: PostDiffers {
+        en: "the feed is {found} here and {expected} in the program",
+        de: "der Vorschub ist hier {found}, im Programm {expected}",
+    }
+    /// Note: a move after the last cut.
+    GOES_TOO_FAR: PostDiffers {
+        en: "this is {found} to {place} after the program's last cut",
+        de: "nach dem letzten Schnitt des Programms folgt hier noch {found} nach {place}",
+    }
+    /// Note: a move between two cuts that the program does not contain and that may hit material.
+    WAY_NOT_FREE: PostDiffers {
+        en: "this is {found} from {from} to {to}; between these two cuts the program makes no such move, or only a higher one",
+        de: "das ist {found} von {from} nach {to}; zwischen diesen beiden Schnitten macht das Programm keine solche Bewegung oder nur eine weiter oben",
+    }
+    /// An M word or an axis with an unknown meaning, because no dialect is named.
+    WORD_NOT_FOLLOWED: DoubtfulPost {
+        en: "the output contains {word}, whose effect is unknown without a dialect",
+        de: "die Ausgabe enthält {word}, dessen Wirkung ohne Dialekt unbekannt ist",
+        help_en: "name the dialect of the control in the definition, or with --dialect",
+        help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
+    }
+    /// A G or M code that controls interpret differently, with no dialect named.
+    DIALECTS_DISAGREE: DoubtfulPost {
+        en: "controls disagree on what {words} does, and no dialect is named",
+        de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden, und kein Dialekt ist genannt",
+        help_en: "name the dialect of the control in the definition, or with --dialect",
+        help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
+    }
+    /// A work offset in the output, such as G55.
+    OFFSET_CHOSEN: DoubtfulPost {
+        en: "the output selects a work offset of the machine ({word}), which determines the position of the drawing's zero",
+        de: "die Ausgabe wählt eine Nullpunktverschiebung der Maschine ({word}), die die Lage des Zeichnungsnullpunkts bestimmt",
+    }
+    /// Note: the line of the output that contains the problem. The output is not written, so that no file contains it.
+    IN_OUTPUT: PostDiffers {
+        en: "in line {line} of the output",
+        de: "in Zeile {line} der Ausgabe",
+    }
+    /// Note: the section and line of the definition that wrote the line of output.
+    WRITTEN_BY_LINE: PostDiffers {
+        en: "the line comes from {section}, line {at} of the definition",
+        de: "die Zeile stammt aus {section}, Zeile {at} der Definition",
+    }
+    /// Note: the section with the default text that wrote the line of output.
+    WRITTEN_BY: PostDiffers {
+        en: "the line comes from the default text of {section}, which the definition does not contain",
+        de: "die Zeile stammt aus dem vorgegebenen Text von {section}, den die Definition nicht enthält",
+    }
+    /// A program with several work offsets, to be written through a post.
+    JOB_SYSTEM: NothingToPost {
+        en: "a post cannot write a program that uses several work offsets",
+        de: "ein Programm mit mehreren Nullpunktverschiebungen kann kein Postprozessor schreiben",
+        help_en: "split it into one program for each work offset",
+        help_de: "es in ein Programm je Nullpunktverschiebung teilen",
+    }
+    /// A cut from or to an unknown position, for example after G91, in a program to be written through a post.
+    JOB_PLACE_UNKNOWN: NothingToPost {
+        en: "a cut from or to an unknown position cannot be written through a post",
+        de: "einen Schnitt von oder zu einer unbekannten Position kann kein Postprozessor schreiben",
+        help_en: "before the first cut, move to X, Y and Z once with absolute coordinates (G90)",
+        help_de: "vor dem ersten Schnitt X, Y und Z einmal mit absoluten Koordinaten (G90) anfahren",
+    }
+    /// A rapid move that counts from an unknown position, such as G91 after a probe, in a program to be written through a post.
+    JOB_WAY_UNKNOWN: NothingToPost {
+        en: "this move counts from a position that only the machine knows, so it cannot be written through a post",
+        de: "diese Bewegung zählt von einer Position aus, die nur die Maschine kennt; das kann kein Postprozessor schreiben",
+        help_en: "write the height or place with absolute coordinates (G90)",
+        help_de: "die Höhe oder den Ort mit absoluten Koordinaten (G90) schreiben",
+    }
+    /// A spindle that is switched off for a stop or a dwell, in a program to be written through a definition of CAD6.
+    JOB_SPINDLE_OFF: NothingToPost {
+        en: "{operation} switches the spindle off before it stops or waits, and this post can only do so at a tool change",
+        de: "{operation} schaltet die Spindel vor einem Halt oder einer Wartezeit aus; dieser Postprozessor kann das nur beim Werkzeugwechsel",
+        help_en: "split the program at the stop, or use a post in the language of CamBam",
+        help_de: "das Programm am Halt teilen oder einen Postprozessor in der Sprache von CamBam verwenden",
+    }
+    /// A cut with the length of another tool, or without a length where the tool has one, in a program to be written through a post.
+    JOB_LENGTH: NothingToPost {
+        en: "the tool length offset (H) is not that of the tool that cuts: a post writes one for each tool, with the tool's own number",
+        de: "die Werkzeuglänge (H) ist nicht die des Werkzeugs, das fräst: ein Postprozessor schreibt eine je Werkzeug, mit der Nummer des Werkzeugs",
+        help_en: "name the tool with T, and write H with the same number once after each tool change",
+        help_de: "das Werkzeug mit T nennen und nach jedem Werkzeugwechsel einmal H mit derselben Nummer schreiben",
+    }
+    /// A zero or a tool length that the program sets at the machine, in a program to be written through a post.
+    JOB_ZERO: NothingToPost {
+        en: "{word} sets a zero or a tool length at the machine, and a post does not write it: everything after it would be milled somewhere else",
+        de: "{word} setzt an der Maschine einen Nullpunkt oder eine Werkzeuglänge, und ein Postprozessor schreibt das nicht: alles danach würde woanders gefräst",
+        help_en: "set the zero and the length at the machine before the program starts, and remove the word if the program then counts from there",
+        help_de: "Nullpunkt und Länge vor dem Start des Programms an der Maschine setzen und das Wort entfernen, wenn das Programm dann von dort aus zählt",
+    }
+    /// A value that only the machine knows, such as the height that a probe found.
+    JOB_MACHINE_VALUE: NothingToPost {
+        en: "only the machine knows {parameter}, so what depends on it cannot be written through a post",
+        de: "nur die Maschine kennt {parameter}; was davon abhängt, kann kein Postprozessor schreiben",
+        help_en: "measure and calculate in a program of the machine's own: a post can only write numbers",
+        help_de: "in einem eigenen Programm der Maschine messen und rechnen: ein Postprozessor kann nur Zahlen schreiben",
+    }
+    /// M6 without T in the middle of a program.
+    JOB_TOOL_UNNAMED: NothingToPost {
+        en: "the tool is changed here, but the program does not name the new one",
+        de: "hier wird das Werkzeug gewechselt, aber das Programm nennt das neue nicht",
+        help_en: "write T with the tool's number before M6",
+        help_de: "T und die Nummer des Werkzeugs vor M6 setzen",
+    }
+    /// A plunge directly after a tool change.
+    CUT_AFTER_CHANGE: NothingToPost {
+        en: "{operation} continues at Z {z}, below the surface at {surface}, right after the change to T{index}: the new tool would plunge where the old one ended",
+        de: "{operation} geht gleich nach dem Wechsel zu T{index} bei Z {z} weiter, unter der Oberfläche bei {surface}: das neue Werkzeug würde eintauchen, wo das alte aufgehört hat",
+        help_en: "put a rapid move to a place above the material between the tool change and the next cut",
+        help_de: "zwischen Werkzeugwechsel und nächstem Schnitt einen Eilgang über das Material setzen",
+    }
+    /// A move to a machine position (G28, G30 or G53), in a program to be written through a post.
+    JOB_NAMED_PLACE: NothingToPost {
+        en: "a move to a position that only the machine knows cannot be written through a post",
+        de: "eine Bewegung an eine Position, die nur die Maschine kennt, kann kein Postprozessor schreiben",
+        help_en: "remove the move; if the machine needs it, put it into the texts of the post",
+        help_de: "die Bewegung entfernen; braucht die Maschine sie, in die Texte des Postprozessors schreiben",
+    }
+    /// A move that cannot be written through a post: an arc of several turns, or a probing move away from the material.
+    JOB_MOVE: NothingToPost {
+        en: "a move of this kind (an arc of several turns, probing away from the material) cannot be written through a post",
+        de: "eine Bewegung dieser Art (ein Bogen mit mehreren Umläufen, Antasten vom Material weg) kann kein Postprozessor schreiben",
+        help_en: "write an arc of several turns as single turns; leave probing to a program of the machine's own",
+        help_de: "einen Bogen mit mehreren Umläufen als einzelne Umläufe schreiben; das Antasten einem Programm der Maschine überlassen",
+    }
+    /// A definition's command that failed or could not be run.
+    POST_BUILD_FAILED: PostBuildFailed {
+        en: "the post's command \"{command}\" failed: {reason}",
+        de: "der Befehl \"{command}\" des Postprozessors ist fehlgeschlagen: {reason}",
+        help_en: "correct the command, or run it by hand; the program itself was written",
+        help_de: "den Befehl berichtigen oder von Hand ausführen; das Programm selbst wurde geschrieben",
+    }
+    /// A definition's command that is not run, because the repository is untrusted.
+    POST_BUILD_REFUSED: PostBuildFailed {
+        en: "the post's command \"{command}\" is not run: the repository is not trusted",
+        de: "der Befehl \"{command}\" des Postprozessors wird nicht ausgeführt: dem Repository wird nicht vertraut",
+        help_en: "leave out --run-post-build; nothing was written",
+        help_de: "--run-post-build weglassen; nichts wurde geschrieben",
+    }
+    /// A path with probes that is written through a post.
+    POST_WITH_PROBES: UncorrectedHeights {
+        en: "the path has Z-probes: written through a post, its heights would stay uncorrected",
+        de: "der Pfad hat Z-Proben: ein Postprozessor würde seine Höhen unkorrigiert schreiben",
+        help_en: "run emit without a post, measure, run `pathbuild adjust`, then `pathbuild post DRAWING_Milling.gcode --post POST`",
+        help_de: "emit ohne Postprozessor ausführen, messen, `pathbuild adjust` ausführen, dann `pathbuild post ZEICHNUNG_Milling.gcode --post POST`",
+    }
+    /// A program with correction formulas that were not applied, to be written through a post.
+    POST_UNADJUSTED: UncorrectedHeights {
+        en: "the program has correction formulas that have not been worked out: written through a post, its heights would stay uncorrected",
+        de: "das Programm hat Korrekturformeln, die noch nicht ausgerechnet sind: ein Postprozessor würde seine Höhen unkorrigiert schreiben",
+        help_en: "run `pathbuild adjust` first, and take the _Milling.gcode that it writes",
+        help_de: "zuerst `pathbuild adjust` ausführen und die _Milling.gcode nehmen, die es schreibt",
+    }
+}
