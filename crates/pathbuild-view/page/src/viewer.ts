@@ -1,12 +1,14 @@
 // The viewer of a scene: the picture, its G-code, and the interaction between them.
 
 import { $, node, tableRow } from "./dom.js";
+import { coordinates, factsOfScene, factsOfStep, showFacts } from "./facts.js";
 import { sayKeys, toggleHelp } from "./help.js";
 import { Spot } from "./labels.js";
 import { sayLegend, sayScale, showLegend } from "./legend.js";
+import { Listing } from "./listing.js";
 import { Model, model } from "./model.js";
 import { MOST_OPERATIONS, Operation, operations } from "./operations.js";
-import { Finding, Parameter, Path, Scene, extentOfMove, isCut, pointsOfShape } from "./scene.js";
+import { Finding, Scene, isCut, pointsOfShape } from "./scene.js";
 import { Stage, isThick } from "./stage.js";
 import { NOTHING } from "./stock/heights.js";
 import { Assumed } from "./stock/pieces.js";
@@ -15,17 +17,13 @@ import { stockColors } from "./palette.js";
 import { FIELDS, ProgramSettings, fragmentOf } from "./programs.js";
 import { Timeline, clock, wayUpTo } from "./timeline.js";
 import { visible } from "./visible.js";
-import { Lang, Word, mm, say, sayKind, sayOption } from "./words.js";
+import { Lang, Word, mm, say, sayKind } from "./words.js";
 
 const slider = $<HTMLInputElement>("slider");
 const speed = $<HTMLSelectElement>("speed");
 const picture = $("picture");
-const code = $("code");
-const rows = $("rows");
-const details = $("details");
+const listing = new Listing();
 
-/** Height in px of a row of G-code, larger on narrow pages. */
-const ROW = innerWidth > 700 ? 18 : 44;
 /** Maximum number of labels with numbers and texts: more would cover the picture. */
 const MOST_SPOTS = 600;
 
@@ -56,18 +54,6 @@ let frame = 0;
 let measured: [number, number][] | null = null;
 /** The parts of the picture that are shown. On a phone, texts would cover it. */
 const shown = { stock: true, rapids: true, arrows: true, order: true, texts: innerWidth > 700, other: true, explain: innerWidth > 700 };
-/** Whether the native program is listed although a post writes another one. */
-let isNative = false;
-let lines: string[] = [];
-let linesOf: number | null = null;
-/** Range of G-code rows that are rendered, excluding the end. */
-let listedRows: [number, number] = [0, 0];
-/** Index of the step by line of G-code, for each path. */
-let byLine: Map<number, number>[] = [];
-let pathOf: number[] = [];
-/** Line of each step in the listed text. */
-let lineOf: (number | null)[] = [];
-
 /** Shows a scene. If it is a new version of the current one, the view is kept. */
 export function show(next: Scene, isSame: boolean, still: () => void = () => {}): void {
   const atEnd = count === made.steps.length;
@@ -77,10 +63,9 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
   drawStill = still;
   isOpen = true;
   placeProgram();
-  number();
+  listing.load(scene.paths);
   $("title").textContent = visible(scene.title);
   document.title = visible(scene.title);
-  linesOf = null;
   if (!isSame) {
     if (measured) acts.measure();
     if (frame) play();
@@ -145,38 +130,6 @@ export function assume(settings: ProgramSettings): void {
 /** Registers a callback for changed settings of a program. */
 export function onAssume(hear: (settings: ProgramSettings) => void): void {
   for (const id of Object.values(FIELDS)) $(id).addEventListener("change", () => scene.program && hear(settings()));
-}
-
-/** Determines the line of each step in the listed text. */
-function number(): void {
-  byLine = scene.paths.map(() => new Map<number, number>());
-  [pathOf, lineOf] = [[], []];
-  scene.paths.forEach((path, index) => {
-    const own = isNative ? path.native : undefined;
-    path.moves.forEach((move, step) => {
-      const line = own ? own.lines[step] : (move.line ?? null);
-      if (line !== null && !byLine[index].has(line)) byLine[index].set(line, pathOf.length);
-      pathOf.push(index);
-      lineOf.push(line);
-    });
-  });
-  linesOf = null;
-}
-
-/** Returns the listed text of a path. */
-function listed(path: Path | undefined): string {
-  return (isNative ? path?.native?.gcode : undefined) ?? path?.gcode ?? "";
-}
-
-/** Shows the name of the listed file, and offers to switch between the written and the native text. */
-function whose(path: Path | undefined): void {
-  const isDrawn = path !== undefined && path.embedded.length > 0;
-  $("program").hidden = !isDrawn || !path.gcode;
-  $("native").hidden = !path?.native;
-  $("native").textContent = say(isNative ? "showWritten" : "showNative", lang);
-  const reason = path?.refusal ? `: ${path.refusal[lang]}` : "";
-  const file = path?.written ?? `${say("preview", lang)}${reason}`;
-  $("whose").textContent = visible(isNative && path?.native ? `${say("nativeText", lang)} ${file}` : file);
 }
 
 export function hide(): void {
@@ -317,7 +270,7 @@ function choose(index: number): void {
   chosen = null;
   go(it.moves[0]);
   mark(work.indexOf(it));
-  summary();
+  showFacts(factsOfScene(scene, timeline, lang));
   stage?.point(it.moves);
 }
 
@@ -434,12 +387,18 @@ function go(to: number, part = 0): void {
   count = Math.min(Math.max(to, 0), made.steps.length);
   share = count < made.steps.length ? part : 0;
   // Update the listing first: it reads the layout, which would have to be recomputed after a change of the page.
-  listing(true);
+  list(true);
   slider.value = String(count);
   stage?.show(count, share);
   cutStock();
   mark(operationAt(share > 0 ? count : count - 1) ?? operationAt(count));
   readout();
+}
+
+/** Shows the G-code around the current line, and scrolls to it if asked. */
+function list(follows: boolean): void {
+  const step = share > 0 ? count : count - 1;
+  listing.show(step, follows, lang);
 }
 
 /** Shows position, feed and time of the tool. */
@@ -461,149 +420,10 @@ function readout(): void {
   $("clock").textContent = timeline.isKnown ? `${clock(seconds)} ${say("elapsed", lang)} · ${clock(timeline.total - seconds)} ${say("remaining", lang)}` : "";
 }
 
-/** Formats the known coordinates of a place. */
-function coordinates(place: (number | null)[], format: (value: number) => string): string {
-  return place.flatMap((value, axis) => (value === null ? [] : [`${"XYZ"[axis]}${format(value)}`])).join(" ");
-}
-
-/** Returns the current line of G-code; `null` if the step has no line or nothing is done yet. */
-function current(): number | null {
-  return share > 0 ? lineOf[count] : count === 0 ? null : lineOf[count - 1];
-}
-
-/** Shows the G-code around the current line. Only visible rows are rendered. */
-function listing(follow: boolean): void {
-  const path = pathOf[share > 0 ? count : Math.max(count - 1, 0)] ?? 0;
-  if (linesOf !== path) {
-    linesOf = path;
-    listedRows = [0, 0];
-    rows.replaceChildren();
-    lines = listed(scene.paths[path]).split("\n");
-    whose(scene.paths[path]);
-    code.hidden = !scene.paths.some((it) => it.gcode);
-    rows.style.height = `${lines.length * ROW}px`;
-  }
-  const line = current();
-  if (follow && line !== null) {
-    const top = (line - 1) * ROW;
-    if (top < code.scrollTop || top > code.scrollTop + code.clientHeight - 2 * ROW) {
-      code.scrollTop = top - code.clientHeight / 2;
-    }
-  }
-  const first = Math.max(0, Math.floor(code.scrollTop / ROW) - 5);
-  const last = Math.min(lines.length, first + Math.ceil(code.clientHeight / ROW) + 10);
-  if (listedRows[0] !== first || listedRows[1] !== last) {
-    listedRows = [first, last];
-    rows.replaceChildren(...lines.slice(first, last).map((content, index) => codeRow(first + index, content)));
-  }
-  rows.querySelector(".now")?.classList.remove("now");
-  if (line !== null) rows.children[line - 1 - first]?.classList.add("now");
-}
-
-function codeRow(index: number, content: string): HTMLElement {
-  const row = node("div", "", "row");
-  row.append(node("i", String(index + 1)), node("span", content));
-  row.style.top = `${index * ROW}px`;
-  row.dataset.line = String(index + 1);
-  return row;
-}
-
-/** Shows the facts about a move and its element. */
+/** Shows the facts about a move and its element, or about the whole scene. */
 function describe(at: number | null): void {
   stage?.point(at === null ? null : [at, at + 1]);
-  if (at === null) return summary();
-  const { path, move } = made.steps[at];
-  const list: [string, string][] = [[say("step", lang), `${at + 1}: ${sayKind(move.kind, lang)}`]];
-  list.push(["→", coordinates(move.to, mm)]);
-  if (move.feed) list.push([say("feed", lang), `${mm(move.feed)} mm/min`]);
-  const line = lineOf[at];
-  if (line !== null) list.push(["G-code", `${line}: ${listed(path).split("\n", line)[line - 1] ?? ""}`]);
-  const element = move.element === undefined ? undefined : path.elements[move.element];
-  if (element) {
-    const inside = path.embedded[element.path];
-    const own = path.texts.filter((label) => label.elements.includes(move.element!));
-    const starts = path.elements.flatMap((it, index) => (it.path === element.path && it.kind === "start" ? [index] : []));
-    const ofPath = path.texts.filter((label) => label.elements.some((index) => starts.includes(index)));
-    const joined = (labels: { text: string }[]) => labels.map((label) => label.text).join(" | ") || say("none", lang);
-    list.push([say("element", lang), `${element.entity} ${element.handle ?? ""} · ${sayKind(element.kind, lang)}`]);
-    list.push([say("layer", lang), element.layer]);
-    if (element.line !== null) list.push([say("line", lang), `${element.line} · ${inside?.file ?? path.file}`]);
-    list.push([say("fromOwn", lang), joined(own)]);
-    list.push([`${say("pathText", lang)} ${inside?.name ?? path.name}`, joined(ofPath)]);
-    for (const parameter of element.parameters ?? []) list.push([parameter.letter, `${parameter.value} · ${provider(parameter)}`]);
-  }
-  fill(list);
-}
-
-/** Describes the origin of a parameter. */
-function provider({ from, which, line }: Parameter): string {
-  if (line !== undefined) return `\`${which ?? ""}\` ${say("fromLine", lang)} ${line}`;
-  const words = { own: "fromOwn", chain: "fromChain", path: "fromPath", lender: "fromLender", option: "fromOption", default: "fromDefault" } as const;
-  return `${say(words[from], lang)}${from === "option" ? "" : " "}${which ?? ""}`.trim();
-}
-
-/** Shows the facts about the whole scene. */
-function summary(): void {
-  const list: [string, string][] = [];
-  for (const path of scene.paths) {
-    list.push([say(path.name === path.file ? "program" : "path", lang), path.name === path.file ? path.name.replace(/^.*[\\/]/, "") : `${path.name} · ${path.file}`]);
-    const box = path.elements.length === 0 ? extent(path) : "";
-    if (scene.program) list.push([say("readAs", lang), scene.program.read_as[lang]]);
-    if (box) list.push([say("extent", lang), box]);
-    if (path.tools && path.tool === null) list.push([say("tools", lang), path.tools.map(({ diameter }) => mm(diameter)).join(", ")]);
-    if (path.tool !== null) list.push([say("cutterO", lang), mm(path.tool)]);
-    if (path.thickness !== null) list.push([say("thickness", lang), mm(path.thickness)]);
-    if (path.material) list.push([say("materialM", lang), path.material]);
-    const { totals } = path;
-    if (totals && path.moves.length > 0) {
-      for (const kind of Object.keys(TOTALS) as (keyof typeof TOTALS)[]) list.push([say(TOTALS[kind], lang), `${totals[kind].toFixed(0)} mm`]);
-      const { cutting, isKnown, total } = timeline;
-      const isOnly = scene.paths.length === 1;
-      if (totals.minutes !== null) list.push([say("time", lang), `${totals.minutes} min`]);
-      else if (isKnown && isOnly) list.push([say("time", lang), `${Math.ceil(total / 60)} min`]);
-      else if (cutting !== null && isOnly) list.push([say("time", lang), `${Math.ceil(cutting / 60)} min ${say("withoutRapids", lang)}`]);
-    }
-    if (scene.program?.waits) list.push([say("waits", lang), scene.program.waits[lang]]);
-    const examples = path.examples ?? [];
-    const known = examples.filter(({ value }) => value !== null).map(({ name, value }) => `${name} ${value}`);
-    const unknown = examples.filter(({ value }) => value === null).map(({ name }) => sayOption(name, lang));
-    if (known.length > 0) list.push([say("examples", lang), known.join(", ")]);
-    if (unknown.length > 0) list.push([say("notGiven", lang), unknown.join(", ")]);
-  }
-  fill(list);
-}
-
-/** Keys of the words for total lengths. */
-const TOTALS = { milling: "mill", drilling: "drilling", sweeps: "sweep" } as const;
-
-const extents = new WeakMap<Path, string>();
-
-/** Formats the extent of a program's cuts. It is stored, because computing it is slow for a long program. */
-function extent(path: Path): string {
-  const known = extents.get(path);
-  if (known !== undefined) return known;
-  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-  for (const move of path.moves.filter(({ kind }) => isCut(kind))) {
-    const box = extentOfMove(move);
-    for (const axis of box ? [0, 1, 2] : []) {
-      low[axis] = Math.min(low[axis], box![0][axis]);
-      high[axis] = Math.max(high[axis], box![1][axis]);
-    }
-  }
-  const ranges = [0, 1, 2].filter((axis) => low[axis] <= high[axis]).map((axis) => `${"XYZ"[axis]} ${mm(low[axis])} … ${mm(high[axis])}`);
-  extents.set(path, ranges.join(", "));
-  return ranges.join(", ");
-}
-
-function fill(list: [string, string][]): void {
-  details.replaceChildren(
-    ...list.flatMap(([name, value]) => {
-      const said = node("dd", "");
-      // Keep a number on one line with its sign and its letter.
-      value.split(" ").forEach((word, index) => said.append(index > 0 ? " " : "", node("span", word, word.length <= 24 ? "whole" : "")));
-      return [node("dt", name), said];
-    }),
-  );
+  showFacts(at === null ? factsOfScene(scene, timeline, lang) : factsOfStep(at, made.steps[at], listing.lineOf(at), lang));
 }
 
 /** Lists the findings; a click on one with a place goes there. */
@@ -627,7 +447,7 @@ function findings(): void {
 /** Shows the place of a finding and highlights its line. */
 function goTo(finding: Finding): void {
   if (finding.at) stage?.look(finding.at);
-  const step = scene.program ? pathOf.findIndex((_, index) => lineOf[index] === (finding.line ?? 0)) : -1;
+  const step = scene.program ? listing.stepOfLine(finding.line ?? 0) : -1;
   if (step >= 0) {
     go(step + 1);
     describe((chosen = step));
@@ -653,7 +473,7 @@ export function speak(): void {
   slider.setAttribute("aria-label", say("step", lang));
   hearers.forEach((hear) => hear());
   if (!isOpen) return;
-  linesOf = null;
+  listing.reset();
   placeProgram();
   findings();
   placeWork();
@@ -713,10 +533,9 @@ function changeSpeed(step: 1 | -1): void {
 }
 
 $("native").addEventListener("click", () => {
-  isNative = !isNative;
-  number();
+  listing.switchText();
   describe(chosen);
-  listing(true);
+  list(true);
 });
 
 const acts = {
@@ -821,10 +640,9 @@ for (const id of ["assumedTool", "assumedThickness", "assumedSurface"]) {
     placeStock();
   });
 }
-code.addEventListener("scroll", () => listing(false));
-rows.addEventListener("click", (event) => {
-  const line = (event.target as HTMLElement).closest<HTMLElement>(".row")?.dataset.line;
-  const step = line === undefined ? undefined : byLine[linesOf ?? 0].get(Number(line));
+$("code").addEventListener("scroll", () => list(false));
+$("rows").addEventListener("click", (event) => {
+  const step = listing.stepAt(event.target as HTMLElement);
   if (step === undefined) return;
   go(step + 1);
   describe((chosen = step));
