@@ -3,19 +3,26 @@
 //! The area that a cutter sweeps is drawn as a stroke as wide as the cutter. Strokes are painted from high to low, so that each place
 //! shows its lowest cut. All sizes are exact at any scale.
 
+mod hits;
+mod parts;
+mod strokes;
+
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::{Code, Lang};
-use pathbuild_gcode::interpret::Program;
-use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapid_hits};
-use pathbuild_motion::{Axes, Move, MoveShape, Pace, Position, Step};
 
 use super::canvas::{Anchor, Canvas, INK_COLOUR, mm, svg_number};
 use super::frame::{Frame, PageTransform, VisibleParts, widen};
 use super::legend::LINE_HEIGHT;
 use super::moves::path_data;
 use super::symbols;
-use crate::scene::{FinishedPart, MoveKind, Point, Scene, SceneMove, ScenePath, Shape, ToolSpan};
+use crate::scene::{FinishedPart, Point, Scene, ScenePath};
+use hits::hits;
+use parts::{draw_corners, draw_defects, draw_leftovers};
+use strokes::{
+    Cut, MovePiece, SLOPE_STEPS, Stroke, StrokeBuilder, StrokeKind, SweptArea, cuts, cutting_conditions,
+    is_known, number, sort, swept_area,
+};
 
 const UNTOUCHED_COLOUR: &str = "#dbbd85";
 const EDGE_COLOUR: &str = "#4a3012";
@@ -32,15 +39,6 @@ const DEPTH_COLOURS: [[f64; 3]; 2] = [[189.0, 148.0, 92.0], [115.0, 77.0, 41.0]]
 
 /// Width in px of the line along the edges of cuts.
 const EDGE_WIDTH: f64 = 0.7;
-
-/// Number of steps into which the deepest slope is divided. Each step has one colour.
-const SLOPE_STEPS: f64 = 64.0;
-
-/// Length, in cutter diameters, of the pieces of a rapid move that are checked for material.
-const SEARCH_PIECE: f64 = 0.25;
-
-/// Maximum number of pieces of a rapid move.
-const MAX_PIECES: f64 = 400.0;
 
 /// Maximum number of strokes that are combined to one SVG path. The time for rendering a path grows with the square of its strokes, and
 /// the memory with their number.
@@ -65,111 +63,6 @@ pub(super) struct MilledStock<'s> {
 
 /// Corners of a rectangle of stock, and Z in mm of its upper face.
 type Blank = ([Point; 2], f64);
-
-/// The area swept by a cutter during a move, in the coordinates of the drawing.
-struct SweptArea {
-    way: Move,
-    diameter: f64,
-}
-
-/// A move of a path, or a piece of it. The area that it sweeps is computed whenever it is drawn, because the areas of a long program would take more
-/// memory than its moves.
-#[derive(Clone, Copy)]
-struct MovePiece {
-    /// Index into [`MilledStock::paths`].
-    path: u32,
-    /// Index into [`ScenePath::moves`].
-    movement: u32,
-    piece: Piece,
-}
-
-#[derive(Clone, Copy)]
-enum Piece {
-    Whole,
-    /// One of `count` pieces of the same length, counted from 0.
-    Part {
-        number: u16,
-        count: u16,
-    },
-    /// The lower end.
-    Bottom,
-}
-
-impl Piece {
-    fn of(self, way: &Move) -> Move {
-        match self {
-            Self::Whole => *way,
-            Self::Part { number, count } => {
-                let part = way.piece(number.into(), count.into());
-                if is_upright(way) { Move { shape: MoveShape::Line, ..part } } else { part }
-            }
-            Self::Bottom => {
-                let bottom = if way.from.z() < way.to.z() { way.from } else { way.to };
-                Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }
-            }
-        }
-    }
-}
-
-/// Whether a move is an arc in a plane other than XY: seen from above, a straight line, whose height changes along it.
-fn is_upright(way: &Move) -> bool {
-    matches!(way.shape, MoveShape::Arc(arc) if arc.plane.axes() != [0, 1])
-}
-
-/// A stroke to paint. Higher strokes are painted first, and an edge before the cuts at the same height.
-struct Stroke {
-    at: MovePiece,
-    z: f64,
-    kind: StrokeKind,
-    /// Whether the stroke has the colour of [`MilledStock::mark`].
-    is_marked: bool,
-}
-
-impl SweptArea {
-    /// Returns a key that is equal for areas that look the same: the move in micrometres, without heights, and the diameter.
-    fn key(&self) -> [i64; 7] {
-        let Move { from, to, shape, .. } = &self.way;
-        let centre = if let MoveShape::Arc(arc) = shape { arc.centre } else { [0.0; 2] };
-        let ([a, b, _], [c, d, _]) = (from.at, to.at);
-        #[expect(clippy::cast_possible_truncation, reason = "saturates")]
-        let micrometres = |value: f64| (value * 1000.0).round() as i64;
-        [a, b, c, d, centre[0], centre[1], self.diameter].map(micrometres)
-    }
-}
-
-impl Stroke {
-    /// Returns the height that remains after the cut. All cuts through the material have the same height.
-    fn height(&self) -> f64 {
-        if self.kind >= StrokeKind::ThroughEdge { f64::NEG_INFINITY } else { self.z }
-    }
-}
-
-/// Sorts strokes in painting order: cuts through the material last, all others from high to low. At the same height, marked strokes are
-/// painted first, beneath the others.
-fn sort(strokes: &mut [Stroke]) {
-    let is_through = |stroke: &Stroke| stroke.kind >= StrokeKind::ThroughEdge;
-    strokes.sort_by(|one, other| {
-        let by_height = is_through(one).cmp(&is_through(other)).then(other.z.total_cmp(&one.z));
-        by_height.then(other.is_marked.cmp(&one.is_marked)).then(one.kind.cmp(&other.kind))
-    });
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum StrokeKind {
-    Edge,
-    Cut,
-    ThroughEdge,
-    Through,
-}
-
-/// The cutter and the stock that apply to a move.
-struct CuttingConditions {
-    diameter: f64,
-    /// Z in mm of the upper face of the stock.
-    top: f64,
-    /// Z in mm at or below which a cut goes through the stock.
-    through: f64,
-}
 
 impl<'s> MilledStock<'s> {
     pub(super) fn of(scene: &'s Scene) -> Self {
@@ -514,245 +407,6 @@ pub fn has_stock(scene: &Scene) -> bool {
     })
 }
 
-fn is_known(way: &Move) -> bool {
-    way.from.known.and(way.to.known) == Axes::ALL && way.named.is_none()
-}
-
-/// Returns the area swept by a piece of a move of one of these paths.
-fn swept_area(paths: &[&ScenePath], MovePiece { path, movement, piece }: MovePiece) -> SweptArea {
-    let path = paths[path as usize];
-    let movement = &path.moves[movement as usize];
-    let way = piece.of(&in_drawing_coordinates(&movement.way, path.zero));
-    SweptArea { way, diameter: cutter(path, movement).unwrap_or_default() }
-}
-
-/// A cut that has a known place and known material.
-struct Cut<'s> {
-    path: &'s ScenePath,
-    movement: &'s SceneMove,
-    at: MovePiece,
-    setting: CuttingConditions,
-}
-
-fn cuts(scene: &Scene) -> impl Iterator<Item = Cut<'_>> {
-    let all = (0..).zip(&scene.paths).flat_map(|(index, path)| {
-        (0..).zip(&path.moves).map(move |(movement, way)| (index, path, movement, way))
-    });
-    let known = all.filter(|(.., movement)| {
-        movement.kind.cuts() && is_known(&movement.way) && movement.extent().is_some()
-    });
-    known.filter_map(move |(index, path, number, movement)| {
-        let at = MovePiece { path: index, movement: number, piece: Piece::Whole };
-        Some(Cut { path, movement, at, setting: cutting_conditions(scene, path, movement)? })
-    })
-}
-
-fn cutting_conditions(scene: &Scene, path: &ScenePath, movement: &SceneMove) -> Option<CuttingConditions> {
-    let element = movement.element.and_then(|element| path.elements.get(element as usize));
-    let component = path.embedded.get(element.map_or(0, |element| element.path as usize));
-    let stated = tool_span(path, movement).and_then(|tool| tool.surface);
-    let top = stated.or(component.map(|component| component.thickness)).or(path.thickness)?;
-    let raised = component.map_or(0.0, |component| component.raised);
-    let is_on_zero = scene.program.as_ref().is_none_or(|program| program.is_on_zero);
-    let through = if is_on_zero && top > raised { raised + scene.through } else { f64::NEG_INFINITY };
-    Some(CuttingConditions { diameter: cutter(path, movement)?, top, through })
-}
-
-/// Returns the diameter in mm of the cutter of a move.
-fn cutter(path: &ScenePath, movement: &SceneMove) -> Option<f64> {
-    tool_span(path, movement).map(|tool| tool.diameter).or(path.tool)
-}
-
-fn tool_span<'s>(path: &'s ScenePath, movement: &SceneMove) -> Option<&'s ToolSpan> {
-    let line = movement.line.unwrap_or(0);
-    let later = path.tools.partition_point(|tool| tool.line <= line);
-    later.checked_sub(1).map(|index| &path.tools[index])
-}
-
-fn in_drawing_coordinates(way: &Move, zero: Point) -> Move {
-    let place =
-        |end: &Position| Position { at: [end.at[0] + zero[0], end.at[1] + zero[1], end.at[2]], ..*end };
-    let mut moved = Move { from: place(&way.from), to: place(&way.to), ..*way };
-    if let MoveShape::Arc(arc) = &mut moved.shape {
-        for (axis, coordinate) in arc.plane.axes().into_iter().zip(&mut arc.centre) {
-            *coordinate += zero.get(axis).copied().unwrap_or(0.0);
-        }
-    }
-    moved
-}
-
-struct StrokeBuilder {
-    strokes: Vec<Stroke>,
-}
-
-impl StrokeBuilder {
-    /// Adds the strokes that a cut paints. A slope is divided into pieces, each of which has the height of its upper end; so is an arc that bulges up or
-    /// down. Only level cuts have an edge: those of neighbouring slopes would cover each other's surfaces.
-    fn cut(&mut self, at: MovePiece, way: &Move, setting: &CuttingConditions, step: f64) {
-        let [from, to] = [way.from.z(), way.to.z()];
-        let [.., Some((low, high))] = way.extent() else { return };
-        if low >= setting.top {
-            return;
-        }
-        let bottom = MovePiece { piece: Piece::Bottom, ..at };
-        if way.is_vertical() {
-            self.add(bottom, low, setting, true);
-        } else if high - low < step / 4.0 {
-            self.add(at, high, setting, rounded(low) == rounded(high));
-        } else {
-            let count = if is_upright(way) { SLOPE_STEPS } else { (high - low) / step };
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "at most the number of steps"
-            )]
-            let count = count.ceil().clamp(1.0, SLOPE_STEPS) as u16;
-            for (number, way) in (0..).zip(way.split(count.into())) {
-                let z = way.from.z().max(way.to.z());
-                if z < setting.top {
-                    self.add(MovePiece { piece: Piece::Part { number, count }, ..at }, z, setting, false);
-                }
-            }
-            let end = from.min(to);
-            if end < setting.top {
-                self.add(bottom, end, setting, false);
-            }
-        }
-    }
-
-    fn add(&mut self, at: MovePiece, z: f64, setting: &CuttingConditions, has_edge: bool) {
-        let (z, edge, kind) = if z <= setting.through {
-            (setting.through, StrokeKind::ThroughEdge, StrokeKind::Through)
-        } else {
-            (rounded(z), StrokeKind::Edge, StrokeKind::Cut)
-        };
-        let stroke = |kind| Stroke { at, z, kind, is_marked: false };
-        self.strokes.extend(has_edge.then_some(stroke(edge)));
-        self.strokes.push(stroke(kind));
-    }
-}
-
-fn number(index: usize) -> u32 {
-    u32::try_from(index).unwrap_or(u32::MAX)
-}
-
-/// Rounds a height to a micrometre, so that cuts at the same height can be drawn as one path.
-fn rounded(z: f64) -> f64 {
-    (z * 1000.0).round() / 1000.0
-}
-
-/// Returns the pieces of a path's rapid moves that hit material. If not all cuts share one blank, the material is only known near cuts. `index` is that
-/// of the path.
-fn hits(scene: &Scene, path: &ScenePath, index: u32, blank: Option<Blank>) -> Vec<MovePiece> {
-    let tops = path.moves.iter().filter_map(|movement| cutting_conditions(scene, path, movement));
-    let highest = tops.map(|setting| setting.top).fold(f64::NEG_INFINITY, f64::max);
-    let touch = blank.map(|blank| move_touching_blank(blank, path.zero));
-    let search = HitSearch { scene, path, highest, touch };
-    let goes_down = |movement: &SceneMove| movement.way.to.z() <= movement.way.from.z();
-    if !path.moves.iter().any(|movement| search.is_low(movement) && goes_down(movement)) {
-        return Vec::new();
-    }
-    let mut lines = rapid_hits(&search, &Stock::of_pieces(search.spans())).into_iter().peekable();
-    let mut hits = Vec::new();
-    search.each_piece(&mut |line, _, found| {
-        if lines.next_if_eq(&line).is_some() {
-            hits.extend(found.map(|(movement, piece, _)| MovePiece { path: index, movement, piece }));
-        }
-    });
-    hits
-}
-
-/// The moves of a path in the form in which hits are searched: rapid moves below a surface are divided into pieces, so that only those pieces are found
-/// that hit material.
-struct HitSearch<'s> {
-    scene: &'s Scene,
-    path: &'s ScenePath,
-    /// Z in mm of the highest upper face.
-    highest: f64,
-    /// A move that makes the blank known, and its stock.
-    touch: Option<(Move, StockSpan)>,
-}
-
-/// A piece of a move, by the index of the move, with its conditions.
-type FoundPiece<'c> = (u32, Piece, &'c CuttingConditions);
-
-impl HitSearch<'_> {
-    fn is_low(&self, movement: &SceneMove) -> bool {
-        matches!(movement.kind, MoveKind::Sweep | MoveKind::Lift)
-            && movement.depth().is_some_and(|z| z < self.highest)
-    }
-
-    /// Passes on each piece with the number of its step, which is 1 for the move that touches the blank.
-    fn each_piece(&self, take: &mut dyn FnMut(u32, &Move, Option<FoundPiece<'_>>)) {
-        let mut last = 0;
-        if let Some((way, _)) = &self.touch {
-            last = 1;
-            take(last, way, None);
-        }
-        for (index, movement) in (0..).zip(&self.path.moves) {
-            let setting = cutting_conditions(self.scene, self.path, movement);
-            let Some(setting) = setting.filter(|_| movement.kind != MoveKind::Probe) else { continue };
-            let count = self.pieces(movement, &setting);
-            for number in 0..count {
-                let piece = if count == 1 { Piece::Whole } else { Piece::Part { number, count } };
-                last += 1;
-                take(last, &piece.of(&movement.way), Some((index, piece, &setting)));
-            }
-        }
-    }
-
-    fn pieces(&self, movement: &SceneMove, setting: &CuttingConditions) -> u16 {
-        if !self.is_low(movement) || movement.way.is_vertical() {
-            return 1;
-        }
-        let count = (movement.length / (setting.diameter * SEARCH_PIECE)).ceil().clamp(1.0, MAX_PIECES);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-        let count = count as u16;
-        count
-    }
-
-    /// Returns the stock of the steps, with a span for each change.
-    fn spans(&self) -> Vec<StockSpan> {
-        let mut spans: Vec<StockSpan> = self.touch.iter().map(|(_, span)| *span).collect();
-        self.each_piece(&mut |line, _, found| {
-            let Some((.., setting)) = found else { return };
-            let (surface, cutter) = (setting.top, Cutter::flat(setting.diameter));
-            if spans.last().is_none_or(|last| (last.surface, last.cutter) != (surface, cutter)) {
-                spans.push(StockSpan { line, surface, cutter });
-            }
-        });
-        spans
-    }
-}
-
-impl Program for HitSearch<'_> {
-    fn each(&self, take: &mut dyn FnMut(&Step)) {
-        self.each_piece(&mut |line, way, _| take(&Step::of_move(line, *way)));
-    }
-}
-
-/// Returns a move that touches the upper face of a blank, with a cutter so wide that the material around the move is the entire blank. It
-/// makes the blank known to the search for hits.
-fn move_touching_blank(([low, high], surface): Blank, zero: Point) -> (Move, StockSpan) {
-    let [x, y] = [0, 1].map(|axis| [low[axis] - zero[axis], high[axis] - zero[axis]]);
-    let z = surface - TOUCH_DEPTH;
-    let (from, to, reach) = if x[1] - x[0] > y[1] - y[0] {
-        let middle = f64::midpoint(y[0], y[1]);
-        ([x[0], middle, z], [x[1], middle, z], y[1] - middle)
-    } else {
-        let middle = f64::midpoint(x[0], x[1]);
-        ([middle, y[0], z], [middle, y[1], z], x[1] - middle)
-    };
-    let end = |[x, y, z]: [f64; 3]| Position::known(x, y, z);
-    let way =
-        Move { from: end(from), to: end(to), shape: MoveShape::Line, pace: Pace::Feed(1.0), named: None };
-    let cutter = Cutter { diameter: reach, removed: 0.0, colliding: 0.0 };
-    (way, StockSpan { line: 1, surface, cutter })
-}
-
-/// Depth in mm of the move that touches a blank, too small to count as material.
-const TOUCH_DEPTH: f64 = 1e-4;
-
 pub(super) fn draw_uncut_parts(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
     let style = format!("fill=\"{LEFTOVER_COLOUR}\" fill-opacity=\"0.35\"");
     for ring in &scene.uncut {
@@ -764,109 +418,11 @@ fn stroke(canvas: &mut Canvas, data: &str, width: f64, color: &str) {
     canvas.path(data, &format!("stroke=\"{color}\" stroke-width=\"{}\"", svg_number(width.max(0.5))));
 }
 
-/// Draws the material left around a part, outside of its outline.
-fn draw_leftovers(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
-    if part.left.is_empty() {
-        return;
-    }
-    let reach = part.left.iter().map(|left| left.reach).fold(0.0, f64::max);
-    clip_outside(canvas, part, place, reach, id);
-    canvas.open(&format!("clip-path=\"url(#{id})\""));
-    for stretch in &part.left {
-        let data: String = stretch.outline.iter().map(|shape| symbols::shape(shape, place)).collect();
-        stroke(canvas, &data, 2.0 * stretch.reach * place.scale(), LEFTOVER_COLOUR);
-    }
-    canvas.close();
-}
-
-/// Fills the inner corners of a part, outside of its outline. The cuts are drawn over them, so that only the areas that the cutter does not
-/// reach remain.
-fn draw_corners(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
-    let sharp = |ring: &Vec<Shape>| {
-        let next = ring.iter().cycle().skip(1);
-        let corners = ring.iter().zip(next).filter_map(|(shape, next)| {
-            let reach = part.radius * corner_reach(shape.directions()[1], next.directions()[0])?;
-            part.corners.iter().any(|stretch| touches(stretch, next.start())).then_some((next.start(), reach))
-        });
-        corners.collect::<Vec<_>>()
-    };
-    let sharp: Vec<(Point, f64)> = part.rings.iter().flat_map(sharp).collect();
-    let reach = sharp.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
-    clip_outside(canvas, part, place, reach, id);
-    canvas.open(&format!("clip-path=\"url(#{id})\" fill=\"{LEFTOVER_COLOUR}\""));
-    for (corner, reach) in sharp {
-        canvas.circle(place.to_page(corner), reach * place.scale(), "");
-    }
-    canvas.close();
-}
-
-/// Distance in mm up to which a stretch of an outline touches a corner.
-const CORNER_DISTANCE: f64 = 0.001;
-
-/// Whether a stretch of an outline begins or ends at a corner.
-fn touches(stretch: &Shape, [x, y]: Point) -> bool {
-    let ends = [stretch.start(), stretch.end()];
-    ends.into_iter().any(|end| libm::hypot(end[0] - x, end[1] - y) <= CORNER_DISTANCE)
-}
-
-/// Returns the distance from a corner at which a round cutter on the right of the outline touches both sides, in radii of the cutter. The
-/// arguments are the directions before and after the corner. Returns `None` if the outline does not turn to the right.
-fn corner_reach([x, y]: Point, [next_x, next_y]: Point) -> Option<f64> {
-    let (across, along) = (x * next_y - y * next_x, x * next_x + y * next_y);
-    let norm = libm::hypot(x, y) * libm::hypot(next_x, next_y);
-    (across < -SMOOTH_SINE * norm)
-        .then(|| (-across / (norm + along).max(SMOOTH_SINE * norm)).min(MAX_CORNER_REACH))
-}
-
-/// Sine of the largest turn at which an outline is still considered smooth.
-const SMOOTH_SINE: f64 = 0.01;
-
-/// Maximum extent of a corner, in radii of the cutter.
-const MAX_CORNER_REACH: f64 = 10.0;
-
-/// Draws the defects of a part: cuts into it, support bars that are cut away, and a colour if nothing holds the part.
-fn draw_defects(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, id: &str) {
-    let material = || -> String {
-        // Rings within an opening are left out, because an opening is not filled.
-        let rings =
-            part.rings.iter().enumerate().zip(&part.nests).filter(|((index, _), nest)| index == *nest);
-        rings.map(|((_, ring), _)| symbols::outline(ring, place)).collect()
-    };
-    if part.is_loose {
-        canvas.path(&material(), &format!("fill=\"{LOOSE_COLOUR}\" fill-opacity=\"0.45\""));
-    }
-    let width = 2.0 * part.radius * place.scale();
-    let data = |shapes: &[Shape]| shapes.iter().map(|shape| symbols::shape(shape, place)).collect::<String>();
-    if !part.gouges.is_empty() {
-        canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{}\"/></clipPath>", material()));
-        canvas.open(&format!("clip-path=\"url(#{id})\""));
-        stroke(canvas, &data(&part.gouges), width, WRONG_COLOUR);
-        canvas.close();
-    }
-    if !part.lost_bars.is_empty() {
-        canvas.open("stroke-linecap=\"butt\"");
-        stroke(canvas, &data(&part.lost_bars), width, WRONG_COLOUR);
-        canvas.close();
-    }
-}
-
 /// Returns the path of a rectangle, given by its lower left and upper right corner.
 fn rectangle(place: &PageTransform, corners: [Point; 2]) -> String {
     let [[left, bottom], [right, top]] =
         corners.map(|corner| place.to_page(corner)).map(|corner| corner.map(svg_number));
     format!("M{left} {top}H{right}V{bottom}H{left}Z")
-}
-
-/// Defines a clip path for the outside of a part: a frame around the rings of the part. The rings run with their material on the left.
-fn clip_outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, reach: f64, id: &str) {
-    let mut corners = None;
-    for shape in part.rings.iter().flatten() {
-        widen(&mut corners, shape.extent());
-    }
-    let [low, high] = corners.unwrap_or_default();
-    let frame = rectangle(place, [low.map(|at| at - reach), high.map(|at| at + reach)]);
-    let rings: String = part.rings.iter().map(|ring| symbols::outline(ring, place)).collect();
-    canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{frame}{rings}\"/></clipPath>"));
 }
 
 fn depth_color(share: f64) -> String {
@@ -877,28 +433,4 @@ fn depth_color(share: f64) -> String {
         value
     });
     format!("#{red:02x}{green:02x}{blue:02x}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{MAX_CORNER_REACH, corner_reach};
-
-    /// A round cutter touches the sides of a right angle at one radius from the corner, whatever the directions of the sides.
-    #[test]
-    fn the_reach_of_a_corner_does_not_depend_on_directions() {
-        for turned in 0..12 {
-            let along = |degrees: f64| {
-                let (sin, cos) = libm::sincos((f64::from(turned) * 30.0 + degrees).to_radians());
-                [cos, sin]
-            };
-            let reach = |degrees: f64| corner_reach(along(0.0), along(-degrees));
-            assert!(reach(90.0).is_some_and(|reach| (reach - 1.0).abs() < 1e-9), "{turned}");
-            assert!(
-                reach(60.0).is_some_and(|reach| (reach - libm::sqrt(1.0 / 3.0)).abs() < 1e-9),
-                "{turned}"
-            );
-            assert_eq!(reach(170.0), Some(MAX_CORNER_REACH));
-            assert_eq!([reach(0.5), reach(-90.0)], [None; 2], "smooth, or to the other side");
-        }
-    }
 }

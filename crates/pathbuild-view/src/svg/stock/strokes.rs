@@ -1,0 +1,244 @@
+//! The areas that cutters sweep, as strokes.
+
+use pathbuild_motion::{Axes, Move, MoveShape, Position};
+
+use crate::scene::{Point, Scene, SceneMove, ScenePath, ToolSpan};
+
+/// Number of steps into which the deepest slope is divided. Each step has one colour.
+pub(super) const SLOPE_STEPS: f64 = 64.0;
+
+/// The area swept by a cutter during a move, in the coordinates of the drawing.
+pub(super) struct SweptArea {
+    pub(super) way: Move,
+    pub(super) diameter: f64,
+}
+
+/// A move of a path, or a piece of it. The area that it sweeps is computed whenever it is drawn, because the areas of a long program would take more
+/// memory than its moves.
+#[derive(Clone, Copy)]
+pub(super) struct MovePiece {
+    /// Index of the path.
+    pub(super) path: u32,
+    /// Index into [`ScenePath::moves`].
+    pub(super) movement: u32,
+    pub(super) piece: Piece,
+}
+
+#[derive(Clone, Copy)]
+pub(super) enum Piece {
+    Whole,
+    /// One of `count` pieces of the same length, counted from 0.
+    Part {
+        number: u16,
+        count: u16,
+    },
+    /// The lower end.
+    Bottom,
+}
+
+impl Piece {
+    pub(super) fn of(self, way: &Move) -> Move {
+        match self {
+            Self::Whole => *way,
+            Self::Part { number, count } => {
+                let part = way.piece(number.into(), count.into());
+                if is_upright(way) { Move { shape: MoveShape::Line, ..part } } else { part }
+            }
+            Self::Bottom => {
+                let bottom = if way.from.z() < way.to.z() { way.from } else { way.to };
+                Move { from: bottom, to: bottom, shape: MoveShape::Line, ..*way }
+            }
+        }
+    }
+}
+
+/// Whether a move is an arc in a plane other than XY: seen from above, a straight line, whose height changes along it.
+fn is_upright(way: &Move) -> bool {
+    matches!(way.shape, MoveShape::Arc(arc) if arc.plane.axes() != [0, 1])
+}
+
+/// A stroke to paint. Higher strokes are painted first, and an edge before the cuts at the same height.
+pub(super) struct Stroke {
+    pub(super) at: MovePiece,
+    pub(super) z: f64,
+    pub(super) kind: StrokeKind,
+    /// Whether the stroke has the colour of [`MilledStock::mark`].
+    pub(super) is_marked: bool,
+}
+
+impl SweptArea {
+    /// Returns a key that is equal for areas that look the same: the move in micrometres, without heights, and the diameter.
+    pub(super) fn key(&self) -> [i64; 7] {
+        let Move { from, to, shape, .. } = &self.way;
+        let centre = if let MoveShape::Arc(arc) = shape { arc.centre } else { [0.0; 2] };
+        let ([a, b, _], [c, d, _]) = (from.at, to.at);
+        #[expect(clippy::cast_possible_truncation, reason = "saturates")]
+        let micrometres = |value: f64| (value * 1000.0).round() as i64;
+        [a, b, c, d, centre[0], centre[1], self.diameter].map(micrometres)
+    }
+}
+
+impl Stroke {
+    /// Returns the height that remains after the cut. All cuts through the material have the same height.
+    pub(super) fn height(&self) -> f64 {
+        if self.kind >= StrokeKind::ThroughEdge { f64::NEG_INFINITY } else { self.z }
+    }
+}
+
+/// Sorts strokes in painting order: cuts through the material last, all others from high to low. At the same height, marked strokes are
+/// painted first, beneath the others.
+pub(super) fn sort(strokes: &mut [Stroke]) {
+    let is_through = |stroke: &Stroke| stroke.kind >= StrokeKind::ThroughEdge;
+    strokes.sort_by(|one, other| {
+        let by_height = is_through(one).cmp(&is_through(other)).then(other.z.total_cmp(&one.z));
+        by_height.then(other.is_marked.cmp(&one.is_marked)).then(one.kind.cmp(&other.kind))
+    });
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum StrokeKind {
+    Edge,
+    Cut,
+    ThroughEdge,
+    Through,
+}
+
+/// The cutter and the stock that apply to a move.
+pub(super) struct CuttingConditions {
+    pub(super) diameter: f64,
+    /// Z in mm of the upper face of the stock.
+    pub(super) top: f64,
+    /// Z in mm at or below which a cut goes through the stock.
+    pub(super) through: f64,
+}
+
+pub(super) fn is_known(way: &Move) -> bool {
+    way.from.known.and(way.to.known) == Axes::ALL && way.named.is_none()
+}
+
+/// Returns the area swept by a piece of a move of one of these paths.
+pub(super) fn swept_area(paths: &[&ScenePath], MovePiece { path, movement, piece }: MovePiece) -> SweptArea {
+    let path = paths[path as usize];
+    let movement = &path.moves[movement as usize];
+    let way = piece.of(&in_drawing_coordinates(&movement.way, path.zero));
+    SweptArea { way, diameter: cutter(path, movement).unwrap_or_default() }
+}
+
+/// A cut that has a known place and known material.
+pub(super) struct Cut<'s> {
+    pub(super) path: &'s ScenePath,
+    pub(super) movement: &'s SceneMove,
+    pub(super) at: MovePiece,
+    pub(super) setting: CuttingConditions,
+}
+
+pub(super) fn cuts(scene: &Scene) -> impl Iterator<Item = Cut<'_>> {
+    let all = (0..).zip(&scene.paths).flat_map(|(index, path)| {
+        (0..).zip(&path.moves).map(move |(movement, way)| (index, path, movement, way))
+    });
+    let known = all.filter(|(.., movement)| {
+        movement.kind.cuts() && is_known(&movement.way) && movement.extent().is_some()
+    });
+    known.filter_map(move |(index, path, number, movement)| {
+        let at = MovePiece { path: index, movement: number, piece: Piece::Whole };
+        Some(Cut { path, movement, at, setting: cutting_conditions(scene, path, movement)? })
+    })
+}
+
+pub(super) fn cutting_conditions(
+    scene: &Scene,
+    path: &ScenePath,
+    movement: &SceneMove,
+) -> Option<CuttingConditions> {
+    let element = movement.element.and_then(|element| path.elements.get(element as usize));
+    let component = path.embedded.get(element.map_or(0, |element| element.path as usize));
+    let stated = tool_span(path, movement).and_then(|tool| tool.surface);
+    let top = stated.or(component.map(|component| component.thickness)).or(path.thickness)?;
+    let raised = component.map_or(0.0, |component| component.raised);
+    let is_on_zero = scene.program.as_ref().is_none_or(|program| program.is_on_zero);
+    let through = if is_on_zero && top > raised { raised + scene.through } else { f64::NEG_INFINITY };
+    Some(CuttingConditions { diameter: cutter(path, movement)?, top, through })
+}
+
+/// Returns the diameter in mm of the cutter of a move.
+fn cutter(path: &ScenePath, movement: &SceneMove) -> Option<f64> {
+    tool_span(path, movement).map(|tool| tool.diameter).or(path.tool)
+}
+
+fn tool_span<'s>(path: &'s ScenePath, movement: &SceneMove) -> Option<&'s ToolSpan> {
+    let line = movement.line.unwrap_or(0);
+    let later = path.tools.partition_point(|tool| tool.line <= line);
+    later.checked_sub(1).map(|index| &path.tools[index])
+}
+
+fn in_drawing_coordinates(way: &Move, zero: Point) -> Move {
+    let place =
+        |end: &Position| Position { at: [end.at[0] + zero[0], end.at[1] + zero[1], end.at[2]], ..*end };
+    let mut moved = Move { from: place(&way.from), to: place(&way.to), ..*way };
+    if let MoveShape::Arc(arc) = &mut moved.shape {
+        for (axis, coordinate) in arc.plane.axes().into_iter().zip(&mut arc.centre) {
+            *coordinate += zero.get(axis).copied().unwrap_or(0.0);
+        }
+    }
+    moved
+}
+
+pub(super) struct StrokeBuilder {
+    pub(super) strokes: Vec<Stroke>,
+}
+
+impl StrokeBuilder {
+    /// Adds the strokes that a cut paints. A slope is divided into pieces, each of which has the height of its upper end; so is an arc that bulges up or
+    /// down. Only level cuts have an edge: those of neighbouring slopes would cover each other's surfaces.
+    pub(super) fn cut(&mut self, at: MovePiece, way: &Move, setting: &CuttingConditions, step: f64) {
+        let [from, to] = [way.from.z(), way.to.z()];
+        let [.., Some((low, high))] = way.extent() else { return };
+        if low >= setting.top {
+            return;
+        }
+        let bottom = MovePiece { piece: Piece::Bottom, ..at };
+        if way.is_vertical() {
+            self.add(bottom, low, setting, true);
+        } else if high - low < step / 4.0 {
+            self.add(at, high, setting, rounded(low) == rounded(high));
+        } else {
+            let count = if is_upright(way) { SLOPE_STEPS } else { (high - low) / step };
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "at most the number of steps"
+            )]
+            let count = count.ceil().clamp(1.0, SLOPE_STEPS) as u16;
+            for (number, way) in (0..).zip(way.split(count.into())) {
+                let z = way.from.z().max(way.to.z());
+                if z < setting.top {
+                    self.add(MovePiece { piece: Piece::Part { number, count }, ..at }, z, setting, false);
+                }
+            }
+            let end = from.min(to);
+            if end < setting.top {
+                self.add(bottom, end, setting, false);
+            }
+        }
+    }
+
+    fn add(&mut self, at: MovePiece, z: f64, setting: &CuttingConditions, has_edge: bool) {
+        let (z, edge, kind) = if z <= setting.through {
+            (setting.through, StrokeKind::ThroughEdge, StrokeKind::Through)
+        } else {
+            (rounded(z), StrokeKind::Edge, StrokeKind::Cut)
+        };
+        let stroke = |kind| Stroke { at, z, kind, is_marked: false };
+        self.strokes.extend(has_edge.then_some(stroke(edge)));
+        self.strokes.push(stroke(kind));
+    }
+}
+
+pub(super) fn number(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX)
+}
+
+/// Rounds a height to a micrometre, so that cuts at the same height can be drawn as one path.
+fn rounded(z: f64) -> f64 {
+    (z * 1000.0).round() / 1000.0
+}
