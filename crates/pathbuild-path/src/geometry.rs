@@ -164,6 +164,11 @@ impl Placement {
         self.turn * point + self.shift
     }
 
+    /// Turns a vector as the placement turns its points.
+    pub fn turned(&self, vector: Vector2<f64>) -> Vector2<f64> {
+        self.turn * vector
+    }
+
     /// Returns the point that the placement moves to this one.
     pub fn unplace(&self, placed: Xy) -> Xy {
         self.turn.inverse() * (placed - self.shift)

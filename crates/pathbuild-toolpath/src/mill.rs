@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::Vector2;
 use pathbuild_path::approx::{above, at_least};
 use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Xy};
 
@@ -145,26 +146,31 @@ struct Circle {
     centre: Xy,
     radius: f64,
     feed: f64,
+    /// The vector from the point where full circles begin and end to the centre.
+    to_centre: Vector2<f64>,
 }
 
 impl Circle {
-    /// Returns the point with the least Y, where full circles begin and end.
-    fn low(&self) -> Xy {
-        Xy::new(self.centre.x, self.centre.y - self.radius)
+    /// Returns a circle that begins at its lowest point.
+    fn from_lowest_point(centre: Xy, radius: f64, feed: f64) -> Self {
+        Self { centre, radius, feed, to_centre: Vector2::new(0.0, radius) }
     }
 
-    fn high(&self) -> Xy {
-        Xy::new(self.centre.x, self.centre.y + self.radius)
+    fn start(&self) -> Xy {
+        self.centre - self.to_centre
     }
 
-    /// Returns the full circle, clockwise from its lowest point.
+    fn opposite(&self) -> Xy {
+        self.centre + self.to_centre
+    }
+
+    /// Returns the full circle, clockwise.
     fn curve(&self) -> Curve {
-        let low = self.low();
         Curve::Arc(Arc {
             centre: self.centre,
             radius: self.radius,
-            start: low,
-            end: low,
+            start: self.start(),
+            end: self.start(),
             clockwise: true,
             degrees: 360.0,
         })
@@ -173,16 +179,12 @@ impl Circle {
 
 impl<P: FoldPaths> Fold<'_, P> {
     pub(crate) fn mill_helix(&mut self, place: &PlacedPath<'_>, origin: &Origin, helix: &Helix) {
-        let circle = Circle {
-            centre: place.placement.place(helix.centre),
-            radius: helix.axis_radius(place.path.tool),
-            feed: self.feed_or_default(helix.feed),
-        };
+        let circle = self.placed_circle(place, helix);
         let bottom = place.raised + helix.bottom;
         self.add_element_comment(ElementKind::HelicalCircle, origin, bottom, place, None);
         self.plunge(place.surface + place.path.tool, place.surface, circle.feed);
         self.add_question_comment(helix.comment.as_deref());
-        self.sweep(circle.low(), circle.radius);
+        self.sweep(circle.start(), circle.radius);
         let mut done = self.mill_half_circles(&circle, place.surface, helix.infeed, bottom);
         if let Some((depth, bars)) = &helix.bars {
             done = self.mill_circles_with_bars(place, &circle, (done, helix.infeed), *depth, bars);
@@ -191,6 +193,17 @@ impl<P: FoldPaths> Fold<'_, P> {
             self.lift_corrected_at(place.sweep_height, circle.centre, place.sweep_height - done);
         }
         self.sweep(circle.centre, circle.radius);
+    }
+
+    /// Returns the circle of a helix. The lowest point of a circle with support bars, from which they are distributed, is that in its drawing: the
+    /// bars turn with the path. All other circles begin at their lowest point in the program, as those of the original tool do.
+    fn placed_circle(&self, place: &PlacedPath<'_>, helix: &Helix) -> Circle {
+        let (centre, feed) = (place.placement.place(helix.centre), self.feed_or_default(helix.feed));
+        let circle = Circle::from_lowest_point(centre, helix.axis_radius(place.path.tool), feed);
+        if helix.bars.is_none() || self.compatible {
+            return circle;
+        }
+        Circle { to_centre: place.placement.turned(circle.to_centre), ..circle }
     }
 
     /// Mills half circles down to the bottom, the last two at the bottom. Returns the depth from which the last two were computed, which may be below
@@ -202,8 +215,9 @@ impl<P: FoldPaths> Fold<'_, P> {
         }
         loop {
             let half = (depth - infeed / 2.0).max(bottom);
-            self.mill_half_circle(circle, circle.high(), circle.radius, half);
-            self.mill_half_circle(circle, circle.low(), -circle.radius, (half - infeed / 2.0).max(bottom));
+            self.mill_half_circle(circle, circle.opposite(), circle.to_centre, half);
+            let next = (half - infeed / 2.0).max(bottom);
+            self.mill_half_circle(circle, circle.start(), Vector2::zeros() - circle.to_centre, next);
             if at_least(bottom, depth) {
                 return depth;
             }
@@ -211,15 +225,15 @@ impl<P: FoldPaths> Fold<'_, P> {
         }
     }
 
-    fn mill_half_circle(&mut self, circle: &Circle, to: Xy, j: f64, z: f64) {
+    fn mill_half_circle(&mut self, circle: &Circle, to: Xy, to_centre: Vector2<f64>, z: f64) {
         let height = Height { z, at: circle.centre };
         let half = PlannedMove::Arc {
             feed: circle.feed,
             clockwise: true,
-            centre: Xy::new(0.0, j),
+            centre: to_centre.into(),
             to,
             z: height,
-            is_spiral: true,
+            is_spiral: to_centre.x == 0.0,
         };
         let count = Count { class: MoveClass::Milling, length: PI * circle.radius, feed: Some(circle.feed) };
         self.step(half, count, Tip { at: to, z });
@@ -252,7 +266,7 @@ impl<P: FoldPaths> Fold<'_, P> {
 
 /// Returns the full circle on which the cutter's axis moves, in the coordinates of its drawing.
 pub(crate) fn axis_circle(helix: &Helix, tool: f64) -> Curve {
-    Circle { centre: helix.centre, radius: helix.axis_radius(tool), feed: 0.0 }.curve()
+    Circle::from_lowest_point(helix.centre, helix.axis_radius(tool), 0.0).curve()
 }
 
 /// Returns the last turns of a helix and, if it has support bars, the circle that leaves them, as if each were milled in a single pass. Uses the

@@ -194,19 +194,46 @@ fn without_room_for_a_bar_nothing_below_d_is_milled() {
     assert_eq!(milled[4..], ["C 20,4 2.5", "C 20,-4 2", "C 20,4 2", "C 20,-4 2", "L 10", "S 40,0"]);
 }
 
-/// Circles begin below their centre, where the half circles end, even if the embedding rotates the path.
+/// Returns the moves of a project that embeds a path with this circle, turned by a right angle to the left.
+fn turned_moves(circle: &str, options: PathOptions) -> Vec<String> {
+    let drawing = format!(
+        "layer 8001.1P\nstart 0,0 \"T9 O3 S20\"\nsubpath 0,0 0,40 \">1234.1P T5\"\nend 0,40\n{}",
+        path("T5 O3 I2 B0 D2 P2 U21", &helix(circle))
+    );
+    shown(&program_with(&drawing, options), false)
+}
+
+/// A circle without bars begins below its centre, even if the embedding rotates the path. So does a circle with bars in compatible programs, where the
+/// half circles end there.
 #[test]
 fn circles_begin_below_the_centre_however_the_path_is_turned() {
-    let drawing = |circle: &str| {
-        format!(
-            "layer 8001.1P\nstart 0,0 \"T9 O3 S20\"\nsubpath 0,0 0,40 \">1234.1P T5\"\nend 0,40\n{}",
-            path("T5 O3 I2 B0 D2 P2 U21", &helix(circle))
-        )
+    for milled in [turned_moves("circle 20,0 d 11", OPTIONS), turned_moves(BARS, COMPATIBLE)] {
+        assert_eq!(milled[1..5], ["S 0,20", "S 0,16", "C 0,24 4", "C 0,16 3"], "{milled:?}");
+        assert!(
+            milled.iter().rfind(|step| step.starts_with('C')).unwrap().starts_with("C 0,16 "),
+            "{milled:?}"
+        );
+    }
+}
+
+/// The bars of a circle turn with its path: the first one stays at the point that is lowest in the drawing.
+#[test]
+fn bars_of_a_circle_turn_with_the_path() {
+    let milled = turned_moves(BARS, OPTIONS);
+    assert_eq!(milled[1..5], ["S 0,20", "S 4,20", "C -4,20 4", "C 4,20 3"], "{milled:?}");
+    let unturned = moves(&path("T5 O3 I2 B0 D2 P2 U21", &helix(BARS)));
+    let circle = |moves: &[String]| -> Vec<[f64; 3]> {
+        let cuts = moves.iter().filter_map(|step| step.strip_prefix("C "));
+        let numbers =
+            cuts.map(|cut| cut.split([' ', ',']).map(|number| number.parse().unwrap()).collect::<Vec<f64>>());
+        numbers.map(|cut| [cut[0], cut[1], cut[2]]).collect()
     };
-    let milled = moves(&drawing(BARS));
-    assert_eq!(milled[..5], ["L 8", "S 0,20", "S 0,16", "C 0,24 4", "C 0,16 3"]);
-    let last = milled.iter().rposition(|step| step.starts_with('C')).unwrap();
-    assert_eq!(milled[last], "C 0,16 2");
+    let turned: Vec<_> = circle(&unturned).into_iter().map(|[x, y, z]| [-y, x, z]).collect();
+    let difference = |(one, other): ([f64; 3], [f64; 3])| {
+        (0..3).map(|axis| (one[axis] - other[axis]).abs()).fold(0.0, f64::max)
+    };
+    let pairs: Vec<_> = circle(&milled).into_iter().zip(turned).collect();
+    assert!(pairs.len() > 10 && pairs.into_iter().all(|pair| difference(pair) < 0.002), "{milled:?}");
 }
 
 #[test]
