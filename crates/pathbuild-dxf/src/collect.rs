@@ -1,4 +1,4 @@
-//! Turns items into the entities, faults and left-out curves of a [`Drawing`].
+//! Collects placed entities into the entities, faults and left-out curves of a [`Drawing`].
 
 #![expect(
     clippy::inline_always,

@@ -16,7 +16,7 @@ use crate::fields::{Fields, FillDecision, Value};
 use crate::groups::Records;
 use crate::layers::{LayerId, Layers, LineType, LineTypes};
 use crate::pairs::{Pair, Pairs, Stop};
-use crate::shapes::{self, Ellipse, Insert, OpenPolyline, Polyline, Spline};
+use crate::shapes::{self, Ellipse, Insert, Polyline, PolylineBuilder, Spline};
 use crate::{Geometry, Options, Origin};
 
 /// A reader of entities, with a cache of the layer and line-type names that it has resolved.
@@ -291,7 +291,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         &mut self,
         records: &mut Records<'a>,
     ) -> Result<Result<Shape<'a>, EntityError<'a>>, Stop<'a>> {
-        let mut polyline = OpenPolyline::begin(&self.fields);
+        let mut polyline = PolylineBuilder::begin(&self.fields);
         let mut is_first = true;
         while RecordKind::of(records.head.value) == Some(RecordKind::Vertex) {
             let always = |_| FillDecision::Keep;

@@ -26,7 +26,7 @@ pub struct Stamp([u64; 6]);
 #[derive(Clone, Copy, Debug)]
 pub struct Clock(SystemTime);
 
-/// Name of the temporary file that is created to read the clock of the file system from its modification time.
+/// Base name of the temporary file whose modification time is the time of the file system, as in `.clock.123-0.tmp`.
 pub const CLOCK: &str = "clock";
 
 /// Coarsest time resolution of a file system in use (FAT).

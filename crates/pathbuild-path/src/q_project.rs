@@ -194,7 +194,7 @@ impl<'a> QProjectComparison<'a> {
             let problem = Diagnostic::new(&messages::PROXY_OF_NOTHING).quoting("name", written);
             return vec![problem.with("names", names).with_text(fault)];
         };
-        if let Some(other) = self.connected_path(proxy, &name) {
+        if let Some(other) = self.other_connected_path(proxy, &name) {
             let problem = Diagnostic::new(&messages::PROXY_OF_OTHER).quoting("name", name.as_str());
             return vec![problem.quoting("other", other.as_str()).with_text(fault)];
         }
@@ -212,7 +212,7 @@ impl<'a> QProjectComparison<'a> {
     }
 
     /// Returns the path with the ends that a proxy line connects, if the named path has other ends.
-    fn connected_path(&self, proxy: &ProxyLine, named: &PathName) -> Option<&'a PathName> {
+    fn other_connected_path(&self, proxy: &ProxyLine, named: &PathName) -> Option<&'a PathName> {
         let (start, end) = (proxy.curve.start(), proxy.curve.end());
         let joined = self.component.paths.iter().filter(|raw| {
             let ends = raw.start.as_ref().zip(raw.end.as_ref()).map(|(from, to)| (from.at, to.at));

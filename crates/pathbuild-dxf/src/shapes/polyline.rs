@@ -63,7 +63,7 @@ fn check_count<'a>(fields: &Fields<'a>, found: usize) -> Result<(), BadGroup<'a>
 
 /// A POLYLINE that is waiting for its VERTEX records.
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
-pub(crate) struct OpenPolyline {
+pub(crate) struct PolylineBuilder {
     elevation: f64,
     is_closed: bool,
     is_mirrored: bool,
@@ -74,7 +74,7 @@ pub(crate) struct OpenPolyline {
     corners: Vec<Corner>,
 }
 
-impl OpenPolyline {
+impl PolylineBuilder {
     /// Reads the groups of a POLYLINE itself, before its VERTEX records.
     pub(crate) fn begin<'a>(fields: &Fields<'a>) -> Result<Self, EntityError<'a>> {
         let flags = fields.whole_number(70)?.unwrap_or(0);

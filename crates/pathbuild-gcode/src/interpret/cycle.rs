@@ -74,7 +74,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Whether the line has no repetitions: it defines the cycle, or leads the tool around an obstacle, and drills nothing.
+    /// Whether the line states 0 repetitions (K0, L0): it stores the cycle, or leads the tool around an obstacle, and drills nothing.
     fn drills_nothing(&self) -> bool {
         let repeats = self.words.values.peek(self.rules.repeats);
         self.rules.stores_cycles && repeats.is_some_and(|slot| slot.value == 0.0)

@@ -8,7 +8,7 @@ use pathbuild_motion::{Action, Axes, Change, Group, Move, Pace, Step};
 use super::codes;
 use super::codes::Command;
 use super::evaluate::{Fault, Parameters, StatedProbes};
-use super::half_circles::HalfCircles;
+use super::half_circles::DoubtfulArcs;
 use super::state::{Heights, Options, State};
 use crate::dialect::{MCodeOrder, Percent, Rules, beginning_of};
 use crate::read::{Block, OWordKind, Problems, SourcePosition, Span};
@@ -20,7 +20,7 @@ pub(super) struct Interpreter<'i> {
     pub(super) state: State,
     pub(super) words: BlockWords,
     pub(super) problems: Problems,
-    pub(super) half_circles: HalfCircles,
+    pub(super) half_circles: DoubtfulArcs,
     pub(super) parameters: Parameters,
     pub(super) stated: StatedProbes,
     /// Steps produced by the last block.
@@ -43,7 +43,7 @@ impl<'i> Interpreter<'i> {
             state: State::new(rules, options.offsets.as_ref()),
             words: BlockWords::default(),
             problems: Problems::default(),
-            half_circles: HalfCircles::default(),
+            half_circles: DoubtfulArcs::default(),
             parameters: Parameters::default(),
             stated: StatedProbes::default(),
             out: Vec::new(),

@@ -17,7 +17,7 @@ const MOST_DECIMALS: u8 = 9;
 
 /// The arcs of a program that may be doubtful.
 #[derive(Debug, Default)]
-pub(super) struct HalfCircles {
+pub(super) struct DoubtfulArcs {
     /// The largest number of decimals of a length so far.
     finest: u8,
     /// The problems of arcs, by the number of decimals from which on an arc is no longer doubtful.
@@ -34,7 +34,7 @@ pub(super) struct ArcByRadius {
     pub(super) decimals: u8,
 }
 
-impl HalfCircles {
+impl DoubtfulArcs {
     pub(super) fn add_length(&mut self, decimals: u8) {
         self.finest = self.finest.max(decimals);
     }

@@ -366,7 +366,7 @@ impl Model {
         let Some(path) = paths.iter().position(|(raw, _)| Some(&*raw.name) == named.as_ref()) else {
             return vec![at(written)];
         };
-        if let Some(other) = connected_path(drawing, proxy, path) {
+        if let Some(other) = other_connected_path(drawing, proxy, path) {
             return vec![at(&paths[other].0.name.to_string())];
         }
         let raw = &paths[path].0;
@@ -396,7 +396,7 @@ impl Model {
 }
 
 /// Returns the index of the path with the ends that a proxy line connects, if the named path has other ends.
-fn connected_path(drawing: &Drawing, proxy: &ProxyLine, named: usize) -> Option<usize> {
+fn other_connected_path(drawing: &Drawing, proxy: &ProxyLine, named: usize) -> Option<usize> {
     let (start, end) = (proxy.curve.start(), proxy.curve.end());
     let joins = |path: &usize| {
         let raw = &drawing.content.paths[*path].0;

@@ -263,7 +263,7 @@ pub struct UserSettings {
     pub lang: Option<Lang>,
     /// `[cache] dir`: where results are cached, in a subdirectory for each tree.
     pub cache_dir: Option<Utf8PathBuf>,
-    /// `[trust] roots`: directories with trusted trees; all other trees are treated as with `--untrusted`.
+    /// `[trust] roots`: directories with trusted trees; all other trees are treated as with `--untrusted`. `None` trusts all trees.
     pub trusted: Option<Directories>,
 }
 

@@ -86,7 +86,7 @@ struct SharedState {
 
 #[derive(Debug, Default)]
 struct WorkList {
-    begin_work: Vec<Option<WorkInProgress>>,
+    in_progress: Vec<Option<WorkInProgress>>,
     is_over: bool,
 }
 
@@ -108,12 +108,12 @@ impl Watchdog {
 
     pub(super) fn begin<'a>(&'a self, db: &'a Database) -> WatchGuard<'a> {
         let mut state = self.0.state();
-        let free = state.begin_work.iter().position(Option::is_none);
+        let free = state.in_progress.iter().position(Option::is_none);
         let place = free.unwrap_or_else(|| {
-            state.begin_work.push(None);
-            state.begin_work.len() - 1
+            state.in_progress.push(None);
+            state.in_progress.len() - 1
         });
-        state.begin_work[place] = Some(db.begin_work());
+        state.in_progress[place] = Some(db.begin_work());
         WatchGuard { watchdog: self, db, place }
     }
 }
@@ -127,7 +127,7 @@ impl Drop for Watchdog {
 
 impl Drop for WatchGuard<'_> {
     fn drop(&mut self) {
-        self.watchdog.0.state().begin_work[self.place] = None;
+        self.watchdog.0.state().in_progress[self.place] = None;
         // Clear a cancellation that arrived at the very moment when the work ended.
         self.db.clear_cancellation();
     }
@@ -141,8 +141,8 @@ impl SharedState {
         while !state.is_over {
             let waited = self.changed.wait_timeout(state, pause).unwrap_or_else(PoisonError::into_inner);
             state = waited.0;
-            for begin_work in state.begin_work.iter().flatten() {
-                begin_work.stop_after(self.limit);
+            for work in state.in_progress.iter().flatten() {
+                work.stop_after(self.limit);
             }
         }
     }

@@ -54,7 +54,7 @@ fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row],
     context.conclude_findings(&for_rendering(listed.findings, listed.accepted))
 }
 
-/// Returns the row of a path in the form that the pages show as well.
+/// Converts the summary of a path to a row, which HTML pages show as well.
 fn row(path: PathSummary) -> Row {
     let errors = path.findings.iter().filter(|finding| finding.is_error()).count();
     let warnings = path.findings.len() - errors;
