@@ -13,7 +13,6 @@ use std::time::{Duration, Instant};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::limits::{TIME_OF_PATH, exceeded, seconds};
 use pathbuild_diagnostic::messages::files as messages;
-use pathbuild_diagnostic::reasons::CHANGES_WHILE_READ;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_dxf::Drawing;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -292,9 +291,7 @@ impl Database {
                 // The query panicked on another thread. Running it here gives the reason, if it panics again.
                 Some(Cancelled::PropagatedPanic) => continue,
                 Some(_) => too_slow(limit),
-                None if payload.is::<DriftPanic>() => {
-                    Diagnostic::new(&messages::UNREADABLE).with("reason", &CHANGES_WHILE_READ)
-                }
+                None if payload.is::<DriftPanic>() => Diagnostic::new(&messages::CHANGES_WHILE_READ),
                 None if payload.is::<TimeoutPanic>() => too_slow(limit),
                 None => internal_error(&*payload),
             };

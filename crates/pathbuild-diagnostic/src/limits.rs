@@ -22,8 +22,6 @@ words! {
     FILE_SIZE: "the file's size of {size} bytes", "die Dateigröße von {size} Bytes";
     /// Reason why a file is not read: it is larger than a limit such as `file-size`.
     TOO_MANY_BYTES: "it has {size} bytes, the limit is {limit}", "sie hat {size} Bytes, die Grenze ist {limit}";
-    /// Reason why a file is not read: a line is too long.
-    LONG_LINE: "a line is longer than {limit} bytes", "eine Zeile ist länger als {limit} Bytes";
     /// Reason why a text such as a pattern of names is refused: it is too long.
     LONG_TEXT: "it is longer than {limit} bytes", "es ist länger als {limit} Bytes";
     /// A limit that is a number of bytes.
@@ -50,11 +48,6 @@ pub fn moves_after_splitting(moves: u64) -> Sentence {
 /// Returns the reason why a file of `size` bytes is not read.
 pub fn too_many_bytes(size: u64, limit: u64) -> Sentence {
     Sentence::new(&TOO_MANY_BYTES).with("size", size).with("limit", limit)
-}
-
-/// Returns the reason why a file with a line of more than `limit` bytes is not read.
-pub fn line_too_long(limit: usize) -> Sentence {
-    Sentence::new(&LONG_LINE).with("limit", limit)
 }
 
 /// Returns the reason why a text of more than `limit` bytes is refused.

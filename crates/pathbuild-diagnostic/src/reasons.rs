@@ -69,8 +69,6 @@ words! {
     TAG_UNREADABLE: "its CACHEDIR.TAG cannot be read", "seine CACHEDIR.TAG ist nicht lesbar";
     /// No unused name for a temporary file was found.
     TOO_MANY_TEMPORARY: "there are too many temporary files beside it", "daneben liegen zu viele temporäre Dateien";
-    /// Another program is writing the drawing.
-    CHANGES_WHILE_READ: "it changes while it is being read", "sie ändert sich, während sie gelesen wird";
     /// A picture is too large for memory.
     PICTURE_TOO_LARGE: "the picture is too large", "das Bild ist zu groß";
     /// A picture format requires a feature that this build lacks.

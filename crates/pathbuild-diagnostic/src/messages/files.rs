@@ -1,12 +1,26 @@
 //! Messages about files: reading, writing, limits. (PB001 to PB006, PB113)
 
 messages! {
-    /// A file that the system refuses to open or read.
+    /// A file that cannot be opened or read, for any other reason.
     UNREADABLE: UnreadableFile {
         en: "cannot read the file: {reason}",
         de: "die Datei ist nicht lesbar: {reason}",
-        help_en: "check the name, and that the CAD has not locked the file",
-        help_de: "prüfen, ob der Name stimmt und ob das CAD die Datei gesperrt hat",
+        help_en: "check the name and the permissions, and that the CAD has not locked the file",
+        help_de: "prüfen, ob der Name und die Rechte stimmen und ob das CAD die Datei gesperrt hat",
+    }
+    /// A drawing that another program changes while it is read.
+    CHANGES_WHILE_READ: UnreadableFile {
+        en: "cannot read the file: it changes while it is being read",
+        de: "die Datei ist nicht lesbar: sie ändert sich, während sie gelesen wird",
+        help_en: "run pathbuild again when the program that writes the file has finished",
+        help_de: "pathbuild noch einmal aufrufen, wenn das Programm fertig ist, das die Datei schreibt",
+    }
+    /// A file of ignore rules with a line that is too long.
+    LINE_TOO_LONG: UnreadableFile {
+        en: "cannot read the file: a line is longer than {limit} bytes",
+        de: "die Datei ist nicht lesbar: eine Zeile ist länger als {limit} Bytes",
+        help_en: "shorten the line, or move the file away if it holds no patterns",
+        help_de: "die Zeile kürzen oder die Datei woanders ablegen, wenn sie keine Muster enthält",
     }
     /// A directory that the system refuses to list.
     UNLISTABLE: UnreadableFile {
@@ -87,8 +101,8 @@ messages! {
     TOO_MANY_MOVES: LimitReached {
         en: "this path has {count} moves, which exceeds the limit of {limit}",
         de: "dieser Pfad hat {count} Bewegungen und überschreitet damit die Grenze von {limit}",
-        help_en: "embed fewer paths in one project; or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
-        help_de: "weniger Pfade in einem Projekt einbetten; oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
+        help_en: "check infeed I and depth B (a wrong I gives thousands of passes), or embed fewer paths in one project; if that is intended, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "Zustellung I und Tiefe B prüfen (ein falsches I ergibt tausende Durchgänge) oder weniger Pfade in einem Projekt einbetten; wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A program that would take more memory than the limit permits.
     TOO_MUCH_MEMORY: LimitReached {

@@ -17,7 +17,6 @@ use pathbuild_db::system::{
 };
 use pathbuild_db::{Db, System, catch_bugs, listing_error, unlistable_error};
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::limits::line_too_long;
 use pathbuild_diagnostic::messages::{files as messages, outputs};
 use rayon::prelude::*;
 
@@ -494,8 +493,7 @@ fn patterns(
     let mut builder = GitignoreBuilder::new(directory);
     for (number, line) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
         if line.len() > MAX_LINE_BYTES {
-            let problem =
-                Diagnostic::new(&messages::UNREADABLE).with("reason", line_too_long(MAX_LINE_BYTES));
+            let problem = Diagnostic::new(&messages::LINE_TOO_LONG).with("limit", MAX_LINE_BYTES);
             return Err(Box::new(problem.in_file(&file).at_line(number, None)));
         }
         // Like Git, skip lines that are not valid patterns.
