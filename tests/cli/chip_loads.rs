@@ -20,8 +20,8 @@ fn check(start: &str, line: &str, options: &str) -> String {
 #[test]
 fn f_of_a_drawing_is_compared_with_the_limits_of_the_tool() {
     assert_eq!([check("F200", "", "check"), check("F600", "", "check")], ["", ""]);
-    assert!(check("F199", "", "check").contains("is below 0.01: feed 199 mm/min, 10000 1/min, 2 flutes"));
-    assert!(check("F601", "", "check").contains("is above 0.03: feed 601 mm/min, 10000 1/min, 2 flutes"));
+    assert!(check("F199", "", "check").contains("is below 0.01: feed 199 mm/min, 10000 1/min, flutes: 2"));
+    assert!(check("F601", "", "check").contains("is above 0.03: feed 601 mm/min, 10000 1/min, flutes: 2"));
     assert!(check("F300", " \"F700\"", "check").contains("0.035 mm per tooth is above 0.03"));
     assert!(check("", "", "emit --feed 700").contains("0.035 mm per tooth is above 0.03"));
     assert_eq!(check("", "", "emit --feed 600"), "");

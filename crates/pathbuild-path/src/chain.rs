@@ -190,6 +190,7 @@ impl Chain {
         let depth = self.first_depth.filter(|depth| above(*depth, 0.0))?;
         let first = members.first()?;
         let bottom = members.iter().map(|member| member.cut(path).bottom).fold(f64::INFINITY, f64::min);
+        let example = (path.thickness - self.infeed).max(bottom);
         let problem = if above(depth, path.thickness) {
             Diagnostic::new(&messages::FIRST_DEPTH_IN_AIR)
         } else if above(bottom, depth) {
@@ -202,7 +203,7 @@ impl Chain {
         let problem = problem
             .with("value", depth)
             .with("thickness", path.thickness)
-            .with("example", (path.thickness - self.infeed).max(bottom));
+            .with("example", if above(example, 0.0) { example } else { path.thickness / 2.0 });
         let own = path.drawn.text(first.cut(path).chain_letters);
         let fault = own.and_then(|text| text.fault_of(Letter::W));
         Some(first.origin(path).at(problem).with_text(fault))

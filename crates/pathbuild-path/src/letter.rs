@@ -232,11 +232,11 @@ impl ElementClass {
         CELLS.get(self as usize).map_or(LetterUse::Allowed, |cells| cells[letter as usize])
     }
 
-    /// Returns the letters that have an effect in the text of an element of this class, for help.
+    /// Returns the letters that have an effect in the text of an element of this class, for help. It leaves out @, which needs a text of its own.
     pub fn known_letters(self) -> impl Iterator<Item = char> {
         Letter::ALL
             .into_iter()
-            .filter(move |(_, letter)| self.use_of(*letter).counts())
+            .filter(move |(_, letter)| *letter != Letter::At && self.use_of(*letter).counts())
             .map(|(character, _)| character)
     }
 

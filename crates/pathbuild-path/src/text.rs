@@ -312,10 +312,14 @@ impl<'t> ParameterText<'t> {
         let known: pathbuild_diagnostic::Value =
             class.known_letters().map(|known| known.to_string()).collect();
         is_word.then(|| {
-            Diagnostic::new(&messages::WORD)
-                .quoting("word", word)
-                .with("known", known)
-                .with("element", class.word())
+            let problem = match self.piece(Letter::Q) {
+                _ if !class.use_of(Letter::Q).counts() => Diagnostic::new(&messages::WORD_WITHOUT_Q),
+                Some(comment) => {
+                    Diagnostic::new(&messages::WORD_AFTER_COMMENT).quoting("comment", self.value(comment))
+                }
+                None => Diagnostic::new(&messages::WORD),
+            };
+            problem.quoting("word", word).with("known", known).with("element", class.word())
         })
     }
 
@@ -365,7 +369,7 @@ impl ValueKind {
 }
 
 fn unknown_letter(letter: char, class: ElementClass) -> Diagnostic {
-    let upper = letter.to_uppercase().next().and_then(Letter::new);
+    let upper = Letter::new(letter.to_ascii_uppercase()).filter(|upper| class.use_of(*upper).counts());
     let known: pathbuild_diagnostic::Value = class.known_letters().map(|known| known.to_string()).collect();
     let message = match upper {
         Some(upper) if upper.as_char() != letter => &messages::LOWER_CASE_LETTER,
@@ -496,13 +500,11 @@ fn comma_mistake(text: ParameterText<'_>) -> Option<Diagnostic> {
 /// Recognises lower case: `o2 t2 i0.5 b0`.
 fn lower_case_mistake(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let upper = |piece: &LetterValue| {
-        let letter = text.letter(piece)?.to_ascii_uppercase();
-        piece
-            .letter
-            .is_none()
-            .then(|| Letter::new(letter))
-            .flatten()
-            .filter(|upper| class.use_of(*upper).counts())
+        let letter = Letter::new(text.letter(piece)?.to_ascii_uppercase())?;
+        let is_meant = piece.letter.is_none()
+            && class.use_of(letter).counts()
+            && ValueKind::of(letter, text.value(piece)) != ValueKind::NoNumber;
+        is_meant.then_some(letter)
     };
     if text.pieces().iter().filter(|piece| upper(piece).is_some()).count() < 2 {
         return None;
@@ -571,9 +573,10 @@ fn remark_mistake(text: ParameterText<'_>, class: ElementClass) -> Option<Diagno
     let pieces = text.pieces();
     let is_remark =
         pieces.iter().any(|piece| is_word(piece) || is_count(piece)) && !pieces.iter().any(is_parameter);
-    is_remark.then(|| {
-        Diagnostic::new(&messages::REMARK).quoting("text", text.as_str()).with_text(text.whole_text_fault())
-    })
+    let message =
+        if class.use_of(Letter::Q).counts() { &messages::REMARK } else { &messages::REMARK_WITHOUT_Q };
+    is_remark
+        .then(|| Diagnostic::new(message).quoting("text", text.as_str()).with_text(text.whole_text_fault()))
 }
 
 /// Recognises a number with a unit or a punctuation mark: `O3mm`.
@@ -595,7 +598,9 @@ const UNIT_SUFFIXES: [&str; 8] = ["", ";", ":", "mm", "mm;", "mm,", "mm/min", "/
 /// Recognises an equals sign between letter and number: `B=2`. `problem`: the error about the reference.
 pub(crate) fn equals_sign_mistake(letter: Letter, value: &str, problem: &Diagnostic) -> Option<Diagnostic> {
     let number = value.strip_prefix('=').filter(|number| parse_number(number).is_some())?;
-    if letter.is_text() || problem.message != &messages::UNKNOWN_REFERENCE {
+    let is_unknown =
+        [&messages::UNKNOWN_REFERENCE, &messages::REFERENCE_WITHOUT_VARIABLES].contains(&problem.message);
+    if letter.is_text() || !is_unknown {
         return None;
     }
     let mut problem = problem.clone();
@@ -671,7 +676,12 @@ fn mistake_in_piece(text: ParameterText<'_>, piece: &LetterValue, class: Element
                 problem.quoting("meant", look_alikes::with_keyboard_characters(text.piece_text(piece))),
             );
         }
-        digit if class == ElementClass::Subpath && digit.is_ascii_digit() && !has_name() => {
+        digit
+            if class == ElementClass::Subpath
+                && digit.is_ascii_digit()
+                && parse_number(text.piece_text(piece)).is_none()
+                && !has_name() =>
+        {
             (&messages::NAME_WITHOUT_SIGN, format!(">{digit}{value}"))
         }
         '0' if class.use_of(Letter::O).counts() && parse_number(value).is_some() => {

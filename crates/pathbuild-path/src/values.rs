@@ -215,7 +215,12 @@ fn not_a_number(letter: Letter, value: &str) -> Diagnostic {
         false => &messages::NOT_A_NUMBER,
     };
     let visible = value.replace(is_special_space, "\u{2423}");
-    let example = if POSITIVE.contains(&letter) || POSITIVE_BARS.contains(&letter) { "0.3" } else { "-0.3" };
+    // Only B is usually negative, and S is above the material.
+    let example = match letter {
+        Letter::B => "-0.3",
+        Letter::S => "5.5",
+        _ => "0.3",
+    };
     let problem = Diagnostic::new(message).with("letter", letter.as_char()).quoting("value", visible);
     problem.quoting("example", example)
 }
@@ -350,11 +355,13 @@ pub(crate) fn check_mark(
     }
     let is_own = own.has(Letter::D);
     let message = if is_own { &messages::DEEP_MARK } else { &messages::DEEP_MARKS_OF_PATH };
+    let usual = USUAL_MARK_DEPTH.min(limits.mark_depth * thickness);
     let problem = Diagnostic::new(message)
         .with("value", bottom)
         .with("depth", depth)
         .with("thickness", thickness)
-        .with("example", thickness - thickness.min(USUAL_MARK_DEPTH));
+        .with("usual", usual)
+        .with("example", thickness - usual);
     let says = if is_own { own } else { path };
     Some((says.underline(Letter::D, problem), !is_own))
 }
@@ -377,6 +384,12 @@ pub(crate) fn check_cutting_depth(
 /// A usual depth of a mark in mm, for help.
 const USUAL_MARK_DEPTH: f64 = 0.2;
 
+/// A usual thickness of support bars in mm, for help.
+const USUAL_BAR_THICKNESS: f64 = 1.0;
+
+/// A usual infeed in mm, for help.
+const USUAL_INFEED: f64 = 0.5;
+
 /// Thickness in mm below which a support bar is too weak to hold a part, in material of twice that thickness or more.
 const MIN_BAR_THICKNESS: f64 = 0.1;
 
@@ -386,7 +399,9 @@ pub(crate) fn check_bar(top: f64, own: &Values<'_>, path: &Values<'_>) -> Option
     if !above(MIN_BAR_THICKNESS.min(thickness / 2.0), top) {
         return None;
     }
-    let problem = Diagnostic::new(&messages::THIN_BARS).with("value", top);
+    let problem = Diagnostic::new(&messages::THIN_BARS)
+        .with("value", top)
+        .with("example", USUAL_BAR_THICKNESS.min(thickness / 2.0));
     let is_own = own.has(Letter::D);
     let says = if is_own { own } else { path };
     Some((says.underline(Letter::D, problem), !is_own))
@@ -421,8 +436,14 @@ pub(crate) fn check_doubts(
         .zip(thickness)
         .filter(|(infeed, thickness)| above(*infeed, limits.infeed * thickness));
     let infeed = infeed.map(|(infeed, thickness)| {
-        let problem = Diagnostic::new(&messages::INFEED_ABOVE_THICKNESS).with("value", infeed);
-        own.underline(Letter::I, problem.with("thickness", thickness))
+        let limit = limits.infeed * thickness;
+        let message = if above(infeed, thickness) {
+            &messages::INFEED_ABOVE_THICKNESS
+        } else {
+            &messages::INFEED_ABOVE_SHARE
+        };
+        let problem = Diagnostic::new(message).with("value", infeed).with("thickness", thickness);
+        own.underline(Letter::I, problem.with("limit", limit).with("example", USUAL_INFEED.min(limit)))
     });
     let feed = value(Letter::F).zip(limits.maximum_feed).filter(|(feed, maximum)| above(*feed, *maximum));
     let feed = feed.map(|(feed, maximum)| {
@@ -435,7 +456,9 @@ pub(crate) fn check_doubts(
     let chips = chip_load.zip(milling_feed).and_then(|(limits, feed)| limits.check(feed, None));
     let chips = chips.map(|problem| own.underline(Letter::F, problem));
     let lowered = value(Letter::H).filter(|height| above(0.0, *height)).map(|height| {
-        let problem = Diagnostic::new(&messages::LOWERED).with("value", height).with("depth", -height);
+        let message =
+            if class == ElementClass::Probe { &messages::LOWERED_PROBE } else { &messages::LOWERED };
+        let problem = Diagnostic::new(message).with("value", height).with("depth", -height);
         own.underline(Letter::H, problem)
     });
     let pecks = value(Letter::C).filter(|_| !limits.has_cycles).map(|_| {
@@ -454,7 +477,7 @@ const MIN_FEED_WITH_DECIMALS: f64 = 10.0;
 fn thousands_doubt(own: &Values<'_>, feed: f64) -> Option<Diagnostic> {
     let written = own.text(Letter::F)?;
     let (thousands, rest) = written.split_once(['.', ','])?;
-    if rest.len() != 3 || feed >= MIN_FEED_WITH_DECIMALS {
+    if rest.len() != 3 || !(MIN_FEED..MIN_FEED_WITH_DECIMALS).contains(&feed) {
         return None;
     }
     let meant = [thousands, rest].concat();

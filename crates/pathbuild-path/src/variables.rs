@@ -126,10 +126,14 @@ impl Interpolation<'_> {
 
     fn undefined_variable(&self, name: Option<char>) -> Box<Diagnostic> {
         let known: Value = self.bindings.iter().map(|(name, _)| name.to_string()).collect();
-        let problem = Diagnostic::new(&messages::UNKNOWN_REFERENCE)
-            .quoting("variable", name.map(String::from).unwrap_or_default())
-            .with("known", known);
-        Box::new(problem)
+        let message = if self.bindings.is_empty() {
+            &messages::REFERENCE_WITHOUT_VARIABLES
+        } else {
+            &messages::UNKNOWN_REFERENCE
+        };
+        let problem =
+            Diagnostic::new(message).quoting("variable", name.map(String::from).unwrap_or_default());
+        Box::new(problem.with("known", known))
     }
 
     fn too_long(&self) -> Box<Diagnostic> {
@@ -229,9 +233,8 @@ fn parse_allowed_values(written: &str) -> Result<AllowedValues, Box<Diagnostic>>
         return Ok(AllowedValues::List(values));
     }
     match written.strip_prefix('?') {
-        Some("") => Err(invalid_definition(&messages::EMPTY_ELEMENT, written)),
+        Some("") | None => Err(invalid_definition(&messages::INVALID_DEFINITION, written)),
         Some(characters) => Ok(AllowedValues::Characters(characters.chars().collect())),
-        None => Err(invalid_definition(&messages::INVALID_DEFINITION, written)),
     }
 }
 

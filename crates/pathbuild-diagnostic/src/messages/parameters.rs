@@ -46,7 +46,7 @@ messages! {
         en: "{element} does not accept \"{letter}\"",
         de: "{element} kennt \"{letter}\" nicht",
         help_en: "write letters in upper case: \"{upper}\"; {element} accepts {known}",
-        help_de: "Buchstaben groß schreiben: \"{upper}\"; bekannt sind {known}",
+        help_de: "Buchstaben groß schreiben: \"{upper}\"; {element} kennt {known}",
     }
     /// A text in lower case that is valid in upper case.
     LOWER_CASE_TEXT: UnknownParameter {
@@ -62,19 +62,40 @@ messages! {
         help_en: "separate them with spaces: write \"{text}\"",
         help_de: "mit Leerzeichen trennen: \"{text}\"",
     }
-    /// A text that looks like a remark and contains no parameters.
+    /// A text that looks like a remark and contains no parameters, on an element that accepts Q.
     REMARK: UnknownParameter {
         en: "\"{text}\" looks like a remark and contains no parameters",
         de: "\"{text}\" sieht nach einer Bemerkung aus und enthält keine Parameter",
         help_en: "move a remark to a layer without a path; Q puts a comment into the program",
         help_de: "eine Bemerkung auf einen Layer legen, der kein Pfadlayer ist; mit Q kommt ein Kommentar ins Programm",
     }
-    /// A word that is not a parameter, among parameters.
+    /// A text that looks like a remark and contains no parameters, on an element that does not accept Q.
+    REMARK_WITHOUT_Q: UnknownParameter {
+        en: "\"{text}\" looks like a remark and contains no parameters",
+        de: "\"{text}\" sieht nach einer Bemerkung aus und enthält keine Parameter",
+        help_en: "move a remark to a layer without a path",
+        help_de: "eine Bemerkung auf einen Layer legen, der kein Pfadlayer ist",
+    }
+    /// A word that is not a parameter, among parameters other than Q, on an element that accepts Q.
     WORD: UnknownParameter {
         en: "\"{word}\" is not a parameter: {element} accepts {known}",
         de: "\"{word}\" ist kein Parameter: {element} kennt {known}",
         help_en: "remove it, or put it on a layer without a path; Q puts a comment into the program, for example Q{word}",
         help_de: "entfernen oder auf einen Layer legen, der kein Pfadlayer ist; mit Q kommt ein Kommentar ins Programm, zum Beispiel Q{word}",
+    }
+    /// A word that is not a parameter, after the comment Q.
+    WORD_AFTER_COMMENT: UnknownParameter {
+        en: "\"{word}\" is not a parameter: {element} accepts {known}",
+        de: "\"{word}\" ist kein Parameter: {element} kennt {known}",
+        help_en: "remove it, or join it to the comment without a space, for example Q{comment}_{word}: a comment ends at the first space",
+        help_de: "entfernen oder ohne Leerzeichen an den Kommentar anhängen, zum Beispiel Q{comment}_{word}: ein Kommentar endet am ersten Leerzeichen",
+    }
+    /// A word that is not a parameter, among parameters of an element that does not accept Q.
+    WORD_WITHOUT_Q: UnknownParameter {
+        en: "\"{word}\" is not a parameter: {element} accepts {known}",
+        de: "\"{word}\" ist kein Parameter: {element} kennt {known}",
+        help_en: "remove it, or put it on a layer without a path",
+        help_de: "entfernen oder auf einen Layer legen, der kein Pfadlayer ist",
     }
     /// A letter of another alphabet that looks like a valid one.
     LOOK_ALIKE_LETTER: UnknownParameter {
@@ -223,12 +244,19 @@ messages! {
         help_en: "write the depth as B in the embedded path; H is the height of the shims under the material, and raises the path",
         help_de: "die Tiefe als B im eingebetteten Pfad schreiben; H ist die Höhe der Unterlagen unter dem Material und hebt den Pfad an",
     }
+    /// A Z-probe that is lowered instead of raised.
+    LOWERED_PROBE: DoubtfulValue {
+        en: "H is {value}: the probe expects the surface {depth} mm below T",
+        de: "H ist {value}: die Probe erwartet die Oberfläche {depth} mm unter T",
+        help_en: "write the height of the surface as T, without H; H is the height of the shims under the material",
+        help_de: "die Höhe der Oberfläche als T schreiben, ohne H; H ist die Höhe der Unterlagen unter dem Material",
+    }
     /// Sweepless milling that begins above the surface.
     FIRST_DEPTH_IN_AIR: DoubtfulValue {
         en: "W is {value}, above the surface T of {thickness}: the first pass cuts air",
         de: "W ist {value} und liegt über der Oberfläche T von {thickness}: der erste Durchgang fräst in der Luft",
-        help_en: "write W{example} for a first pass of one infeed: W is the height of the first pass above the plate",
-        help_de: "W{example} schreiben, wenn der erste Durchgang eine Zustellung tief sein soll: W ist seine Höhe über der Platte",
+        help_en: "write W{example} to begin within the material: W is the height of the first pass above the plate",
+        help_de: "W{example} schreiben, um im Material zu beginnen: W ist die Höhe des ersten Durchgangs über der Platte",
     }
     /// Sweepless milling that begins below the bottom.
     FIRST_DEPTH_BELOW_BOTTOM: DoubtfulValue {
@@ -239,10 +267,10 @@ messages! {
     }
     /// Support bars that end at the plate or below.
     THIN_BARS: DoubtfulValue {
-        en: "D is {value}: the support bars end at this height above the plate, too low to hold anything",
-        de: "D ist {value}: die Stützstege enden in dieser Höhe über der Platte und halten nichts",
-        help_en: "write the thickness of the bars, for example D1: D is their upper edge, measured from the plate upwards",
-        help_de: "die Dicke der Stege schreiben, zum Beispiel D1: D ist ihre Oberkante, von der Platte nach oben gemessen",
+        en: "D is {value}: the support bars end at this height, measured from the plate, too low to hold anything",
+        de: "D ist {value}: die Stützstege enden in dieser Höhe, gemessen ab der Platte, zu niedrig, um etwas zu halten",
+        help_en: "write the thickness of the bars, for example D{example}: D is their upper edge, measured from the plate upwards",
+        help_de: "die Dicke der Stege schreiben, zum Beispiel D{example}: D ist ihre Oberkante, von der Platte nach oben gemessen",
     }
     /// Parameters of support bars without any support segment.
     LOST_BARS: LostBars {
@@ -253,10 +281,17 @@ messages! {
     }
     /// An infeed greater than the thickness.
     INFEED_ABOVE_THICKNESS: DoubtfulValue {
-        en: "I is {value}, more than the thickness T of {thickness}: everything is milled in one pass",
-        de: "I ist {value}, mehr als die Dicke T von {thickness}: alles wird in einem Durchgang gefräst",
-        help_en: "write the infeed of one pass, for example I0.5",
-        help_de: "die Zustellung eines Durchgangs schreiben, zum Beispiel I0.5",
+        en: "I is {value}, more than the thickness T of {thickness}: one pass cuts through all of the material",
+        de: "I ist {value}, mehr als die Dicke T von {thickness}: ein Durchgang geht durch das ganze Material",
+        help_en: "write the infeed of one pass, for example I{example}; `infeed` under [warnings] allows more",
+        help_de: "die Zustellung eines Durchgangs schreiben, zum Beispiel I{example}; `infeed` unter [warnings] erlaubt mehr",
+    }
+    /// An infeed that exceeds the configured share of the thickness, but not the thickness itself.
+    INFEED_ABOVE_SHARE: DoubtfulValue {
+        en: "I is {value}, more than {limit} for a thickness T of {thickness}",
+        de: "I ist {value}, mehr als {limit} bei einer Dicke T von {thickness}",
+        help_en: "write a smaller infeed, for example I{example}; `infeed` under [warnings] allows more",
+        help_de: "eine kleinere Zustellung schreiben, zum Beispiel I{example}; `infeed` unter [warnings] erlaubt mehr",
     }
     /// A feed whose decimal separator was probably meant to separate thousands.
     FEED_WITH_THOUSANDS: DoubtfulValue {
@@ -276,15 +311,15 @@ messages! {
     DEEP_MARK: DoubtfulValue {
         en: "D is {value}: the mark is {depth} mm deep in material of {thickness} mm",
         de: "D ist {value}: die Markierung ist {depth} mm tief in Material von {thickness} mm",
-        help_en: "write D{example} for a mark 0.2 mm deep: D is the height of the mark's bottom above the plate, not its depth; `mark-depth` under [warnings] allows deeper marks",
-        help_de: "für eine Markierung von 0,2 mm Tiefe D{example} schreiben: D ist die Höhe ihres Grundes über der Platte, nicht die Tiefe; `mark-depth` unter [warnings] erlaubt tiefere Markierungen",
+        help_en: "write D{example} for a mark {usual} mm deep: D is the height of the mark's bottom above the plate, not its depth; `mark-depth` under [warnings] allows deeper marks",
+        help_de: "für eine Markierung von {usual} mm Tiefe D{example} schreiben: D ist die Höhe ihres Grundes über der Platte, nicht die Tiefe; `mark-depth` unter [warnings] erlaubt tiefere Markierungen",
     }
     /// Marks with the path's D that cut through most of the material.
     DEEP_MARKS_OF_PATH: DoubtfulValue {
         en: "marks without D of their own use {value}: they are {depth} mm deep in material of {thickness} mm",
         de: "Markierungen ohne eigenes D verwenden {value}: sie sind {depth} mm tief in Material von {thickness} mm",
-        help_en: "if this D is meant for support bars, give each mark a D of its own, such as D{example} for a depth of 0.2 mm; `mark-depth` under [warnings] allows deeper marks",
-        help_de: "ist dieses D für die Stützstege gedacht, jeder Markierung ein eigenes geben, etwa D{example} für 0,2 mm Tiefe; `mark-depth` unter [warnings] erlaubt tiefere Markierungen",
+        help_en: "if this D is meant for support bars, give each mark a D of its own, such as D{example} for a depth of {usual} mm; `mark-depth` under [warnings] allows deeper marks",
+        help_de: "ist dieses D für die Stützstege gedacht, jeder Markierung ein eigenes geben, etwa D{example} für {usual} mm Tiefe; `mark-depth` unter [warnings] erlaubt tiefere Markierungen",
     }
     /// A feed that exceeds the limit of the machine.
     FEED_ABOVE_MACHINE: DoubtfulValue {
@@ -302,15 +337,15 @@ messages! {
     }
     /// A chip load below the limits of the tool.
     CHIP_LOAD_SMALL: DoubtfulChipLoad {
-        en: "the chip load of {load} mm per tooth is below {least}: feed {feed} mm/min, {speed} 1/min, {flutes} flutes",
-        de: "der Zahnvorschub von {load} mm liegt unter {least}: Vorschub {feed} mm/min, {speed} 1/min, {flutes} Schneiden",
+        en: "the chip load of {load} mm per tooth is below {least}: feed {feed} mm/min, {speed} 1/min, flutes: {flutes}",
+        de: "der Zahnvorschub von {load} mm liegt unter {least}: Vorschub {feed} mm/min, {speed} 1/min, Schneiden: {flutes}",
         help_en: "raise F, lower the speed, or change `chip-load` of the tool ({least} to {most}); otherwise the tool rubs instead of cutting",
         help_de: "F erhöhen, die Drehzahl senken oder `chip-load` des Werkzeugs ändern ({least} bis {most}); sonst reibt das Werkzeug, statt zu schneiden",
     }
     /// A chip load above the limits of the tool.
     CHIP_LOAD_LARGE: DoubtfulChipLoad {
-        en: "the chip load of {load} mm per tooth is above {most}: feed {feed} mm/min, {speed} 1/min, {flutes} flutes",
-        de: "der Zahnvorschub von {load} mm liegt über {most}: Vorschub {feed} mm/min, {speed} 1/min, {flutes} Schneiden",
+        en: "the chip load of {load} mm per tooth is above {most}: feed {feed} mm/min, {speed} 1/min, flutes: {flutes}",
+        de: "der Zahnvorschub von {load} mm liegt über {most}: Vorschub {feed} mm/min, {speed} 1/min, Schneiden: {flutes}",
         help_en: "lower F, raise the speed, or change `chip-load` of the tool ({least} to {most}); otherwise the tool may break",
         help_de: "F senken, die Drehzahl erhöhen oder `chip-load` des Werkzeugs ändern ({least} bis {most}); sonst kann das Werkzeug brechen",
     }
@@ -435,17 +470,24 @@ messages! {
     }
     /// @ with an unknown path.
     AT_UNKNOWN: InvalidAtReference {
-        en: "there is no path {name} with a start in this drawing",
-        de: "es gibt in dieser Zeichnung keinen Pfad {name} mit einem Anfang",
-        help_en: "name another path of the same drawing, which has {known}",
-        help_de: "einen anderen Pfad derselben Zeichnung nennen; sie hat {known}",
+        en: "there is no path {name} with a text on its start marker in this drawing",
+        de: "es gibt in dieser Zeichnung keinen Pfad {name} mit einem Text an der Anfangsmarke",
+        help_en: "name a path that has parameters of its own ({known}), or write the parameters here",
+        help_de: "einen Pfad mit eigenen Parametern nennen ({known}) oder die Parameter hier angeben",
+    }
+    /// @ with an unknown path, in a drawing where no other path has parameters of its own.
+    AT_WITHOUT_LENDER: InvalidAtReference {
+        en: "there is no path {name} with a text on its start marker in this drawing",
+        de: "es gibt in dieser Zeichnung keinen Pfad {name} mit einem Text an der Anfangsmarke",
+        help_en: "write the parameters here; @ can only name a path of the same drawing",
+        help_de: "die Parameter hier angeben; @ kann nur einen Pfad derselben Zeichnung nennen",
     }
     /// @ with a path that uses @ itself.
     AT_CHAINED: InvalidAtReference {
         en: "path {name} itself uses @",
         de: "Pfad {name} verwendet selbst @",
-        help_en: "name the path that has the parameters",
-        help_de: "den Pfad nennen, der die Parameter hat",
+        help_en: "name a path that has parameters of its own, or write the parameters here",
+        help_de: "einen Pfad mit eigenen Parametern nennen oder die Parameter hier angeben",
     }
     /// An invalid regular expression in E.
     INVALID_REGEX: InvalidRegex {
@@ -545,6 +587,13 @@ messages! {
         help_en: "add it here, for example :{variable}{example}; the path defines it as {definition}",
         help_de: "den Wert hier angeben, zum Beispiel :{variable}{example}; der Pfad legt sie als {definition} fest",
     }
+    /// A subpath that sets a variable of a path without variables.
+    VALUE_WITHOUT_VARIABLES: UnknownVariable {
+        en: "path {name} has no variable \"{variable}\"",
+        de: "Pfad {name} hat keine Variable \"{variable}\"",
+        help_en: "remove it: the path defines no variables",
+        help_de: "entfernen: der Pfad legt keine Variablen fest",
+    }
     /// A subpath that sets an unknown variable.
     VALUE_WITHOUT_DEFINITION: UnknownVariable {
         en: "path {name} has no variable \"{variable}\"",
@@ -558,6 +607,13 @@ messages! {
         de: "es gibt in diesem Pfad keine Variable \"{variable}\"",
         help_en: "the path's start marker defines {known}; a reference is = and one character",
         help_de: "die Anfangsmarke des Pfads legt {known} fest; ein Verweis ist = und ein Zeichen",
+    }
+    /// A reference in a path without variables.
+    REFERENCE_WITHOUT_VARIABLES: UnknownVariable {
+        en: "there is no variable \"{variable}\" in this path",
+        de: "es gibt in diesem Pfad keine Variable \"{variable}\"",
+        help_en: "write the value itself, or define the variable at the path's start marker, for example :A-0.5~1.2 for =A",
+        help_de: "den Wert selbst hinschreiben oder die Variable an der Anfangsmarke des Pfads festlegen, zum Beispiel :A-0.5~1.2 für =A",
     }
     /// An equals sign after a letter: B=2 instead of B2.
     EQUALS_SIGN: UnknownVariable {

@@ -198,10 +198,13 @@ fn referenced<'s>(
     }
     let name = PathName::new(text.value(piece));
     let Some((name, start)) = starts.get_key_value(&name) else {
-        let known: Value = starts.keys().map(PathName::as_str).collect();
-        let problem =
-            Diagnostic::new(&parameters::AT_UNKNOWN).quoting("name", name.as_str()).with("known", known);
-        return Err(Box::new(problem));
+        let lenders = starts.iter().filter(|(_, start)| !start.borrows);
+        let known: Vec<&str> = lenders.map(|(name, _)| name.as_str()).collect();
+        let problem = match known.as_slice() {
+            [] => Diagnostic::new(&parameters::AT_WITHOUT_LENDER),
+            known => Diagnostic::new(&parameters::AT_UNKNOWN).with("known", known.iter().collect::<Value>()),
+        };
+        return Err(Box::new(problem.quoting("name", name.as_str())));
     };
     if start.borrows {
         return Err(Box::new(Diagnostic::new(&parameters::AT_CHAINED).quoting("name", name.as_str())));

@@ -1,5 +1,6 @@
 //! Tests permitted values that are suspicious to a machinist: PB116 and PB211.
 
+use pathbuild_diagnostic::Lang;
 use pathbuild_path::{Bindings, DoubtThresholds, Language};
 
 use crate::support::{codes, compile, compile_raw, language, path, read_as};
@@ -39,6 +40,43 @@ fn the_bottom_is_not_far_below_the_plate() {
     assert_eq!(findings(&path("T5 O2 I1 B-3", "mill 0,0 40,0\nend 40,0"), higher), [""; 0]);
 }
 
+/// Returns the messages about a path, with their help.
+fn messages(drawing: &str, doubts: DoubtThresholds) -> String {
+    let language = Language { doubts, ..language() };
+    let (raw, _) = read_as(drawing, &language).paths.into_iter().next().expect("there is a path");
+    let found = compile_raw(&raw, &Bindings::check_values(&raw.definitions), &language).found;
+    let message = |found: &pathbuild_diagnostic::Diagnostic| {
+        format!("{}; {}", found.text(Lang::En), found.help(Lang::En).unwrap_or_default())
+    };
+    found.iter().map(message).collect()
+}
+
+/// Values that are recommended are accepted.
+#[test]
+fn recommended_values_are_in_range() {
+    let milled = "mill 0,0 40,0\nend 40,0";
+    let half = DoubtThresholds { infeed: 0.5, ..MACHINE };
+    assert!(
+        messages(&path("T5 O2 I3 B0", milled), half).contains("I is 3, more than 2.5 for a thickness T of 5")
+    );
+    assert!(messages(&path("T5 O2 I6 B0", milled), half).contains("one pass cuts through all"));
+    assert!(messages(&path("T0.4 O2 I1 B0", milled), MACHINE).contains("for example I0.4"));
+    let bars = |thickness: &str| {
+        let start = format!("T{thickness} O2 I0.5 B0 D0.01 P1 U5");
+        messages(&path(&start, "bars 0,0 40,0\nend 40,0"), MACHINE)
+    };
+    assert!(bars("5").contains("for example D1:") && bars("0.8").contains("for example D0.4:"));
+    let mark = |thickness: &str| {
+        let start = format!("T{thickness} O2 I0.1 D0");
+        messages(&path(&start, "mark 0,0 40,0\nend 40,0"), MACHINE)
+    };
+    assert!(mark("5").contains("such as D4.8 for a depth of 0.2 mm"), "{}", mark("5"));
+    assert!(mark("0.3").contains("such as D0.15 for a depth of 0.15 mm"), "{}", mark("0.3"));
+    let first = |start: &str| messages(&path(start, milled), MACHINE);
+    assert!(first("T5 O2 I1 B0 W6").contains("write W4 "));
+    assert!(first("T5 O2 I5 B0 W6").contains("write W2.5 "), "W must be above 0");
+}
+
 /// Shims raise the material: a negative H would mill into the plate.
 #[test]
 fn an_embedded_path_is_not_lowered() {
@@ -46,6 +84,8 @@ fn an_embedded_path_is_not_lowered() {
         |text: &str| findings(&path("T5 O2 I1", &format!("subpath 0,0 40,0 \"{text}\"\nend 40,0")), MACHINE);
     assert_eq!(embedding(">2050.1P T5 O2 H0"), [""; 0]);
     assert_eq!(embedding(">2050.1P T5 O2 H-0.1"), ["PB211 H-0.1"]);
+    let probe = messages(&path("T5 O2 I1 B0", "mill 0,0 40,0\nprobe 20,20 \"H-2\"\nend 40,0"), MACHINE);
+    assert!(probe.contains("the probe expects the surface 2 mm below T"), "{probe}");
 }
 
 #[test]
@@ -207,6 +247,7 @@ fn a_feed_has_no_separator_of_thousands() {
     for usual in ["F10.000", "F1.20", "F1.2000", "F1200"] {
         assert_eq!(line("T5 O2 I1 B0", usual), [""; 0], "{usual}");
     }
+    assert_eq!(line("T5 O2 I1 B0", "F0.000"), ["PB203 F0.000"]);
 }
 
 #[test]
@@ -260,7 +301,7 @@ fn a_depth_that_was_meant_from_the_surface_is_named() {
         let drawing = path("T4 O2 I1 B0", &format!("mill 0,0 40,0 \"{bottom}\"\nend 40,0"));
         let (raw, _) = read_as(&drawing, &language).paths.into_iter().next().expect("there is a path");
         let compiled = compile_raw(&raw, &Bindings::default(), &language);
-        let help = |found: &pathbuild_diagnostic::Diagnostic| found.help(pathbuild_diagnostic::Lang::En);
+        let help = |found: &pathbuild_diagnostic::Diagnostic| found.help(Lang::En);
         compiled.found.iter().filter_map(help).collect::<String>()
     };
     assert!(

@@ -64,6 +64,11 @@ fn a_path_is_embedded_with_its_sign() {
         "write \">2050.1P\"",
     );
     assert_one(&of_text("> 2050.1P", ElementClass::Subpath), "PB202 ", "write \">2050.1P\"");
+    assert_one(
+        &of_text("5", ElementClass::Subpath),
+        "PB202 a subpath does not accept \"5\"",
+        "without a space",
+    );
     // The sign `>` is already followed by its name.
     assert_one(
         &of_text(">2050.1P 5", ElementClass::Subpath),
@@ -95,6 +100,83 @@ fn a_remark_is_no_parameter() {
         of_text("Bx", ElementClass::Mill),
         [""; 0],
         "too short for a word: PB205, once there are values"
+    );
+}
+
+/// Q is recommended only where it is accepted, and only once.
+#[test]
+fn a_comment_is_recommended_where_it_is_accepted() {
+    for class in [ElementClass::Sweep, ElementClass::PathStart, ElementClass::Subpath, ElementClass::Probe] {
+        assert_one(&of_text("hinten links", class), "PB202 ", "a remark to a layer without a path");
+    }
+    let word = |text: &str, class| of_text(text, class).concat();
+    assert!(word("B1 rechts", ElementClass::Mill).ends_with("for example Qrechts"));
+    assert!(
+        word("B1 Qrechts aussen", ElementClass::Mill)
+            .ends_with("for example Qrechts_aussen: a comment ends at the first space")
+    );
+    assert!(!word("T5 O2 tief", ElementClass::PathStart).contains('@'), "@ needs a text of its own");
+    assert!(word("S7 hoch", ElementClass::Sweep).ends_with("or put it on a layer without a path"));
+}
+
+/// Upper case is recommended only where it makes the text valid.
+#[test]
+fn upper_case_is_recommended_where_it_helps() {
+    assert_one(&of_text("s7", ElementClass::Sweep), "PB202 ", "\"S\"; a sweep accepts N, S");
+    assert_one(&of_text("b2", ElementClass::Sweep), "PB202 ", "values follow their letter without a space");
+    assert_one(&of_text("bohrung fertig", ElementClass::Mill), "PB202 \"bohrung fertig\" looks", "program");
+    assert_one(
+        &of_text("b2 f100", ElementClass::Mill),
+        "PB202 ",
+        "write \"B2 F100\", with upper-case letters",
+    );
+}
+
+#[test]
+fn at_names_a_path_with_parameters_of_its_own() {
+    let found = |others: &str| {
+        let drawing = format!("{}\n{others}", path("@1234.9P", "mill 0,0 40,0\nend 40,0"));
+        messages_with_help(&compile(&drawing).found)
+    };
+    let of =
+        |name: &str, text: &str| format!("layer {name}\nstart 0,50 \"{text}\"\nmill 0,50 40,50\nend 40,50\n");
+    assert_one(
+        &found(&(of("1234.2P", P) + &of("1234.3P", "@1234.2P"))),
+        "PB208 there is no path 1234.9P",
+        "name a path that has parameters of its own (1234.2P), or write the parameters here",
+    );
+    assert_one(
+        &found(&of("1234.3P", "@1234.2P")),
+        "PB208 there is no path 1234.9P",
+        "write the parameters here; @ can only name a path of the same drawing",
+    );
+}
+
+#[test]
+fn a_variable_that_no_path_defines_is_not_recommended() {
+    let found =
+        |start: &str| messages_with_help(&compile(&path(start, "mill 0,0 20,0 \"B=X\"\nend 20,0")).found);
+    assert_one(&found("T5 O3 I1"), "PB303 ", "for example :A-0.5~1.2 for =A");
+    assert!(found("T5 O3 I1 :A0~1").concat().contains("start marker defines A; a reference is ="));
+    let number = messages_with_help(&compile(&path("T5 O3 I1", "mill 0,0 20,0 \"B=2\"\nend 20,0")).found);
+    assert!(number.concat().contains("write \"B2\" for the number"), "{number:?}");
+    let definition =
+        messages_with_help(&compile(&path(&format!("{P} :A?"), "mill 0,0 20,0\nend 20,0")).found);
+    assert_one(&definition, "PB301 \"?\" does not define", "or single characters (:C?PQRS)");
+}
+
+#[test]
+fn a_single_bar_needs_a_smaller_length() {
+    let bars = |u: &str| {
+        let start = format!("T5 O3 I1 B0 D2 P8 U{u}");
+        messages_with_help(&compile(&path(&start, "bars 0,0 20,0\nsweep 20,0 40,0\nend 40,0")).found)
+    };
+    assert_one(&bars("1"), "PB406 there are only 2 mm between support bars", "or shorten P");
+    let single = compile(&path("T5 O3 I1 B0 D2 P18 U1", "bars 0,0 20,0\nsweep 20,0 40,0\nend 40,0")).found;
+    assert_one(
+        &messages_with_help(&single),
+        "PB406 beside the support bar there are only 2 mm",
+        "without bars",
     );
 }
 
@@ -130,6 +212,11 @@ fn a_value_above_0_has_an_example() {
     };
     assert_one(&example("W1x"), "PB205 W needs a number", "for example W0.3");
     assert_one(&example("B1x"), "PB205 B needs a number", "for example B-0.3");
+    assert_one(
+        &messages_with_help(&compile(&path("T5 O3 I1 B0 S1x", "mill 0,0 20,0\nend 20,0")).found),
+        "PB205 S needs a number",
+        "for example S5.5",
+    );
 }
 
 #[test]
