@@ -490,7 +490,12 @@ impl<'a> SubpathChecker<'a> {
         let problem = match definition {
             None => {
                 let known = inner.definitions.iter().map(|known| known.name.to_string()).collect::<Value>();
-                Diagnostic::new(&parameters::VALUE_WITHOUT_DEFINITION).with("known", known)
+                let message = if inner.definitions.is_empty() {
+                    &parameters::VALUE_WITHOUT_VARIABLES
+                } else {
+                    &parameters::VALUE_WITHOUT_DEFINITION
+                };
+                Diagnostic::new(message).with("known", known)
             }
             Some(definition) if !definition.allows(&given.value) => {
                 Diagnostic::new(&parameters::VALUE_NOT_ALLOWED)
@@ -593,9 +598,13 @@ impl<'a> SubpathChecker<'a> {
         there: &Value,
         inner: &PathSignature,
     ) -> Diagnostic {
+        // If the path around the segment suits the embedded path, only the segment's own text is wrong.
+        let is_own = call.fault(letter).is_some();
         let message = match letter {
-            Letter::O => &messages::CUTTER_DIFFERS,
-            Letter::T => &messages::THICKNESS_DIFFERS,
+            Letter::O if !is_own || !near(self.outer.tool, inner.tool) => &messages::CUTTER_DIFFERS,
+            Letter::T if !is_own || !at_least(self.outer.thickness, inner.thickness) => {
+                &messages::THICKNESS_DIFFERS
+            }
             _ => &messages::PARAMETER_DIFFERS,
         };
         let problem = Diagnostic::new(message)

@@ -53,7 +53,7 @@ messages! {
     }
     /// Note: an open end on another layer.
     END_ON_OTHER_LAYER: NothingContinues {
-        en: "on layer {layer} {element} ends at {point}, {distance} mm away: is it on the wrong layer?",
+        en: "on layer {layer}, {element} ends at {point}, {distance} mm away: is it on the wrong layer?",
         de: "auf Layer {layer} endet {element} bei {point}, {distance} mm entfernt: liegt es auf dem falschen Layer?",
     }
     /// Note: a remaining segment that is drawn on top of a traversed one.
@@ -136,19 +136,26 @@ messages! {
         help_en: "raise U, the minimum distance between bars, or shorten P",
         help_de: "U, den Mindestabstand der Stege, erhöhen oder P verkleinern",
     }
+    /// A single support bar that leaves no room for the cutter on its segment.
+    NO_ROOM_BESIDE_BAR: NoRoomBetweenBars {
+        en: "beside the support bar there are only {gap} mm, too little for the cutter, O{tool}",
+        de: "neben dem Stützsteg sind nur {gap} mm, zu wenig für den Fräser, O{tool}",
+        help_en: "shorten P, the length of a bar; line type CONTINUOUS mills through without bars",
+        help_de: "P, die Länge eines Stegs, verkleinern; Linientyp CONTINUOUS fräst ohne Stege durch",
+    }
     /// Support bars that leave no gap, because the segment is too short.
     NO_GAP_BETWEEN_BARS: NoGapBetweenBars {
         en: "everything is left standing up to D {top}: a length of {length} mm is shorter than P + U, which is {pitch} mm",
         de: "alles bleibt bis D {top} stehen: eine Länge von {length} mm ist kürzer als P + U ({pitch} mm)",
-        help_en: "for a gap, lower U, the minimum distance between bars; use line type DIVIDE to mill only to D, and CONTINUOUS to mill through",
-        help_de: "für eine Lücke U, den Mindestabstand der Stege, verkleinern; Linientyp DIVIDE fräst nur bis D, CONTINUOUS ganz durch",
+        help_en: "for a gap, lower P, the length of a bar, or U, the minimum distance between bars; use line type DIVIDE to mill only to D, and CONTINUOUS to mill through",
+        help_de: "für eine Lücke P, die Länge eines Stegs, oder U, den Mindestabstand der Stege, verkleinern; Linientyp DIVIDE fräst nur bis D, CONTINUOUS ganz durch",
     }
     /// Connected segments with support bars that leave no gap, because each of them is too short.
     NO_GAP_IN_RUN: NoGapBetweenBars {
         en: "everything is left standing up to D {top} over a length of {length} mm: each of these {count} connected segments is shorter than P + U, which is {pitch} mm",
         de: "auf einer Länge von {length} mm bleibt alles bis D {top} stehen: jedes dieser {count} verbundenen Segmente ist kürzer als P + U ({pitch} mm)",
-        help_en: "draw longer lines or arcs, such as a few arcs instead of an ellipse, or lower U; line type CONTINUOUS mills through without bars",
-        help_de: "längere Linien oder Bögen zeichnen, etwa wenige Bögen statt einer Ellipse, oder U verkleinern; Linientyp CONTINUOUS fräst ohne Stege durch",
+        help_en: "draw longer lines or arcs, such as a few arcs instead of an ellipse, or lower P or U; line type CONTINUOUS mills through without bars",
+        help_de: "längere Linien oder Bögen zeichnen, etwa wenige Bögen statt einer Ellipse, oder P oder U verkleinern; Linientyp CONTINUOUS fräst ohne Stege durch",
     }
     /// A program that moves into a clamp, reported at the drawn element.
     MOVES_INTO_CLAMP: InsideKeepOut {
@@ -256,7 +263,7 @@ messages! {
         help_en: "draw the segment from where the path starts to where it ends: copy the component's proxy line",
         help_de: "das Segment vom Anfang des Pfads bis zu seinem Ende zeichnen: die Stellvertreterlinie des Bauteils kopieren",
     }
-    /// A subpath segment that states another cutter (O) than the embedded path has.
+    /// A subpath segment with another cutter (O) than the embedded path has, which cannot be corrected on the segment alone.
     CUTTER_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
@@ -284,14 +291,14 @@ messages! {
         help_en: "draw the segment outside of the block, or insert the block without mirroring it; a mirrored component needs a path of its own",
         help_de: "das Segment außerhalb des Blocks zeichnen oder den Block nicht gespiegelt einfügen; ein gespiegeltes Bauteil braucht einen eigenen Pfad",
     }
-    /// A subpath segment that states another thickness (T) than the embedded path has.
+    /// A subpath segment with another thickness (T) than the embedded path has, which cannot be corrected on the segment alone.
     THICKNESS_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
         help_en: "give both paths the same T, or embed a component that is drawn for this thickness: both are milled from the same sheet",
         help_de: "beiden Pfaden dasselbe T geben oder ein Bauteil einbetten, das für diese Dicke gezeichnet ist: beide werden aus demselben Blech gefräst",
     }
-    /// A subpath segment that states another T, O or M than the embedded path has.
+    /// A subpath segment with another T, O or M than the embedded path has, which can be corrected on the segment.
     PARAMETER_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",

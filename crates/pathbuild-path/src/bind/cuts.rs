@@ -65,7 +65,8 @@ impl Binder<'_> {
         let (tool, count) = (tool?, bars.count(length));
         let pitch = length / count;
         if count > 0.0 && !at_least(pitch, bars.length + tool) {
-            let problem = Diagnostic::new(&paths::NO_ROOM_BETWEEN_BARS)
+            let message = if count > 1.0 { &paths::NO_ROOM_BETWEEN_BARS } else { &paths::NO_ROOM_BESIDE_BAR };
+            let problem = Diagnostic::new(message)
                 .with("count", count)
                 .with("gap", pitch - bars.length)
                 .with("tool", tool);

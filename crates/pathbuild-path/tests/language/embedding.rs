@@ -80,6 +80,22 @@ fn t_and_o_are_those_of_the_path() {
     assert_eq!(with("T5 O3.00001"), ["PB506 O"]);
 }
 
+/// A text of the segment is corrected there if the embedding path suits the embedded one.
+#[test]
+fn the_advice_is_about_the_text_that_is_wrong() {
+    let help = |outer: &str, segment: &str| {
+        let outer = project(&format!("{outer} I1 B0 Mx"), &format!(">1111.1P {segment}"));
+        let found = judged(&outer, &[], |judge, call| judge.mismatches(call, &component("T5 O3 I1 B0 Mx")));
+        found[0].help(Lang::En).unwrap_or_default()
+    };
+    assert!(help("T5 O3", "O2").contains("write its O on the segment"));
+    assert!(help("T5 O2", "O2").contains("give both paths the same O"));
+    assert!(help("T5 O2", "").contains("give both paths the same O"));
+    assert!(help("T6 O3", "T4").contains("write its T on the segment"));
+    assert!(help("T4 O3", "T4").contains("give both paths the same T"));
+    assert!(help("T6 O3", "").contains("give both paths the same T"));
+}
+
 /// A program has a single cutter, regardless of the text of a segment.
 #[test]
 fn o_is_that_of_the_embedding_path() {
