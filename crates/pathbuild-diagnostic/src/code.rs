@@ -163,7 +163,7 @@ codes! {
     509 SubpathCycle "subpath-cycle" Error "subpath cycle";
     510 PathTBelowSubpathT "path-t-below-subpath-t" Error "T of a path is less than that of a subpath in it";
     511 SubpathHasErrors "subpath-has-errors" Error "an embedded path has errors of its own";
-    512 SeveralPaths "several-paths" Error "a file with several paths is emitted without naming one";
+    512 SeveralPaths "several-paths" Error "a drawing with several paths is named where a path is needed";
     513 NoPath "no-path" Error "a file without a path is checked or emitted";
     514 SameOutput "same-output" Error "two outputs with the same name";
     515 QProjectLacksPath "q-project-lacks-path" Warning "a Q-project lacks a path of its drawing";

@@ -114,8 +114,8 @@ messages! {
     LINE_TYPE_ON_ENTITY: UnknownLineType {
         en: "line type {line_type} has no meaning on {element}; elements like this: {count}",
         de: "{element} mit Linientyp {line_type} hat keine Bedeutung; Elemente dieser Art: {count}",
-        help_en: "on circles, use CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT or PHANTOM; on lines and arcs, use any line type except PHANTOM",
-        help_de: "bei Kreisen CONTINUOUS, DIVIDE, BORDER, CENTER, DASHDOT, DOT oder PHANTOM verwenden, bei Linien und Bögen jeden Linientyp außer PHANTOM",
+        help_en: "on circles, use CONTINUOUS, DIVIDE, BORDER or CENTER, for markers and probes PHANTOM, DASHDOT or DOT; on lines and arcs, use any line type except PHANTOM",
+        help_de: "bei Kreisen CONTINUOUS, DIVIDE, BORDER oder CENTER verwenden, für Marken und Proben PHANTOM, DASHDOT oder DOT; bei Linien und Bögen jeden Linientyp außer PHANTOM",
     }
     /// Support bars on a drilled hole.
     BARS_ON_HOLE: UnknownLineType {
@@ -204,7 +204,7 @@ messages! {
     }
     /// Note: an element near the text, but on another layer.
     NEAR_ON_OTHER_LAYER: TextWithoutElement {
-        en: "on layer {layer} {element} is {distance} mm away from the text's circle: are the two on different layers by mistake?",
+        en: "on layer {layer}, {element} is {distance} mm away from the text's circle: are the two on different layers by mistake?",
         de: "auf Layer {layer} liegt {element} {distance} mm vom Kreis des Textes entfernt: liegen beide versehentlich auf verschiedenen Layern?",
     }
     /// Note: an element on another layer to which the text would belong if it were on that layer.
@@ -420,12 +420,12 @@ messages! {
         help_en: "move it into the outline whose height it gives, or to another layer",
         help_de: "in den Umriss schieben, dessen Höhe er angibt, oder auf einen anderen Layer legen",
     }
-    /// An unsupported curve on a layer with clamps.
+    /// A curve or block on a layer with clamps that is left out.
     NO_OUTLINE: InvalidKeepOut {
-        en: "this {entity} on a layer with clamps is not supported, so the position of the clamp is unknown",
-        de: "{entity} auf einem Layer mit Spannmitteln wird nicht unterstützt; die Lage des Spannmittels ist daher unbekannt",
-        help_en: "draw the outline with lines, arcs, a circle or a closed polyline; ellipses and splines are read if `approximate-curves` is set in pathbuild.toml",
-        help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; Ellipsen und Splines werden gelesen, wenn `approximate-curves` in pathbuild.toml gesetzt ist",
+        en: "this {entity} on a layer with clamps is not read, so the position of the clamp is unknown",
+        de: "{entity} auf einem Layer mit Spannmitteln wird nicht gelesen; die Lage des Spannmittels ist daher unbekannt",
+        help_en: "draw the outline with lines, arcs, a circle or a closed polyline; ellipses and splines are read if `approximate-curves` is set in pathbuild.toml, blocks if the file contains them and they have the same scale in x and y",
+        help_de: "den Umriss mit Linien, Bögen, einem Kreis oder einer geschlossenen Polylinie zeichnen; Ellipsen und Splines werden gelesen, wenn `approximate-curves` in pathbuild.toml gesetzt ist, Blöcke, wenn die Datei sie enthält und sie in x und y denselben Maßstab haben",
     }
     /// A block that is inserted on a layer with clamps, but draws only on other layers.
     CLAMP_ELSEWHERE: InvalidKeepOut {
@@ -515,8 +515,8 @@ messages! {
     DECIMAL_COMMA: InvalidDxf {
         en: "{entity}: \"{value}\" in group {code} has a decimal comma, but DXF numbers need a point",
         de: "{entity}: \"{value}\" in Gruppe {code} hat ein Dezimalkomma, DXF-Zahlen brauchen aber einen Punkt",
-        help_en: "set the decimal separator of the system to a point; the program that wrote the file uses the system's number format",
-        help_de: "im System den Punkt als Dezimalzeichen einstellen; das Programm, von dem die Datei stammt, verwendet das Zahlenformat des Systems",
+        help_en: "set the decimal separator of the system to a point, and save the drawing again; the program that wrote the file uses the system's number format",
+        help_de: "im System den Punkt als Dezimalzeichen einstellen und die Zeichnung neu speichern; das Programm, von dem die Datei stammt, verwendet das Zahlenformat des Systems",
     }
     /// A number that is not finite, such as nan, inf or 1e400.
     NUMBER_NOT_FINITE: InvalidDxf {

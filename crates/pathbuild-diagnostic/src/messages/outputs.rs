@@ -5,8 +5,8 @@ messages! {
     SEVERAL_PATHS: SeveralPaths {
         en: "the drawing contains several paths: {names}",
         de: "die Zeichnung enthält mehrere Pfade: {names}",
-        help_en: "name the paths to emit: pathbuild emit {first}",
-        help_de: "die gewünschten Pfade nennen: pathbuild emit {first}",
+        help_en: "name a path instead of the drawing, for example {first}",
+        help_de: "statt der Zeichnung einen Pfad nennen, zum Beispiel {first}",
     }
     /// A pattern that matches several paths, where exactly one is needed.
     SEVERAL_MATCHES: SeveralPaths {
@@ -205,22 +205,22 @@ messages! {
     LACKS_PATH: QProjectLacksPath {
         en: "the Q-project does not embed path {name} of {drawing}",
         de: "das Q-Projekt bettet Pfad {name} aus {drawing} nicht ein",
-        help_en: "add it, or write the Q-project again: pathbuild q-project {drawing}",
-        help_de: "ihn hinzufügen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
+        help_en: "add it, or delete the Q-project and write it again: pathbuild q-project {drawing}",
+        help_de: "ihn hinzufügen oder das Q-Projekt löschen und neu schreiben lassen: pathbuild q-project {drawing}",
     }
     /// A value on a Q-project's segment that differs from that of the proxy line.
     Q_VALUE_DIFFERS: QProjectDiffers {
         en: "{letter} is {here} here, but {there} on the proxy line of path {name} in {drawing}",
         de: "{letter} ist hier {here}, auf der Stellvertreterlinie von Pfad {name} in {drawing} aber {there}",
-        help_en: "make both agree, or write the Q-project again: pathbuild q-project {drawing}",
-        help_de: "die Werte angleichen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
+        help_en: "make both agree, or delete the Q-project and write it again: pathbuild q-project {drawing}",
+        help_de: "die Werte angleichen oder das Q-Projekt löschen und neu schreiben lassen: pathbuild q-project {drawing}",
     }
     /// A length of a Q-project's segment that differs from that of the proxy line.
     Q_LENGTH_DIFFERS: QProjectDiffers {
         en: "the segment is {here} mm long, but the proxy line of path {name} in {drawing} is {there} mm long",
         de: "das Segment ist {here} mm lang, die Stellvertreterlinie von Pfad {name} in {drawing} aber {there} mm",
-        help_en: "make both agree, or write the Q-project again: pathbuild q-project {drawing}",
-        help_de: "die Werte angleichen oder das Q-Projekt neu schreiben lassen: pathbuild q-project {drawing}",
+        help_en: "make both agree, or delete the Q-project and write it again: pathbuild q-project {drawing}",
+        help_de: "die Werte angleichen oder das Q-Projekt löschen und neu schreiben lassen: pathbuild q-project {drawing}",
     }
     /// A proxy line that names a path which does not exist in the drawing.
     PROXY_OF_NOTHING: ProxyDiffers {

@@ -117,8 +117,8 @@ messages! {
     OUTLINE_UNREADABLE: DoubtfulOutline {
         en: "this {entity} on a layer with a part could not be read, so the outline may be incomplete",
         de: "{entity} auf einem Layer mit einem Teil war nicht lesbar; der Umriss ist daher vielleicht unvollständig",
-        help_en: "draw the outline with lines, arcs, circles or closed polylines; ellipses and splines are read if `approximate-curves` is set in pathbuild.toml",
-        help_de: "den Umriss mit Linien, Bögen, Kreisen oder geschlossenen Polylinien zeichnen; Ellipsen und Splines werden gelesen, wenn `approximate-curves` in pathbuild.toml gesetzt ist",
+        help_en: "draw the outline with lines, arcs, circles or closed polylines; ellipses and splines are read if `approximate-curves` is set in pathbuild.toml, blocks if the file contains them and they have the same scale in x and y",
+        help_de: "den Umriss mit Linien, Bögen, Kreisen oder geschlossenen Polylinien zeichnen; Ellipsen und Splines werden gelesen, wenn `approximate-curves` in pathbuild.toml gesetzt ist, Blöcke, wenn die Datei sie enthält und sie in x und y denselben Maßstab haben",
     }
     /// An outline of a part that no path cuts.
     OUTLINE_NOT_CUT: OutlineNotCut {

@@ -215,8 +215,8 @@ messages! {
     EDITED_PROGRAM: OldProgram {
         en: "{name} is not what emit writes for {drawing}",
         de: "{name} ist nicht das, was emit für {drawing} schreibt",
-        help_en: "run emit again, then adjust with the same options (--z-model, --compatible): the program was edited, or written with other options",
-        help_de: "noch einmal emit aufrufen, dann adjust mit denselben Optionen (--z-model, --compatible): das Programm wurde bearbeitet oder mit anderen Optionen geschrieben",
+        help_en: "run emit again, then adjust with the same settings (`z-model`, `compatible`): the program was edited, or written with other settings",
+        help_de: "noch einmal emit aufrufen, dann adjust mit denselben Einstellungen (`z-model`, `compatible`): das Programm wurde bearbeitet oder mit anderen Einstellungen geschrieben",
     }
     /// A program that is older than its drawing.
     OLD_PROGRAM: OldProgram {

@@ -179,7 +179,7 @@ fn an_outline_that_does_not_close_is_an_error() {
 #[test]
 fn a_curve_that_is_not_understood_is_an_error() {
     let drawing = format!("{SQUARE}spline control 0,0 10,10 20,5 30,0\n");
-    assert_wrong(&drawing, &["this SPLINE on a layer with clamps is not supported"]);
+    assert_wrong(&drawing, &["this SPLINE on a layer with clamps is not read"]);
 }
 
 /// The four sides of a polyline give one finding.
@@ -372,7 +372,7 @@ fn hatch(layer: &str, x: f64, y: f64) -> String {
 
 #[test]
 fn a_hatch_alone_is_an_unclear_clamp() {
-    let said = "this HATCH on a layer with clamps is not supported, so the position of the clamp is unknown";
+    let said = "this HATCH on a layer with clamps is not read, so the position of the clamp is unknown";
     for (drawing, x, is_lone) in [
         (SQUARE, 15.0, false),
         (SQUARE, 20.0, false),
