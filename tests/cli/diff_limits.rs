@@ -245,3 +245,33 @@ fn a_q_project_is_not_written_into_a_file_named_by_a_dash() {
     assert_eq!(run.status, Some(0), "{run}");
     assert!(place.path().join("q.dxf").exists(), "{run}");
 }
+
+/// The ends of chords divide each turn of an arc of many turns. Beyond a million pieces, cuts are compared as a whole, which the
+/// result says.
+#[test]
+fn too_many_cuts_to_divide_are_compared_as_a_whole_and_say_so() {
+    let program = |turns: u32, depth: &str| {
+        // Points on a circle with whole numbers.
+        let chords = "G1 X24 Y7\nG1 X20 Y15\nG1 X15 Y20\nG1 X7 Y24\nG1 X0 Y25\nG1 X-7 Y24\nG1 X-15 Y20\nG1 X-20 Y15\nG1 X-24 Y7\nG1 X-25 Y0\nG1 X-24 Y-7\nG1 X25 Y0\n";
+        format!(
+            "G21 G90 G17 G94\nG0 Z5\nG0 X25 Y0\nG1 Z{depth} F150\n{chords}G1 Z-1\nG3 X25 Y0 I-25 J0 P{turns}\nG0 Z5\nM2\n"
+        )
+    };
+    let sides =
+        |turns| Place::new().file("a.ngc", program(turns, "-2")).file("b.ngc", program(turns, "-2.5"));
+    let diff = "diff a.ngc b.ngc --dialect linuxcnc";
+    let said = "too many cuts end on each other";
+    let inside = sides(2).run(diff);
+    assert!(inside.stdout.contains("0.5 mm deeper") && !inside.stdout.contains(said), "{inside}");
+    assert_eq!(json(&sides(2).run(&format!("{diff} --format json")))[1]["has_undivided_moves"], Value::Null);
+
+    let place = sides(100_000);
+    let outside = place.run(&format!("{diff} -o d.html"));
+    assert!(outside.stdout.contains("0.5 mm deeper") && outside.stdout.contains(said), "{outside}");
+    assert!(!outside.stdout.contains("passes"), "{outside}");
+    assert!(fs::read_to_string(place.path().join("d.html")).unwrap().contains(said));
+    let german = place.run(&format!("{diff} -o d.md --lang de"));
+    assert!(german.stdout.contains("zu viele Schnitte enden aufeinander"), "{german}");
+    assert!(fs::read_to_string(place.path().join("d.md")).unwrap().contains("zu viele Schnitte"));
+    assert_eq!(json(&place.run(&format!("{diff} --format json")))[1]["has_undivided_moves"], true);
+}

@@ -23,6 +23,8 @@ pub struct ComparedMoves {
     pub new: Vec<ComparedMove>,
     /// The changes, in the order of the new program; empty if both do the same.
     pub changes: Vec<Change>,
+    /// Whether moves were compared as a whole, because there are too many pieces. The changes may then include more than what changed.
+    pub has_undivided_moves: bool,
 }
 
 /// A move, or a piece of a move of which the rest changed otherwise.
@@ -72,26 +74,41 @@ const ORIGIN: Point = [0.0; 2];
 /// Compares two programs.
 ///
 /// Equal moves are ignored. Among the others, a run of moves that occurs at another place is shifted. All other cuts are divided where cuts end on
-/// them, and each piece is classified by comparing the final depth, the feed and the number of passes along its line in the plane.
+/// them, unless they are too many, and each piece is classified by comparing the final depth, the feed and the number of passes along its line in the
+/// plane.
 pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
     let mut identities = Identities::default();
     let rows = differing_runs(&mut identities, old, new);
     let sides = [old, new];
     let differing = rows.iter().flat_map(|(was, is)| old[was.clone()].iter().chain(&new[is.clone()]));
     let mut divider = Divider::new(differing);
-    let milled = if rows.is_empty() {
-        [Milled::default(), Milled::default()]
-    } else {
-        sides.map(|moves| Milled::of(moves, &mut divider, &mut identities))
+    let mut milled = |divider: &mut Divider| {
+        if rows.is_empty() {
+            return [Milled::default(), Milled::default()];
+        }
+        sides.map(|moves| Milled::of(moves, divider, &mut identities))
     };
-    let mut comparison =
-        Comparison { sides, milled, identities, divider, done: [0; 2], result: ComparedMoves::default() };
+    let mut milling = milled(&mut divider);
+    let has_undivided_moves = divider.is_exhausted();
+    if has_undivided_moves {
+        // Whole moves again: what only one side divides would be a change.
+        milling = milled(&mut divider);
+    }
+    divider.restart();
+    let mut comparison = Comparison {
+        sides,
+        milled: milling,
+        identities,
+        divider,
+        done: [0; 2],
+        result: ComparedMoves::default(),
+    };
     for (was, is) in rows {
         comparison.classify_runs(was, is);
     }
     comparison.copy_unchanged([old.len(), new.len()]);
     unite_slopes(&mut comparison.result.changes);
-    comparison.result
+    ComparedMoves { has_undivided_moves, ..comparison.result }
 }
 
 /// Gives alterations along slopes that differ only in their heights the same range of heights: on a relief, each move would be a kind of its own.
@@ -604,7 +621,7 @@ mod tests {
     use super::{ChangeKind, compare, groups, phrase};
     use crate::scene::SceneMove;
 
-    fn moves(text: &str) -> Vec<SceneMove> {
+    pub(super) fn moves(text: &str) -> Vec<SceneMove> {
         let read = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default());
         read.steps
             .iter()

@@ -15,8 +15,8 @@ pub(super) const END_TOLERANCE: f64 = 0.0011;
 /// circle moves twice as far as its centre.
 pub(super) const CURVE_TOLERANCE: f64 = 3.0 * END_TOLERANCE;
 
-/// Number of pieces in addition to the number of moves. Beyond it, moves stay whole, so that many long moves on top of each other take no more time
-/// and memory than others.
+/// Number of pieces of two programs in addition to the number of their moves. Beyond it, moves stay whole, so that many long moves on top of each
+/// other take no more time and memory than others.
 const MAX_ADDITIONAL_PIECES: usize = 1_000_000;
 
 /// Number of cells and points that are searched for ends on moves. Beyond it, moves stay whole.
@@ -68,6 +68,8 @@ pub(super) struct Divider {
     cell_size: f64,
     additional: usize,
     searched: usize,
+    /// Whether a limit was exceeded; all further moves stay whole.
+    is_exhausted: bool,
 }
 
 impl Divider {
@@ -95,13 +97,23 @@ impl Divider {
         for (number, point) in (0..).zip(&points) {
             cells.entry(point.map(|at| floor(at / cell_size))).or_default().push(number);
         }
-        Self { points, cells, cell_size, additional: 0, searched: 0 }
+        Self { points, cells, cell_size, additional: 0, searched: 0, is_exhausted: false }
+    }
+
+    /// Whether a limit was exceeded, so that all further moves stay whole.
+    pub(super) fn is_exhausted(&self) -> bool {
+        self.is_exhausted
+    }
+
+    /// Counts from the beginning again. Moves that were all divided within the limits are then divided in the same way.
+    pub(super) fn restart(&mut self) {
+        (self.additional, self.searched) = (0, 0);
     }
 
     /// Returns the pieces of a move, in its direction. Rapid moves, vertical moves, and arcs in other planes than XY stay whole.
     pub(super) fn divide(&mut self, movement: &SceneMove) -> Vec<SceneMove> {
         let way = &movement.way;
-        let is_divisible = self.searched < MAX_SEARCHED
+        let is_divisible = !self.is_exhausted
             && !is_rapid(movement)
             && way.from.known.and(way.to.known) == Axes::ALL
             && way.named.is_none()
@@ -112,7 +124,9 @@ impl Divider {
                 MoveShape::Line | MoveShape::Arc(pathbuild_motion::Arc { plane: Plane::Xy, .. })
             );
         let cuts = if is_divisible { self.cuts(way) } else { Vec::new() };
-        if cuts.is_empty() || self.additional + cuts.len() > MAX_ADDITIONAL_PIECES {
+        self.is_exhausted |=
+            self.searched > MAX_SEARCHED || self.additional + cuts.len() > MAX_ADDITIONAL_PIECES;
+        if cuts.is_empty() || self.is_exhausted {
             return vec![movement.clone()];
         }
         self.additional += cuts.len();
@@ -213,4 +227,29 @@ fn single_turn(shape: MoveShape) -> MoveShape {
 #[expect(clippy::cast_possible_truncation, reason = "saturates")]
 fn floor(value: f64) -> i64 {
     value.floor() as i64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::moves;
+    use super::{Divider, MAX_ADDITIONAL_PIECES, MAX_SEARCHED};
+
+    /// Divides a cut on which two others end, with counters that have these values before. Returns the number of its pieces, and the divider.
+    fn divide(additional: usize, searched: usize) -> (usize, Divider) {
+        let cuts = "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F150\nG1 X10\nG1 X20\nG1 X30\nG1 X0\n";
+        let moves = moves(cuts);
+        let mut divider = Divider { additional, searched, ..Divider::new(moves.iter()) };
+        (divider.divide(moves.last().unwrap()).len(), divider)
+    }
+
+    #[test]
+    fn beyond_a_limit_moves_stay_whole() {
+        let (pieces, divider) = divide(0, 0);
+        assert_eq!((pieces, divider.is_exhausted(), divider.additional), (3, false, 2));
+        let searched = MAX_SEARCHED - divider.searched;
+        let of = |(pieces, divider): (usize, Divider)| (pieces, divider.is_exhausted());
+        assert_eq!(of(divide(MAX_ADDITIONAL_PIECES - 2, searched)), (3, false));
+        assert_eq!(of(divide(MAX_ADDITIONAL_PIECES - 1, 0)), (1, true));
+        assert_eq!(of(divide(0, searched + 1)), (1, true));
+    }
 }

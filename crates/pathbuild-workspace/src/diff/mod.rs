@@ -95,6 +95,8 @@ pub enum Outcome {
 pub struct ProgramDiff {
     /// Changed moves, grouped by the kind of change.
     pub groups: Vec<Group>,
+    /// Whether moves were compared as a whole, because there are too many pieces. The groups may then include more than what changed.
+    pub has_undivided_moves: bool,
     /// Changes of cutters, tools, spindle, work offsets, stops and the like, as far as they are known on both sides.
     pub states: Vec<StateChange>,
     /// Reasons for the changes; `None` unless both sides are drawings, empty if no element and no setting differs.
@@ -124,6 +126,7 @@ pub fn compare_moves(old: &ScenePath, new: &ScenePath, pictures: Option<Lang>) -
     let picture = |which, lang| changes_svg(&compared, which, lang);
     ProgramDiff {
         groups: groups(&compared),
+        has_undivided_moves: compared.has_undivided_moves,
         states: Vec::new(),
         reasons: None,
         totals: [old.totals, new.totals],

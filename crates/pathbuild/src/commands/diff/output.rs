@@ -137,9 +137,16 @@ pub(super) fn problems(comparison: &Comparison, lang: Lang) -> Vec<String> {
     errors.map(line).collect()
 }
 
-/// Returns a line for each kind of change, and one for the totals.
+/// Returns a line for each kind of change, a line that says whether there are too many cuts to divide them, and one for the totals.
 pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
     let mut lines: Vec<String> = program.groups.iter().map(|group| line(group, lang)).collect();
+    if program.has_undivided_moves && !lines.is_empty() {
+        let undivided = lang.choose(
+            "too many cuts end on each other to divide them: they are compared as a whole, so more may be listed than has changed",
+            "zu viele Schnitte enden aufeinander, um sie zu teilen: sie werden als Ganzes verglichen, daher ist vielleicht mehr aufgeführt, als sich geändert hat",
+        );
+        lines.push(undivided.to_owned());
+    }
     lines.extend(program.states.iter().map(|change| state_line(change, lang)));
     if let [Some(old), Some(new)] = program.totals {
         lines.push(totals(&old, &new, lang));
@@ -325,6 +332,9 @@ fn path(path: &PathDiff, lang: Lang) -> Value {
     let mut value = json!({ "path": path.name, "old_file": old, "new_file": new, "outcome": outcome });
     if let Outcome::Changed(program) = &path.outcome {
         value["changes"] = program.groups.iter().map(group).collect();
+        if program.has_undivided_moves {
+            value["has_undivided_moves"] = json!(true);
+        }
         if !program.states.is_empty() {
             value["states"] = program.states.iter().map(state).collect();
         }
