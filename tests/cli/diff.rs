@@ -347,6 +347,55 @@ fn what_a_post_rounds_is_no_change() {
     assert_prints(&diff("new"), 0, &["added", "1 of 1 path changed"]);
 }
 
+/// Posts write circles in several arcs, slopes on arcs as chords, pecks, and rapid moves of their own. None of this is a change, even if only the
+/// command line names the post.
+#[test]
+fn what_a_built_in_post_writes_is_no_change() {
+    let drawn = |depth: &str| {
+        let elements = "sweep 0,0 15,-8\nmill circle 15,-8 d 6\nsweep 15,-8 15,-15\ncircle 15,-15 d 2 \"C0.7\"\n\
+                        sweep 15,-15 0,5\nmill 0,5 20,6.7885\nbars arc 20,6.7885 40,0 r 15 \"D3 P1 U6\"";
+        dxf("1001.1P", depth, elements)
+    };
+    let place = two(drawn("1"), drawn("0.5"));
+    let configuration = "rapid = 1000\nlibrary = [\"parts\"]\nspindle = \"manual\"\ncycles = true\n";
+    for side in ["old", "new"] {
+        fs::write(place.path().join(side).join("pathbuild.toml"), configuration).unwrap();
+    }
+    for post in pathbuild_post::BUILT_IN.iter().map(|post| post.name) {
+        let emit = place.run(&format!(
+            "emit ./old/parts/1001.1P.dxf --config old/pathbuild.toml --out-dir {post} --post {post}"
+        ));
+        assert_eq!(emit.status, Some(0), "{emit}");
+        let program = fs::read_dir(place.path().join(post)).unwrap().next().unwrap().unwrap().path();
+        let diff = |side: &str| {
+            place.run(&format!("diff {} 1001.1P --config {side}/pathbuild.toml", program.display()))
+        };
+        assert_eq!(diff("old").stdout, "0 of 1 path changed\n", "{post}");
+        assert_prints(&diff("new"), 0, &["0.5 mm deeper"]);
+    }
+}
+
+/// Programs of a definition that names no dialect are read with that definition.
+#[test]
+fn what_an_own_definition_writes_is_no_change() {
+    let own = pathbuild_post::BUILT_IN.iter().find(|post| post.name == "din").unwrap().text;
+    let own: String =
+        own.lines().filter(|line| !line.starts_with("dialect")).map(|line| format!("{line}\n")).collect();
+    let place = two(dxf("1001.1P", "1", LINE), dxf("1001.1P", "0.5", LINE));
+    let configuration = "rapid = 1000\nlibrary = [\"parts\"]\nspindle = \"manual\"\npost = \"own.toml\"\n";
+    for side in ["old", "new"] {
+        fs::write(place.path().join(side).join("pathbuild.toml"), configuration).unwrap();
+        fs::write(place.path().join(side).join("own.toml"), &own).unwrap();
+    }
+    let emit = place.run("emit ./old/parts/1001.1P.dxf --config old/pathbuild.toml --out-dir programs");
+    assert_eq!(emit.status, Some(0), "{emit}");
+    let program = fs::read_dir(place.path().join("programs")).unwrap().next().unwrap().unwrap().path();
+    let diff =
+        |side: &str| place.run(&format!("diff {} 1001.1P --config {side}/pathbuild.toml", program.display()));
+    assert_eq!(diff("old").stdout, "0 of 1 path changed\n");
+    assert_prints(&diff("new"), 0, &["0.5 mm deeper"]);
+}
+
 fn git(place: &Place, arguments: &[&str]) {
     let identity =
         ["-c", "user.name=a", "-c", "user.email=a@example.invalid", "-c", "init.defaultBranch=main"];

@@ -169,13 +169,14 @@ impl MachineStates {
     /// Adds the depths of the pecks in which the elements are drilled, in their order.
     pub(super) fn set_pecks(&mut self, pecks: impl Iterator<Item = Option<f64>>) {
         let depth = |depth| format!("C{}", Number(depth));
-        let mut words: Vec<_> = pecks.map(|peck| (0, peck.map_or_else(String::new, depth))).collect();
-        words.dedup();
+        let words = pecks.map(|peck| (0, peck.map_or_else(String::new, depth))).collect();
         self.set(StateKind::Peck, words);
     }
 
-    /// Sets the words of a kind, in their order, with the lines at which they stand; 0 stands for no line.
-    fn set(&mut self, kind: StateKind, words: Vec<(u32, String)>) {
+    /// Sets the words of a kind, in their order, with the lines at which they stand; 0 stands for no line. Words that repeat the previous ones change
+    /// nothing.
+    fn set(&mut self, kind: StateKind, mut words: Vec<(u32, String)>) {
+        words.dedup_by(|next, previous| next.1 == previous.1);
         let stated =
             words.into_iter().enumerate().map(|(cut, (line, words))| StatedWords { cut, words, line });
         self.stated[kind as usize] = Some(stated.collect());

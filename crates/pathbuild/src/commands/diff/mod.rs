@@ -17,8 +17,9 @@ use pathbuild_workspace::diff::{
 };
 use pathbuild_workspace::emit::{ShownText, missing_values};
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
-use pathbuild_workspace::program::Program;
+use pathbuild_workspace::program::read;
 use pathbuild_workspace::session::Session;
+use pathbuild_workspace::verify::{Verifier, VerifyOptions};
 use pathbuild_workspace::{Failure, Inputs, Workspace};
 
 use crate::args::DiffArgs;
@@ -259,6 +260,12 @@ impl Drawings {
     }
 }
 
+/// Returns the reader of programs, which knows the words of the configured post definition, as in `verify`.
+fn reader<'c>(context: &'c Context, args: &DiffArgs) -> Result<Verifier<'c>, Failure> {
+    let options = VerifyOptions { reading: args.reading.options(), ..VerifyOptions::default() };
+    Verifier::new(&mut Session::new(context), options)
+}
+
 /// Reads a program. With nominal heights, a program with corrected heights is the one that was drawn.
 fn program(
     context: &Context,
@@ -266,8 +273,9 @@ fn program(
     heights: Heights,
     args: &DiffArgs,
 ) -> Result<ComparedProgram, Failure> {
-    let mut program = Program::open(context, file, args.reading.options())
-        .map_err(|problem| Failure::Found(vec![*problem]))?;
+    let found = |problem: Box<Diagnostic>| Failure::Found(vec![*problem]);
+    let text = read(&context.settings, &*context.system, file).map_err(found)?;
+    let mut program = reader(context, args)?.read(file, text).map_err(found)?;
     if heights == Heights::Nominal {
         let mut steps = Vec::with_capacity(program.read.steps.len());
         program.at_nominal_heights().each(&mut |step| steps.push(step.clone()));
@@ -329,25 +337,26 @@ fn path(
     })
 }
 
-/// Returns the configured post-processor if, judging by its header, the program was written by it. The path's program is then written by
-/// the same post-processor, so that rounding and additional moves do not count as differences.
+/// Returns the post-processor that wrote a program, judging by its header: the configured one, or the built-in one for its dialect. The path's
+/// program is then written by the same post-processor, so that rounding and additional moves do not count as differences.
 fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProcessor> {
     let head = context.system.read_head(program, HEAD_BYTES).ok()?;
-    let (provenance, _) = Provenance::of_head(&head)?;
-    let post_processor = PostProcessor::for_run(context, None, PostArguments::default()).ok()??;
-    (provenance.dialect.is_some() && post_processor.reader() == provenance.dialect).then_some(post_processor)
+    let (Provenance { dialect, .. }, _) = Provenance::of_head(&head)?;
+    let post_processor = |name| {
+        let arguments = PostArguments {
+            dialect: dialect.map(|dialect| dialect.name().into()),
+            ..PostArguments::default()
+        };
+        let found = PostProcessor::for_run(context, name, arguments).ok().flatten();
+        found.filter(|post_processor| post_processor.reader() == dialect)
+    };
+    post_processor(None).or_else(|| post_processor(Some(dialect?.name())))
 }
 
 /// Replaces a path's program by the text of its post-processor, read in the same way as a program in a file.
 fn with_posted_program(context: &Context, path: ScenePath, args: &DiffArgs) -> Result<ScenePath, Failure> {
     let text = path.gcode.unwrap_or_default().into_bytes();
-    let program = Program::of_text(
-        &context.settings,
-        Utf8Path::new(&path.file),
-        text,
-        args.reading.options(),
-        &|_, _| None,
-    );
+    let program = reader(context, args)?.read(Utf8Path::new(&path.file), text);
     let program = program.map_err(|problem| Failure::Found(vec![*problem]))?;
     Ok(ScenePath { name: path.name, totals: path.totals, ..program.scene_path(context) })
 }
