@@ -290,3 +290,34 @@ fn regions_that_no_cut_or_another_path_makes_are_filled() {
     assert!(has("8122.1P", "PB218", "stroke=\"#e50d1a\""), "{run}");
     assert!(!seen.keys().any(|name| name.starts_with("1121.1P")), "{:?}", seen.keys());
 }
+
+/// A project's element embeds a whole path, and the element of a contour may be long: the damage is elsewhere. The project begins at (-6, 0), where its
+/// program has X0 Y0.
+#[test]
+fn findings_about_parts_are_placed_at_the_damage() {
+    let folder = support::project().join("docs/drawings/part");
+    let mut place = Place::new();
+    for name in ["pathbuild.toml", "1121.1P.dxf", "1122.1P.dxf", "1123.1P.dxf", "1126.1P.dxf", "8121.1P.dxf"]
+    {
+        place = place.file(name, fs::read(folder.join(name)).unwrap());
+    }
+    for (drawing, expected) in [
+        ("1122.1P", vec![[2.999, 20.5]]),
+        ("1123.1P", vec![[10.324, 20.0]]),
+        ("1126.1P", vec![[13.0, 21.0]]),
+        ("8121.1P", vec![[2.999, 27.0], [3.2, 26.5]]),
+    ] {
+        let run = place.run(&format!("view {drawing}.dxf -o {drawing}.json"));
+        let scene: Value = serde_json::from_str(&place.read(&format!("{drawing}.json"))).unwrap();
+        let places: Vec<[f64; 2]> = scene["findings"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|found| serde_json::from_value(found["at"].clone()).unwrap())
+            .collect();
+        assert_eq!(places.len(), expected.len(), "{run}");
+        for (at, expected) in places.iter().zip(expected) {
+            assert!((0..2).all(|axis| (at[axis] - expected[axis]).abs() < 1e-3), "{drawing}: {places:?}");
+        }
+    }
+}

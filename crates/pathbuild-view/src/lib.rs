@@ -15,8 +15,8 @@ mod scene;
 mod svg;
 
 pub use build::{
-    DrawnSource, EmittedText, GcodeSource, Places, ProgramSource, drawn_path, findings, finished_part,
-    gcode_path, keep_out, other_layers, outline, program_path,
+    DrawnSource, EmittedText, GcodeSource, IN_PROGRAM, Places, ProgramSource, drawn_path, findings,
+    finished_part, gcode_path, keep_out, other_layers, outline, program_path,
 };
 pub use changes::{Change, ChangeKind, ComparedMove, ComparedMoves, Group, compare, groups, moves, phrase};
 #[cfg(feature = "pictures")]

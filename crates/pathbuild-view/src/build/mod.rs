@@ -5,7 +5,8 @@ mod program;
 
 use std::collections::HashMap;
 
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, shown};
+use pathbuild_diagnostic::messages::part;
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, Value, shown};
 
 use crate::scene::{BilingualText, Finding, Label, Point, Scene, ScenePath, Shape};
 
@@ -13,8 +14,8 @@ pub use drawn::{DrawnSource, drawn_path, finished_part, keep_out, other_layers, 
 pub use program::{EmittedText, GcodeSource, ProgramSource, gcode_path, program_path};
 
 impl Scene {
-    /// Sets the findings of a scene. `file` is the drawing shown. A finding about a parameter text is placed at that text; one about an
-    /// element is placed at the middle of the element.
+    /// Sets the findings of a scene. `file` is the drawing shown. A finding about a parameter text is placed at that text; one about a finished part
+    /// at what is wrong with the part; one about an element at the middle of the element.
     pub fn set_findings(&mut self, diagnostics: &[Diagnostic], file: &str) {
         let mut findings = findings(diagnostics, file);
         let places = self.places(file);
@@ -48,9 +49,35 @@ pub struct Places<'s> {
 }
 
 impl Places<'_> {
-    /// Returns the place of the parameter text or of the element that a finding is about.
+    /// Returns the place of the parameter text, of the damage to a part, or of the element that a finding is about.
     pub fn of(&self, diagnostic: &Diagnostic) -> Option<Point> {
-        text_at(self.paths, diagnostic, self.file).or_else(|| self.middle_of_element(diagnostic))
+        text_at(self.paths, diagnostic, self.file)
+            .or_else(|| self.damage(diagnostic))
+            .or_else(|| self.middle_of_element(diagnostic))
+    }
+
+    /// Returns the place at which a part, or a support bar of it, is not as drawn. The finding's own place is the element that cuts there, which may
+    /// be far away: the element of a project embeds a whole path. A message about a drawing that is embedded in the one shown has the coordinates of
+    /// another program.
+    fn damage(&self, diagnostic: &Diagnostic) -> Option<Point> {
+        diagnostic.file.as_ref().filter(|found| *found == self.file && diagnostic.trace.is_empty())?;
+        let name = match diagnostic.code() {
+            Code::GougedPart
+            | Code::GougedNeighbour
+            | Code::UnreachableCorner
+            | Code::BarCutAway
+            | Code::DisplacedPath => "point",
+            Code::LeftoverAtPart => "from",
+            _ => return None,
+        };
+        let Value::Point(at) = diagnostic.argument(name)? else { return None };
+        let zero = if IN_PROGRAM.contains(&diagnostic.message) {
+            let name = diagnostic.path.as_deref();
+            self.paths.iter().find(|path| Some(&*path.name) == name)?.zero
+        } else {
+            [0.0, 0.0]
+        };
+        Some([at.x.0 + zero[0], at.y.0 + zero[1]])
     }
 
     /// Returns the middle of the element that a finding is about, if the finding's own place is only the start of the element.
@@ -67,6 +94,15 @@ impl Places<'_> {
         is_start.then(|| in_drawing(shape.middle()))
     }
 }
+
+/// Messages about parts whose points have the coordinates of the program, not those of the drawing.
+pub const IN_PROGRAM: [&Message; 5] = [
+    &part::GOUGED_NEIGHBOUR,
+    &part::SEVERED_PART,
+    &part::NEIGHBOURS_BAR_CUT_AWAY,
+    &part::DISPLACED_PATH,
+    &part::CUT_IN_LOOSE_WASTE,
+];
 
 /// Distance in mm up to which two points are considered the same.
 const POINT_TOLERANCE: f64 = 1e-6;

@@ -2,9 +2,8 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
-use pathbuild_diagnostic::messages::part as messages;
-use pathbuild_diagnostic::{Code, Diagnostic, Message, Point, Value};
-use pathbuild_view::{FindingPlace, Places, Scene, cutout_svg, has_stock, stock_cutout_svg};
+use pathbuild_diagnostic::{Code, Diagnostic, Point, Value};
+use pathbuild_view::{FindingPlace, IN_PROGRAM, Places, Scene, cutout_svg, has_stock, stock_cutout_svg};
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::files::write_error;
 use pathbuild_workspace::findings::{Findings, Fingerprint};
@@ -42,7 +41,7 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
         let scene = known.as_ref()?.1.as_ref()?;
         let has_corners = diagnostic.code() == Code::UnreachableCorner;
         let spot = if IN_PROGRAM.contains(&diagnostic.message) {
-            spot_in_program(diagnostic, scene.paths.first()?.zero)
+            spot_in_program(diagnostic, scene, place.0)
         } else {
             spot(diagnostic, None)
         };
@@ -57,15 +56,6 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
     };
     diagnostics.iter().enumerate().map(picture).collect()
 }
-
-/// Messages with the program's coordinates.
-const IN_PROGRAM: [&Message; 5] = [
-    &messages::GOUGED_NEIGHBOUR,
-    &messages::SEVERED_PART,
-    &messages::NEIGHBOURS_BAR_CUT_AWAY,
-    &messages::DISPLACED_PATH,
-    &messages::CUT_IN_LOOSE_WASTE,
-];
 
 /// The file of a drawing, the name of a path in it, and the path's scene if the path cuts anything.
 type StockScene<'d> = ((&'d Utf8Path, &'d str), Option<Scene>);
@@ -116,25 +106,19 @@ fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<FindingP
     Some(FindingPlace { at, related, circle, is_error: diagnostic.is_error() })
 }
 
-/// Returns the place in the drawing of a finding whose message has the program's coordinates: the damage, or else the element that does it. `zero` is the
-/// program's origin in the drawing. A message about a drawing that is embedded in another one has the coordinates of the other's program, so only its
+/// Returns the place in the drawing of a finding whose message has the program's coordinates: the damage, or else the element that does it. `file` is
+/// the drawing of the scene. A message about a drawing that is embedded in another one has the coordinates of the other's program, so only its
 /// element is marked.
-fn spot_in_program(diagnostic: &Diagnostic, zero: [f64; 2]) -> Option<FindingPlace> {
-    let point = |name: &str| match diagnostic.argument(name) {
-        Some(Value::Point(at)) if diagnostic.trace.is_empty() => {
-            Some([0, 1].map(|axis| pair(*at)[axis] + zero[axis]))
-        }
-        _ => None,
-    };
+fn spot_in_program(diagnostic: &Diagnostic, scene: &Scene, file: &Utf8Path) -> Option<FindingPlace> {
+    let zero = scene.paths.first()?.zero;
     // The outline of the part is drawn anyway; marking where it begins would only shrink a small cut into it.
-    let place = point("place").filter(|_| diagnostic.code() != Code::GougedNeighbour);
-    let at = point("point").or(diagnostic.place.point.map(pair))?;
-    Some(FindingPlace {
-        at,
-        related: place.into_iter().collect(),
-        circle: None,
-        is_error: diagnostic.is_error(),
-    })
+    let is_marked = diagnostic.trace.is_empty() && diagnostic.code() != Code::GougedNeighbour;
+    let related = match diagnostic.argument("place") {
+        Some(Value::Point(place)) if is_marked => vec![[0, 1].map(|axis| pair(*place)[axis] + zero[axis])],
+        _ => Vec::new(),
+    };
+    let at = scene.places(file.as_str()).of(diagnostic).or(diagnostic.place.point.map(pair))?;
+    Some(FindingPlace { at, related, circle: None, is_error: diagnostic.is_error() })
 }
 
 fn pair(point: Point) -> [f64; 2] {
