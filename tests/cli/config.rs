@@ -271,6 +271,19 @@ fn broken_toml_is_shown_where_it_breaks() {
 }
 
 #[test]
+fn a_key_that_is_refused_is_not_suggested() {
+    assert!(complaints("remotes = 1\n").contains("unknown key"));
+    let help = |text: &str| Place::new().file("pathbuild.toml", text).run("config show").stderr;
+    assert!(!help("remotes = 1\n").contains("`remote`") && !help("zzzq = 1\n").contains("remote"));
+}
+
+#[test]
+fn an_empty_list_of_files_is_named_by_its_key() {
+    let complaint = complaints("[[severity-in]]\nfiles = []\nPB107 = \"error\"\n");
+    assert!(complaint.contains("`severity-in.files` must be patterns of names, not []"), "{complaint}");
+}
+
+#[test]
 fn numbers_and_paths_as_windows_users_write_them_are_explained() {
     for (written, is_understood, help) in [
         ("feed = 150,5", false, "numbers in this file have a decimal point"),

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::io::{Error, ErrorKind};
 
+use crate::Diagnostic;
 use crate::message::Value;
+use crate::messages::files;
 use crate::words::{Text, words};
 
 words! {
@@ -93,6 +95,20 @@ words! {
     BAD_NAME: "the system does not allow this file name", "das System lässt den Dateinamen nicht zu";
 }
 
+/// Returns PB004 for a file that cannot be written, with the advice that fits the reason.
+pub fn cannot_write(name: &str, reason: impl Into<Value>) -> Diagnostic {
+    let reason = reason.into();
+    let message = match reason {
+        Value::Prose(text) if *text == IS_THERE => &files::ALREADY_THERE,
+        Value::Prose(text) if *text == LEADS_OUT => &files::WRITTEN_OUTSIDE,
+        Value::Prose(text) if [&NO_FILE, &NO_DIRECTORY].contains(&text) => &files::DIRECTORY_MISSING,
+        Value::Prose(text) if [&EXISTS, &NOT_A_DIRECTORY].contains(&text) => &files::DIRECTORY_IS_FILE,
+        Value::Prose(text) if [&NO_FILE_NAME, &DEVICE_NAME].contains(&text) => &files::NAME_NOT_ALLOWED,
+        _ => &files::CANNOT_WRITE,
+    };
+    Diagnostic::new(message).quoting("name", name).with("reason", reason)
+}
+
 /// Creates an error with a text in both languages, which [`reason`] retrieves.
 pub fn text_error(kind: ErrorKind, text: &'static Text) -> Error {
     Error::new(kind, TextError(text))
@@ -159,6 +175,22 @@ fn system_text(error: &Error) -> String {
 mod tests {
     use super::*;
     use crate::Lang;
+
+    #[test]
+    fn advice_for_a_file_that_cannot_be_written_fits_the_reason() {
+        let help = |reason: &'static Text| cannot_write("a.nc", reason).message.help.en;
+        for (reason, advice) in [
+            (&IS_THERE, "edit that file"),
+            (&LEADS_OUT, "write to a place within the repository"),
+            (&NO_DIRECTORY, "create the directory"),
+            (&NO_FILE, "create the directory"),
+            (&EXISTS, "rename that file"),
+            (&DEVICE_NAME, "correct R"),
+            (&DISK_FULL, "check the directory's permissions and the free space"),
+        ] {
+            assert!(help(reason).starts_with(advice), "{reason:?}: {}", help(reason));
+        }
+    }
 
     #[test]
     fn the_systems_words_stand_only_where_there_are_none() {

@@ -10,7 +10,7 @@ use pathbuild_db::System;
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::reasons::{
     IS_THERE, LEADS_OUT, NAME_OF_CONFIGURATION, NAME_OF_DRAWING, NAME_OF_PROGRAM, NO_DIRECTORY, NOT_UTF_8,
-    reason,
+    cannot_write, reason,
 };
 use pathbuild_diagnostic::{Diagnostic, Text, Value};
 
@@ -62,13 +62,13 @@ pub fn create(context: &Workspace, files: &[(Utf8PathBuf, &[u8])]) -> Result<(),
     let leads_out =
         |(file, _): &&(Utf8PathBuf, &[u8])| confined.is_some_and(|confined| !confined.allows(file));
     let outside: Vec<Diagnostic> =
-        files.iter().filter(leads_out).map(|(file, _)| write_error(file, Value::Prose(&LEADS_OUT))).collect();
+        files.iter().filter(leads_out).map(|(file, _)| write_error(file, &LEADS_OUT)).collect();
     if !outside.is_empty() {
         return Err(outside);
     }
     let is_there = |(file, _): &&(Utf8PathBuf, &[u8])| file.as_std_path().symlink_metadata().is_ok();
     let old: Vec<Diagnostic> =
-        files.iter().filter(is_there).map(|(file, _)| write_error(file, Value::Prose(&IS_THERE))).collect();
+        files.iter().filter(is_there).map(|(file, _)| write_error(file, &IS_THERE)).collect();
     if !old.is_empty() {
         return Err(old);
     }
@@ -139,7 +139,7 @@ pub(crate) fn is_program(path: &Utf8Path) -> bool {
 /// A diagnostic with the reason why the file cannot be written.
 pub fn replace(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
     if !file.parent().is_none_or(|parent| parent.as_str().is_empty() || parent.as_std_path().is_dir()) {
-        return Err(Box::new(write_error(file, Value::Prose(&NO_DIRECTORY))));
+        return Err(Box::new(write_error(file, &NO_DIRECTORY)));
     }
     let is_stream = file.as_std_path().metadata().is_ok_and(|data| !data.is_file() && !data.is_dir());
     let is_allowed = context.settings.confined.as_ref().is_none_or(|confined| confined.allows(file));
@@ -177,5 +177,5 @@ pub fn replace_error(file: &Utf8Path, reason: &'static Text) -> Diagnostic {
 /// Returns PB004 for a file that cannot be written.
 pub fn write_error(file: &Utf8Path, reason: impl Into<Value>) -> Diagnostic {
     let name = file.file_name().unwrap_or_default();
-    Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason).in_file(file)
+    cannot_write(name, reason).in_file(file)
 }

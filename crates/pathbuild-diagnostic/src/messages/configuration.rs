@@ -7,8 +7,8 @@ messages! {
     CONFIGURATION_UNREADABLE: InvalidConfiguration {
         en: "cannot read the configuration: {reason}",
         de: "die Konfiguration ist nicht lesbar: {reason}",
-        help_en: "check the file's name and, in your editor, its encoding (UTF-8), or write a new configuration with `pathbuild init`",
-        help_de: "den Dateinamen und im Editor die Kodierung (UTF-8) prüfen oder mit `pathbuild init` eine neue Konfiguration schreiben",
+        help_en: "check the file's name and permissions and, in your editor, its encoding (UTF-8); `pathbuild init` writes a pathbuild.toml where there is none",
+        help_de: "Namen und Rechte der Datei und im Editor die Kodierung (UTF-8) prüfen; `pathbuild init` schreibt eine pathbuild.toml, wo es keine gibt",
     }
     /// A configuration that is not valid TOML, with the parser's reason.
     TOML_SYNTAX: InvalidConfiguration {
@@ -16,6 +16,13 @@ messages! {
         de: "das ist kein gültiges TOML: {reason}",
         help_en: "write texts in double quotes and patterns in single quotes; the file that `pathbuild init` writes shows the form of each key",
         help_de: "Texte in doppelte Anführungszeichen setzen, Muster in einfache; die Datei, die `pathbuild init` schreibt, zeigt die Form jedes Schlüssels",
+    }
+    /// A key or a table that the file has twice.
+    TOML_DUPLICATE: InvalidConfiguration {
+        en: "this key or table occurs for the second time",
+        de: "dieser Schlüssel oder diese Tabelle kommt zum zweiten Mal vor",
+        help_en: "keep one of the two; all keys of a table belong below a single [table]",
+        help_de: "nur eines von beiden behalten; alle Schlüssel einer Tabelle gehören unter eine einzige [Tabelle]",
     }
     /// A number with a decimal comma.
     TOML_COMMA: InvalidConfiguration {
@@ -220,8 +227,8 @@ messages! {
     CANNOT_BE_LOWERED: InvalidConfiguration {
         en: "{code} ({name}) cannot be lowered to \"{level}\"",
         de: "{code} ({name}) kann nicht auf \"{level}\" herabgesetzt werden",
-        help_en: "correct the drawing, or keep known errors in a file with --baseline; a lower severity could let a wrong program through",
-        help_de: "die Zeichnung berichtigen oder bekannte Fehler mit --baseline in einer Datei festhalten; ein niedrigerer Schweregrad könnte ein falsches Programm durchlassen",
+        help_en: "correct the drawing or program, or keep known errors in a file with --baseline; a lower severity could let a wrong program through",
+        help_de: "die Zeichnung oder das Programm berichtigen oder bekannte Fehler mit --baseline in einer Datei festhalten; ein niedrigerer Schweregrad könnte ein falsches Programm durchlassen",
     }
     /// An argument with another configuration than the first argument.
     OTHER_CONFIGURATION: InvalidConfiguration {

@@ -174,6 +174,41 @@ messages! {
         help_en: "give another name; nothing was written",
         help_de: "einen anderen Namen angeben; nichts wurde geschrieben",
     }
+    /// A file to be created that already exists.
+    ALREADY_THERE: CannotWrite {
+        en: "cannot write {name}: {reason}",
+        de: "{name} kann nicht geschrieben werden: {reason}",
+        help_en: "edit that file, or rename or remove it first; nothing was written",
+        help_de: "jene Datei bearbeiten, oder sie zuerst umbenennen oder löschen; nichts wurde geschrieben",
+    }
+    /// A file to be written into a directory that does not exist.
+    DIRECTORY_MISSING: CannotWrite {
+        en: "cannot write {name}: there is no such directory",
+        de: "{name} kann nicht geschrieben werden: das Verzeichnis gibt es nicht",
+        help_en: "create the directory, or correct its name",
+        help_de: "das Verzeichnis anlegen oder den Namen berichtigen",
+    }
+    /// A file to be written into a directory in whose place there is a file.
+    DIRECTORY_IS_FILE: CannotWrite {
+        en: "cannot write {name}: a file has the name of its directory",
+        de: "{name} kann nicht geschrieben werden: eine Datei heißt wie das Verzeichnis",
+        help_en: "rename that file, or write into another directory",
+        help_de: "jene Datei umbenennen oder in ein anderes Verzeichnis schreiben",
+    }
+    /// A file outside of the untrusted repository.
+    WRITTEN_OUTSIDE: CannotWrite {
+        en: "cannot write {name}: {reason}",
+        de: "{name} kann nicht geschrieben werden: {reason}",
+        help_en: "write to a place within the repository; if it is your own, leave out --untrusted, or list it in `[trust] roots` of your config.toml",
+        help_de: "einen Ort im Repository angeben; beim eigenen Repository --untrusted weglassen oder es unter `[trust] roots` in der eigenen config.toml aufführen",
+    }
+    /// An output with a name that no file can have on all systems.
+    NAME_NOT_ALLOWED: CannotWrite {
+        en: "cannot write {name}: {reason}",
+        de: "{name} kann nicht geschrieben werden: {reason}",
+        help_en: "correct R, or rename the path or the drawing",
+        help_de: "R berichtigen oder den Pfad oder die Zeichnung umbenennen",
+    }
     /// A file that cannot be written.
     CANNOT_WRITE: CannotWrite {
         en: "cannot write {name}: {reason}",

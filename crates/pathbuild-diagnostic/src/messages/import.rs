@@ -12,8 +12,8 @@ messages! {
     DESCRIPTION_UNREADABLE: UnreadableDescription {
         en: "cannot read the file: {reason}",
         de: "die Datei ist nicht lesbar: {reason}",
-        help_en: "export the settings again, as text",
-        help_de: "die Einstellungen noch einmal als Text exportieren",
+        help_en: "check the name and permissions of the file, or export the settings again, as text",
+        help_de: "Namen und Rechte der Datei prüfen oder die Einstellungen noch einmal als Text exportieren",
     }
     /// A description with a syntax error.
     BROKEN_DESCRIPTION: UnreadableDescription {
@@ -33,8 +33,8 @@ messages! {
     UNITS_CONTRADICT: UnreadableDescription {
         en: "the unit of lengths in this ini file is not that of --units, or of another ini file",
         de: "die Einheit der Längen in dieser ini-Datei ist nicht die von --units oder einer anderen ini-Datei",
-        help_en: "leave out --units: tool tables have the unit of the machine's ini file",
-        help_de: "--units weglassen: Werkzeugtabellen haben die Einheit der ini-Datei der Maschine",
+        help_en: "leave out --units, and name the ini file of only one machine: its tool tables have the unit of that file",
+        help_de: "--units weglassen und die ini-Datei nur einer Maschine nennen: deren Werkzeugtabellen haben die Einheit dieser Datei",
     }
     /// A tool with a corner radius of more than half its diameter.
     CORNER_TOO_ROUND: UnreadableDescription {

@@ -126,6 +126,8 @@ fn syntax_fault(error: &toml::de::Error, source: &Source<'_>) -> Diagnostic {
         &messages::TOML_COMMA
     } else if reason.contains("escape") {
         &messages::TOML_ESCAPE
+    } else if reason == "duplicate key" {
+        &messages::TOML_DUPLICATE
     } else {
         &messages::TOML_SYNTAX
     };

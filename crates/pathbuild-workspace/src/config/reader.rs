@@ -253,8 +253,9 @@ impl<'a> Table<'_, '_, 'a> {
 
     /// Refuses a table that is reserved for a later version.
     pub(super) fn refuse_reserved(&mut self, name: &'static str) {
-        self.known.push(name);
         if let Some((key, _)) = self.content.get_key_value(name) {
+            // Unless it is there, the key must not be suggested for another one.
+            self.known.push(name);
             self.reader.key = format!("{}{name}", self.prefix);
             let fault = self.reader.fault(&messages::NOT_BUILT, key.span());
             self.reader.report(fault);

@@ -268,7 +268,7 @@ fn severities_in(table: &DeTable<'_>, reader: &mut TomlReader<'_>) -> FileSeveri
         match &**name.get_ref() {
             "files" => {
                 if value.get_ref().as_array().is_some_and(|globs| globs.is_empty()) {
-                    reader.missing("files", value.span());
+                    reader.read_within("files", |reader| reader.expected::<()>(&messages::GLOBS, value));
                 }
                 part.files = (PATTERNS.read)(value, reader).unwrap_or_default();
             }

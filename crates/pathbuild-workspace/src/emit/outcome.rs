@@ -2,7 +2,8 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_diagnostic::messages::{files, outputs};
+use pathbuild_diagnostic::messages::outputs;
+use pathbuild_diagnostic::reasons::cannot_write;
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, Value};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance, VERSION};
 use serde::{Deserialize, Serialize};
@@ -164,7 +165,7 @@ impl Task {
 }
 
 pub(super) fn write_error(name: &str, reason: impl Into<Value>) -> Diagnostic {
-    Diagnostic::new(&files::CANNOT_WRITE).quoting("name", name).with("reason", reason)
+    cannot_write(name, reason)
 }
 
 /// Whether a program on disk was written by another version of pathbuild.

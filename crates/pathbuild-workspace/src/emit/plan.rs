@@ -6,8 +6,8 @@ use std::fmt::Write;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_db::{Database, Db, SourceFile, Target, Trace, check_file, path_names, trace};
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{outputs as messages, posts};
-use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::native;
 use serde::{Deserialize, Serialize};
 
@@ -393,7 +393,7 @@ fn same_output_error(name: Option<&str>, first: String, second: String, drawing:
 /// Joins a file name to a directory. Returns an error if the system forbids the name. `rest` is the part of the name that follows the drawing's name.
 fn join_file_name(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
     if let Some(fault) = stem_fault(name, rest) {
-        return Err(Box::new(write_error(name, Value::Prose(fault))));
+        return Err(Box::new(write_error(name, fault)));
     }
     Ok(join(directory, name))
 }
