@@ -52,7 +52,7 @@ pub struct PostProcessor {
 pub struct PostArguments {
     /// Date that the post-processor may write into programs.
     pub date: Option<Box<str>>,
-    /// Name of the dialect of the output, for a definition that does not name it.
+    /// Name of the dialect of the output, in place of the one that the definition names.
     pub dialect: Option<Box<str>>,
     /// Whether to run the command that the post-processor requests.
     pub run_post_build: bool,

@@ -51,7 +51,7 @@ pub struct EmitArgs {
     /// Drawings, paths and directories for which programs are written.
     #[command(flatten)]
     pub inputs: InputArgs,
-    /// Write nothing; report the files on disk that are out of date
+    /// Write nothing; report the files that are missing or out of date
     #[arg(long)]
     pub check: bool,
     /// With --check: compare only the moves
@@ -76,7 +76,7 @@ pub struct EmitArgs {
     /// Remove programs that pathbuild wrote earlier and would no longer write
     #[arg(long, conflicts_with = "check")]
     pub remove_stale: bool,
-    /// G-code dialect for checking the post's output, if the post names none
+    /// G-code dialect for checking the post's output, in place of the one that the post names
     #[arg(long, value_name = "DIALECT", add = completions::dialects())]
     pub dialect: Option<String>,
     /// Date for posts that write one, and for waivers that end
@@ -279,7 +279,7 @@ pub struct PostArgs {
     /// Height of the material's upper face, for rapid moves and for posts that need it; programs by pathbuild contain it
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
-    /// G-code dialect for checking the post's output, if the post names none
+    /// G-code dialect for checking the post's output, in place of the one that the post names
     #[arg(long, value_name = "DIALECT", add = completions::dialects())]
     pub target: Option<String>,
     /// Date for posts that write one, and for waivers that end
@@ -559,8 +559,8 @@ german! {
     "Show at most N errors; the last lines count all of them", "Zeigt höchstens N Fehler; die letzten Zeilen zählen alle";
     "Write a picture of each finding into this directory: a detail of the drawing with the place circled",
         "Schreibt zu jedem Befund ein Bild in dieses Verzeichnis: einen Ausschnitt der Zeichnung mit eingekreister Stelle";
-    "Write nothing; report the files on disk that are out of date",
-        "Schreibt nichts; meldet vorhandene Dateien, die nicht aktuell sind";
+    "Write nothing; report the files that are missing or out of date",
+        "Schreibt nichts; meldet Dateien, die fehlen oder nicht aktuell sind";
     "With --check: compare only the moves", "Mit --check: vergleicht nur die Bewegungen";
     "Overwrite measured values in _Z.txt", "Überschreibt gemessene Werte in _Z.txt";
     "Write for this post-processor: a built-in name or a file", "Schreibt für diesen Postprozessor: ein eingebauter Name oder eine Datei";
@@ -571,8 +571,8 @@ german! {
     "Write the program to standard output: `-o -`", "Schreibt das Programm in die Standardausgabe: `-o -`";
     "Remove programs that pathbuild wrote earlier and would no longer write",
         "Löscht Programme, die pathbuild früher geschrieben hat und nicht mehr schreiben würde";
-    "G-code dialect for checking the post's output, if the post names none",
-        "G-Code-Dialekt, in dem die Ausgabe des Postprozessors geprüft wird, wenn er keinen nennt";
+    "G-code dialect for checking the post's output, in place of the one that the post names",
+        "G-Code-Dialekt, in dem die Ausgabe des Postprozessors geprüft wird, an Stelle dessen, den er nennt";
     "Date for posts that write one, and for waivers that end",
         "Datum für Postprozessoren, die eines schreiben, und für befristete Ausnahmen";
     "After writing, run the command that the post names", "Führt nach dem Schreiben den Befehl aus, den der Postprozessor nennt";

@@ -390,10 +390,10 @@ german! {
         "Verzeichnis für gespeicherte Ergebnisse, das sich Kopien des Verzeichnisbaums teilen (auch: `PATHBUILD_CACHE_DIR`)";
     "With the faulty text underlined, help and notes", "Mit unterstrichenem Text, Hilfe und Hinweisen";
     "One line each", "Je eine Zeile";
-    "One JSON object a line", "Je Zeile ein JSON-Objekt";
+    "One JSON object per line", "Je Zeile ein JSON-Objekt";
     "SARIF 2.1.0", "SARIF 2.1.0";
     "Annotations of a GitHub workflow", "Anmerkungen eines GitHub-Workflows";
-    "GitLab code quality", "GitLab Code Quality";
+    "GitLab Code Quality report", "Bericht für GitLab Code Quality";
     "`JUnit` XML, a test case for each path or program", "`JUnit`-XML, je Pfad oder Programm ein Testfall";
     "A page with pictures: for `--report` only", "Eine Seite mit Bildern: nur für `--report`";
     "A graph for Graphviz", "Ein Graph für Graphviz";

@@ -1,4 +1,4 @@
-//! Renders findings for GitLab code quality, as a JSON list. GitLab requires a location, so a diagnostic without a file, such as one about
+//! Renders findings as a GitLab Code Quality report: a JSON list. GitLab requires a location, so a diagnostic without a file, such as one about
 //! an option's value, refers to the project itself (`.`).
 
 use pathbuild_diagnostic::{Diagnostic, Severity};

@@ -39,13 +39,13 @@ pub enum Format {
     Full,
     /// One line each
     Concise,
-    /// One JSON object a line
+    /// One JSON object per line
     Json,
     /// SARIF 2.1.0
     Sarif,
     /// Annotations of a GitHub workflow
     Github,
-    /// GitLab code quality
+    /// GitLab Code Quality report
     Gitlab,
     /// `JUnit` XML, a test case for each path or program
     Junit,
