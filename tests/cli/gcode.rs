@@ -281,11 +281,15 @@ fn a_comment_that_emit_does_not_write_is_found() {
     let place = Place::of(LIBRARY);
     assert_eq!(place.run("emit 1234.1P").status, Some(0));
     let other = place.read("parts/1234_Milling.gcode").replace("drawing 1234.dxf", "drawing 4321.dxf");
-    let place = place.file("other.gcode", other);
+    let longer = place.read("parts/1234_Milling.gcode") + "(one more)\n";
+    let place = place.file("other.gcode", other).file("longer.gcode", longer);
+    let run = place.run("verify longer.gcode --against 1234.1P --format concise");
+    assert!(run.stderr.contains("PB777] emit does not write this comment"), "{run}");
     let is_found = |place: &Place| {
         let run = place.run("verify other.gcode --against 1234.1P --format concise");
         assert_eq!(run.status, Some(0), "{run}");
-        run.stderr.contains("PB777] emit writes `(Path 1234.1P, drawing 1234.dxf)` here")
+        let missing = "PB777] the program does not have the comment that emit writes here: `(Path 1234.1P, drawing 1234.dxf)`";
+        run.stderr.contains(missing)
     };
     assert!(is_found(&place));
     let configuration = place.read("pathbuild.toml").replace("rapid = 1000", "rapid = 2000");

@@ -78,6 +78,13 @@ messages! {
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
+    /// `verify --against`: a probing program that goes on after the end of the drawing's.
+    PROBING_ENDED: MovesDiffer {
+        en: "the drawing's probing run has no line here: it has ended",
+        de: "das Antastprogramm der Zeichnung hat hier keine Zeile mehr: es ist zu Ende",
+        help_en: "write the program again with `pathbuild emit`",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben",
+    }
     /// `verify --against`: a program that joins several paths.
     JOINED_PROGRAM: MovesDiffer {
         en: "the program joins several paths, and --against compares a program with one path",
@@ -208,8 +215,8 @@ messages! {
     FORMULA_NOT_DRAWN: FormulaDiffers {
         en: "the formula is {found}, the drawing gives {expected}",
         de: "die Formel ist {found}, die Zeichnung ergibt {expected}",
-        help_en: "emit and adjust again: the program was edited, or written with another --z-model",
-        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet oder mit einem anderen --z-model geschrieben",
+        help_en: "emit and adjust again: the program was edited, or written with another `z-model`",
+        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet oder mit einem anderen `z-model` geschrieben",
     }
     /// A probe that differs from that in the drawing's program.
     PROBE_NOT_DRAWN: FormulaDiffers {
@@ -379,12 +386,19 @@ messages! {
         help_en: "emit again: the program was edited",
         help_de: "noch einmal ausgeben: das Programm wurde bearbeitet",
     }
+    /// A comment after the last one that `emit` writes.
+    TEXT_ADDED: Disagreement {
+        en: "emit does not write this comment",
+        de: "emit schreibt diesen Kommentar nicht",
+        help_en: "write the program again with `pathbuild emit`: it was edited",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben: es wurde bearbeitet",
+    }
     /// A comment that differs from what `emit` writes.
     TEXT_DIFFERS: Disagreement {
-        en: "emit writes `{expected}` here",
-        de: "emit schreibt hier `{expected}`",
-        help_en: "emit again: the program was edited",
-        help_de: "noch einmal ausgeben: das Programm wurde bearbeitet",
+        en: "the program does not have the comment that emit writes here: `{expected}`",
+        de: "im Programm fehlt der Kommentar, den emit hier schreibt: `{expected}`",
+        help_en: "write the program again with `pathbuild emit`: it was edited",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben: es wurde bearbeitet",
     }
     /// A rapid move in the plane through material.
     RAPID_IN_MATERIAL: RapidInMaterial {
@@ -488,8 +502,8 @@ messages! {
     SPINDLE_SPEED_WITHOUT_START: SpindleOff {
         en: "the program cuts with a speed S, but never switches the spindle on",
         de: "das Programm fräst mit einer Drehzahl S, schaltet aber die Spindel nie ein",
-        help_en: "write M3 before the cut, or switch the spindle on by hand before the program",
-        help_de: "M3 vor den Schnitt schreiben, oder die Spindel vor dem Programm von Hand einschalten",
+        help_en: "write M3 before the cut, or spindle = \"manual\" in pathbuild.toml if the operator switches the spindle",
+        help_de: "M3 vor den Schnitt schreiben, oder spindle = \"manual\" in pathbuild.toml, wenn der Bediener die Spindel schaltet",
     }
     /// A program that ends with the spindle on.
     SPINDLE_LEFT_ON: SpindleLeftOn {
@@ -500,8 +514,8 @@ messages! {
     }
     /// Arcs with only one or two decimals.
     COARSE_ARCS: CoarseArcs {
-        en: "arcs are written with {decimals} decimals of a millimetre",
-        de: "Bögen sind mit {decimals} Nachkommastellen eines Millimeters geschrieben",
+        en: "arcs are written in steps of {step} mm",
+        de: "Bögen sind in Schritten von {step} mm geschrieben",
         help_en: "set the post-processor to three or more decimals: the ends and centres of rounded arcs do not match",
         help_de: "den Postprozessor auf drei oder mehr Nachkommastellen einstellen: die Enden und Mittelpunkte gerundeter Bögen passen nicht zusammen",
     }
@@ -631,32 +645,32 @@ messages! {
         help_en: "write H{tool}; if H{entry} is the length of T{tool} on this machine, accept this warning with `--accept`",
         help_de: "H{tool} schreiben; ist H{entry} auf dieser Maschine die Länge von T{tool}, die Warnung mit `--accept` hinnehmen",
     }
-    /// `diff`: moves to different points.
+    /// A native program, read back: moves to different points.
     PATHS_DIFFER: MovesDiffer {
         en: "the moves differ: here the tool goes to {found}, but in line {line} of the other program to {expected}",
         de: "die Bewegungen unterscheiden sich: hier fährt das Werkzeug nach {found}, in Zeile {line} des anderen Programms aber nach {expected}",
     }
-    /// `diff`: moves along different curves.
+    /// A native program, read back: moves along different curves.
     SHAPES_DIFFER: MovesDiffer {
         en: "the moves differ: this one and the one in line {line} of the other program have the same ends, but different routes between them",
         de: "die Bewegungen unterscheiden sich: diese und die in Zeile {line} des anderen Programms haben dieselben Enden, aber nicht denselben Weg dazwischen",
     }
-    /// `diff`: a rapid move in one program and a cut in the other.
+    /// A native program, read back: a rapid move in one program and a cut in the other.
     KINDS_DIFFER: MovesDiffer {
         en: "the moves differ: this is {found}, but in line {line} of the other program it is {expected}",
         de: "die Bewegungen unterscheiden sich: das ist {found}, in Zeile {line} des anderen Programms aber {expected}",
     }
-    /// `diff`: different feeds.
+    /// A native program, read back: different feeds.
     FEEDS_DIFFER: MovesDiffer {
         en: "the feeds differ: {found} here, but {expected} in line {line} of the other program",
         de: "die Vorschübe unterscheiden sich: hier {found}, in Zeile {line} des anderen Programms aber {expected}",
     }
-    /// `diff`: missing moves at the end.
+    /// A native program, read back: missing moves at the end.
     MOVES_MISSING: MovesDiffer {
         en: "the moves end here, but the other program goes on in line {line}",
         de: "die Bewegungen enden hier, das andere Programm geht aber in Zeile {line} weiter",
     }
-    /// `diff`: additional moves at the end.
+    /// A native program, read back: additional moves at the end.
     MOVES_TOO_MANY: MovesDiffer {
         en: "the moves of the other program end in line {line}, but this program goes on",
         de: "die Bewegungen des anderen Programms enden in Zeile {line}, dieses Programm geht aber weiter",

@@ -475,7 +475,8 @@ pub fn coarse_arc_finding(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
     }
     let line = first.filter(|_| has_rounded_arc(text, dialect))?;
     let mut problems = Problems::default();
-    problems.add_at_line(&say::COARSE_ARCS, line, |d| d.with("decimals", u64::from(finest)));
+    let step = if finest == 1 { 0.1 } else { 0.01 };
+    problems.add_at_line(&say::COARSE_ARCS, line, |d| d.with("step", step));
     problems.into_diagnostics().pop()
 }
 

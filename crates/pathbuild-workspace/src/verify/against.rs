@@ -222,7 +222,7 @@ impl ReferenceProgram {
         };
         let text = native_text(settings, &self.drawn, kind)?.into_bytes();
         if is_probing && let Some(other) = native::first_other_line(&program.text, &text, Parts::Code) {
-            return Ok(vec![other_line(&say::PROBING_NOT_DRAWN, other)]);
+            return Ok(vec![other_line([&say::PROBING_NOT_DRAWN, &say::PROBING_ENDED], other)]);
         }
         let correction = write_settings(settings).options.correction;
         let mut differences = Vec::new();
@@ -242,7 +242,7 @@ impl ReferenceProgram {
         let text =
             if is_adjusted { adjusted_again(source(&program.text), source(&text)) } else { Some(text) };
         let other = text.and_then(|text| native::first_other_line(&program.text, &text, Parts::Comments));
-        differences.extend(other.map(|other| other_line(&say::TEXT_DIFFERS, other)));
+        differences.extend(other.map(|other| other_line([&say::TEXT_DIFFERS, &say::TEXT_ADDED], other)));
         Ok(differences)
     }
 
@@ -264,7 +264,9 @@ impl ReferenceProgram {
     }
 }
 
-fn other_line(message: &'static Message, other: OtherLine) -> Diagnostic {
+/// Returns a finding about a line that differs: with the first message, or with the second if the expected text has ended before it.
+fn other_line([differs, has_ended]: [&'static Message; 2], other: OtherLine) -> Diagnostic {
+    let message = if other.expected.is_empty() { has_ended } else { differs };
     Diagnostic::new(message).quoting("expected", other.expected).at_line(other.line, None)
 }
 
