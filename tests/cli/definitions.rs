@@ -192,7 +192,7 @@ fn words_that_the_definition_does_not_write_are_doubtful() {
 fn one_warning_names_the_words_on_which_controls_disagree() {
     let place = Place::of(LIBRARY);
     let run = place.run("emit 1234.1P --post own.toml --format concise");
-    assert_eq!(run.stderr.matches("controls disagree on what G71 does").count(), 1, "{run}");
+    assert_eq!(run.stderr.matches("controls disagree on the meaning of G71").count(), 1, "{run}");
     let run = place.run("emit 1234.1P --post own.toml --dialect din --format concise");
     assert!(!run.stderr.contains("controls disagree"), "{run}");
 

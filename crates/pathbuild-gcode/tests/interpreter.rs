@@ -1219,7 +1219,7 @@ fn a_fault_says_what_and_where() {
 fn what_changes_beside_the_moves_is_a_step() {
     assert_eq!(
         changes(LinuxCnc, "G21 G90\nG43 H2\nG49\nG43.1 Z3"),
-        ["2 ToolLength(OfTool(Some(2)))", "3 ToolLength(Off)", "4 ToolLength(Other)"]
+        ["2 ToolLength(OfTool(Some(2)))", "3 ToolLength(Off)", "4 ToolLength(Other(431))"]
     );
     assert_eq!(
         changes(LinuxCnc, "G64 P0.5\nG61\nG64\nG20 G64 P1"),

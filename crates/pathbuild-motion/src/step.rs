@@ -209,8 +209,8 @@ pub enum ToolLength {
     Off,
     /// G43 H: the length in an entry of the tool table or, without H, the length of the tool in the spindle.
     OfTool(Option<u32>),
-    /// Any other length: G43.1, G43.2, G44, or G43 with only X or Y.
-    Other,
+    /// Any other length, with the number of the G code times ten: G43.1, G43.2, G44, or G43 with only X or Y.
+    Other(u16),
 }
 
 /// Behaviour at corners.

@@ -194,10 +194,10 @@ impl Builder {
             Action::Spindle(spindle) => self.set_spindle(spindle),
             Action::Coolant(coolant) => self.set_coolant(*coolant),
             Action::System { system, .. } if *system != WorkSystem::default() => {
-                self.refuse(step.line, &posts::JOB_SYSTEM);
+                self.refuse_word(step.line, &posts::JOB_SYSTEM, system.name());
             }
             Action::Change(Change::Offsets { code, is_followed: false, .. }) => {
-                self.refuse_zero(step.line, code_name('G', *code));
+                self.refuse_word(step.line, &posts::JOB_ZERO, code_name('G', *code));
             }
             Action::Change(Change::ToolLength(ToolLength::Off | ToolLength::OfTool(Some(0)))) => {
                 (self.has_length, self.length_line) = (false, step.line);
@@ -206,8 +206,8 @@ impl Builder {
                 (self.has_length, self.length_line) = (true, step.line);
                 self.length_tool = entry.or(self.state.tool);
             }
-            Action::Change(Change::ToolLength(ToolLength::Other)) if !self.has_cut_with_tool => {
-                self.refuse_zero(step.line, "G43.1, G44".to_owned());
+            Action::Change(Change::ToolLength(ToolLength::Other(code))) if !self.has_cut_with_tool => {
+                self.refuse_word(step.line, &posts::JOB_ZERO, code_name('G', *code));
             }
             Action::Comment(text) => match remark(text) {
                 Remark::Stays => self.push(JobStep::Comment(text.trim().into())),
@@ -238,10 +238,15 @@ impl Builder {
         }
     }
 
-    /// Reports a word that sets the zero or the tool length at the machine, which the post does not write.
-    fn refuse_zero(&mut self, line: u32, word: String) {
-        self.refuse(line, &posts::JOB_ZERO);
-        if let Some(error) = self.errors.iter_mut().find(|error| error.message == &posts::JOB_ZERO)
+    /// Reports a word that the post does not write. `message` says what the word sets.
+    fn refuse_word(
+        &mut self,
+        line: u32,
+        message: &'static pathbuild_diagnostic::Message,
+        word: impl AsRef<str>,
+    ) {
+        self.refuse(line, message);
+        if let Some(error) = self.errors.iter_mut().find(|error| error.message == message)
             && error.arguments.is_empty()
         {
             error.arguments.push(("word", Value::quoted(word)));

@@ -4,7 +4,7 @@
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Options};
+use pathbuild_gcode::interpret::{self, Options, code_name};
 use pathbuild_gcode::verify::{
     BentRapidRules, CornerRules, Cutter, Machine, MachineRules, Rules, Stock, StockSpan, Tolerance,
     coarse_arc_finding,
@@ -251,13 +251,16 @@ fn disputed_words_warning(translated: &TranslatedText) -> Option<Diagnostic> {
 fn work_offset_warnings(steps: &[Step]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for step in steps {
-        let word = match &step.action {
-            Action::System { system, .. } if *system != WorkSystem::default() => system.name(),
-            Action::Change(Change::ToolLength(ToolLength::Other)) => "G43.1, G43.2".into(),
+        let doubt = match &step.action {
+            Action::System { system, .. } if *system != WorkSystem::default() => {
+                Diagnostic::new(&posts::OFFSET_CHOSEN).quoting("word", system.name())
+            }
+            Action::Change(Change::ToolLength(ToolLength::Other(code))) => {
+                Diagnostic::new(&posts::LENGTH_CHOSEN).quoting("word", code_name('G', *code))
+            }
             _ => continue,
         };
         if doubts.len() < MAX_OFFSET_WARNINGS {
-            let doubt = Diagnostic::new(&posts::OFFSET_CHOSEN).quoting("word", word);
             doubts.push(doubt.at_line(step.line, None));
         }
     }

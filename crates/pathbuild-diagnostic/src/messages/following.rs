@@ -85,7 +85,7 @@ messages! {
         en: "subprograms and loops are nested more than {most} levels deep: this one is left out",
         de: "Unterprogramme und Schleifen sind mehr als {most} Ebenen tief verschachtelt: diese Ebene wird ausgelassen",
         help_en: "nest fewer levels: replace the innermost calls and loops with the moves that they make",
-        help_de: "die innersten Bewegungen ausschreiben",
+        help_de: "weniger Ebenen verschachteln: die innersten Aufrufe und Schleifen durch ihre Bewegungen ersetzen",
     }
     /// Calls and loops that execute more lines than the limit.
     CALLS_TOO_LONG: WordNotFollowed {
@@ -119,6 +119,13 @@ messages! {
         de: "Layer {layer} hat schon die Drehzahl {old}; {new} ersetzt sie",
         help_en: "give each layer only one S",
         help_de: "jedem Layer nur ein S geben",
+    }
+    /// A dwell for a number of turns of the spindle before a speed is set.
+    TURNS_WITHOUT_SPEED: MissingWord {
+        en: "this dwell lasts a number of turns of the spindle, and no speed is set",
+        de: "diese Wartezeit dauert eine Anzahl von Umdrehungen der Spindel, und es ist keine Drehzahl gesetzt",
+        help_en: "set the speed with S on an earlier line, or write the dwell in seconds",
+        help_de: "die Drehzahl mit S in einer früheren Zeile setzen oder die Wartezeit in Sekunden schreiben",
     }
     /// Coordinates in a line while no motion mode is active.
     NO_MOTION: MissingWord {
@@ -234,8 +241,8 @@ messages! {
     UNITS_CONTRADICTED: UnitsNotStated {
         en: "{word} is read as {unit}, but the comment says {comment}",
         de: "{word} wird als {unit} gelesen, aber der Kommentar sagt {comment}",
-        help_en: "choose the right meaning with `unit-codes`: the table of XpertMILL's import filter contradicts its examples",
-        help_de: "mit `unit-codes` die richtige Bedeutung wählen: die Tabelle des Importfilters von XpertMILL widerspricht seinen Beispielen",
+        help_en: "choose the right meaning with `--unit-codes`: the table of XpertMILL's import filter contradicts its examples",
+        help_de: "mit `--unit-codes` die richtige Bedeutung wählen: die Tabelle des Importfilters von XpertMILL widerspricht seinen Beispielen",
     }
     /// A program that does not state a mode such as G90 or G17.
     MODES_NOT_STATED: ModesNotStated {
@@ -307,8 +314,8 @@ messages! {
     }
     /// An arc without a required axis word.
     ARC_WITHOUT_END: InvalidArc {
-        en: "{dialect} requires {axes} in an arc, even when they do not change",
-        de: "{dialect} verlangt {axes} in einem Bogen, auch wenn sie sich nicht ändern",
+        en: "{dialect} requires at least one of {axes} in an arc, even if none of them changes",
+        de: "{dialect} verlangt mindestens eines von {axes} in einem Bogen, auch wenn sich keines davon ändert",
         help_en: "repeat the coordinates",
         help_de: "die Koordinaten wiederholen",
     }
@@ -326,12 +333,12 @@ messages! {
         help_en: "make R at least half of that distance",
         help_de: "R mindestens auf die Hälfte dieses Abstands setzen",
     }
-    /// An arc given by a radius of 0.
+    /// An arc with its centre at its start.
     RADIUS_ZERO: InvalidArc {
         en: "the arc's radius is 0",
         de: "der Radius des Bogens ist 0",
-        help_en: "correct I and J: they give the centre as seen from the start of the arc, except with G90.1 or --absolute-arc-centres",
-        help_de: "I und J berichtigen: sie geben den Mittelpunkt vom Anfang des Bogens aus an, außer mit G90.1 oder --absolute-arc-centres",
+        help_en: "correct {centre}, which give the centre as seen from the start of the arc, except with G90.1 or --absolute-arc-centres",
+        help_de: "{centre} berichtigen: sie geben den Mittelpunkt vom Anfang des Bogens aus an, außer mit G90.1 oder --absolute-arc-centres",
     }
     /// An arc given by its radius that is nearly a half circle, so that the centre is imprecise.
     NEAR_HALF_CIRCLE: DoubtfulArc {

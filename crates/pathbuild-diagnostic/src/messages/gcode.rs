@@ -58,8 +58,8 @@ messages! {
     }
     /// Words on which controls disagree, in a program that does not reveal its dialect.
     DIALECT_NOT_NAMED: UnnamedDialect {
-        en: "controls disagree on what {words} does; the program is read as {dialect}",
-        de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden; das Programm wird als {dialect} gelesen",
+        en: "controls disagree on the meaning of {words}; the program is read as {dialect}",
+        de: "die Bedeutung von {words} ist von Steuerung zu Steuerung verschieden; das Programm wird als {dialect} gelesen",
         help_en: "name the control's dialect with --dialect",
         help_de: "den Dialekt der Steuerung mit --dialect nennen",
     }
@@ -312,8 +312,8 @@ messages! {
     CODE_NOT_KNOWN: UnknownWord {
         en: "{dialect} does not know {word}",
         de: "{dialect} kennt {word} nicht",
-        help_en: "read the file as another dialect with --dialect, or write it for this one with `pathbuild post FILE --post {dialect}`",
-        help_de: "die Datei mit --dialect als anderen Dialekt lesen oder sie mit `pathbuild post DATEI --post {dialect}` für diesen schreiben",
+        help_en: "correct the word; if the program is for another control, name that one with --dialect, or write the program for this one with `pathbuild post FILE --dialect DIALECT --post POST`",
+        help_de: "das Wort berichtigen; ist das Programm für eine andere Steuerung, diese mit --dialect nennen oder es mit `pathbuild post DATEI --dialect DIALEKT --post POST` für diese hier schreiben",
     }
     /// A word with a letter that the dialect does not have.
     LETTER_NOT_KNOWN: UnknownWord {

@@ -5,8 +5,8 @@ messages! {
     TOO_MANY_PECKS: EndlessMacro {
         en: "the hole at {place} requires more than {limit} pecks",
         de: "die Bohrung bei {place} braucht mehr als {limit} Stufen",
-        help_en: "check C, the depth of a peck, at this hole",
-        help_de: "C, die Tiefe einer Stufe, bei dieser Bohrung prüfen",
+        help_en: "check the depth of a peck at this hole: C in a drawing, Q in a program",
+        help_de: "die Tiefe einer Stufe bei dieser Bohrung prüfen: C in einer Zeichnung, Q in einem Programm",
     }
     /// A tolerance for chords that is so small that an arc would become too many lines.
     TOO_MANY_CHORDS: EndlessMacro {
@@ -52,8 +52,8 @@ messages! {
     }
     /// A tool number that is missing from the tool table.
     TOOL_NUMBER_UNKNOWN: UnknownTool {
-        en: "the tool table has no tool with the number {index}: the diameter of T{index} is unknown, and the post writes 0 for it",
-        de: "die Werkzeugtabelle hat kein Werkzeug mit der Nummer {index}: der Durchmesser von T{index} ist unbekannt, und der Postprozessor schreibt dafür 0",
+        en: "the tool table has no tool with the number {index}: the diameter of T{index} is unknown, and a post that writes it writes 0",
+        de: "die Werkzeugtabelle hat kein Werkzeug mit der Nummer {index}: der Durchmesser von T{index} ist unbekannt, und ein Postprozessor, der ihn schreibt, schreibt 0",
         help_en: "add it as [tool.NAME] with `number` to pathbuild.toml",
         help_de: "als [tool.NAME] mit `number` in pathbuild.toml aufnehmen",
     }
@@ -68,6 +68,8 @@ messages! {
     JOB_EMPTY: NothingToPost {
         en: "the program mills nothing: there is nothing to write",
         de: "das Programm fräst nichts: es gibt nichts zu schreiben",
+        help_en: "check that this is the right file, and that it is complete",
+        help_de: "prüfen, ob das die richtige Datei ist und ob sie vollständig ist",
     }
     /// A coordinate or feed that is NaN or infinite.
     JOB_NOT_FINITE: NothingToPost {
@@ -228,13 +230,13 @@ messages! {
     }
     /// Note: the spindle is not started before the first cut.
     SPINDLE_NOT_STARTED: PostDiffers {
-        en: "the tool cuts here, but the output has not switched the spindle on, although the tool has a `spindle` speed; if the spindle is switched by hand, write spindle = \"manual\" outside all tables of pathbuild.toml",
-        de: "hier wird gefräst, aber die Ausgabe hat die Spindel nicht eingeschaltet, obwohl `spindle` beim Werkzeug eine Drehzahl angibt; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml schreiben",
+        en: "the tool cuts here, but the output has not switched the spindle on, although it turns in the program; if the spindle is switched by hand, write spindle = \"manual\" outside all tables of pathbuild.toml",
+        de: "hier wird gefräst, aber die Ausgabe hat die Spindel nicht eingeschaltet, obwohl sie sich im Programm dreht; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen von pathbuild.toml schreiben",
     }
     /// Note: the spindle turns in the wrong direction.
     SPINDLE_OTHER_WAY: PostDiffers {
-        en: "here the spindle turns in the direction opposite to the tool's `direction`",
-        de: "hier dreht sich die Spindel entgegen der `direction` des Werkzeugs",
+        en: "here the spindle turns in the direction opposite to that in the program",
+        de: "hier dreht sich die Spindel andersherum als im Programm",
     }
     /// Note: the spindle turns at a stop for the operator at which it stands still in the program.
     SPINDLE_TURNS_AT_STOP: PostDiffers {
@@ -305,20 +307,29 @@ messages! {
     WORD_NOT_FOLLOWED: DoubtfulPost {
         en: "the output contains {word}, whose effect is unknown without a dialect",
         de: "die Ausgabe enthält {word}, dessen Wirkung ohne Dialekt unbekannt ist",
-        help_en: "name the dialect of the control in the definition, or with --dialect",
-        help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
+        help_en: "name the dialect of the control in the definition, or with `emit --dialect` or `post --target`",
+        help_de: "den Dialekt der Steuerung in der Definition nennen oder mit `emit --dialect` oder `post --target`",
     }
     /// A G or M code that controls interpret differently, with no dialect named.
     DIALECTS_DISAGREE: DoubtfulPost {
-        en: "controls disagree on what {words} does, and no dialect is named",
-        de: "was {words} bewirkt, ist von Steuerung zu Steuerung verschieden, und kein Dialekt ist genannt",
-        help_en: "name the dialect of the control in the definition, or with --dialect",
-        help_de: "den Dialekt der Steuerung in der Definition oder mit --dialect nennen",
+        en: "controls disagree on the meaning of {words}, and no dialect is named",
+        de: "die Bedeutung von {words} ist von Steuerung zu Steuerung verschieden, und kein Dialekt ist genannt",
+        help_en: "name the dialect of the control in the definition, or with `emit --dialect` or `post --target`",
+        help_de: "den Dialekt der Steuerung in der Definition nennen oder mit `emit --dialect` oder `post --target`",
     }
     /// A work offset in the output, such as G55.
     OFFSET_CHOSEN: DoubtfulPost {
         en: "the output selects a work offset of the machine ({word}), which determines the position of the drawing's zero",
         de: "die Ausgabe wählt eine Nullpunktverschiebung der Maschine ({word}), die die Lage des Zeichnungsnullpunkts bestimmt",
+        help_en: "set that offset at the machine before each run, or remove the word from the post",
+        help_de: "diese Verschiebung vor jedem Lauf an der Maschine setzen oder das Wort aus dem Postprozessor entfernen",
+    }
+    /// A tool length in the output that does not come from an entry of the tool table, such as that of G43.1.
+    LENGTH_CHOSEN: DoubtfulPost {
+        en: "the output applies a tool length with {word}, and whether it is that of the tool is not known",
+        de: "die Ausgabe setzt mit {word} eine Werkzeuglänge, und ob es die des Werkzeugs ist, ist nicht bekannt",
+        help_en: "write G43 with the tool's number as H, or check the length at the machine",
+        help_de: "G43 mit der Nummer des Werkzeugs als H schreiben oder die Länge an der Maschine prüfen",
     }
     /// Note: the line of the output that contains the problem. The output is not written, so that no file contains it.
     IN_OUTPUT: PostDiffers {
@@ -335,12 +346,12 @@ messages! {
         en: "the line comes from the default text of {section}, which the definition does not contain",
         de: "die Zeile stammt aus dem vorgegebenen Text von {section}, den die Definition nicht enthält",
     }
-    /// A program with several work offsets, to be written through a post.
+    /// A work offset other than G54, in a program to be written through a post.
     JOB_SYSTEM: NothingToPost {
-        en: "a post cannot write a program that uses several work offsets",
-        de: "ein Programm mit mehreren Nullpunktverschiebungen kann kein Postprozessor schreiben",
-        help_en: "split it into one program for each work offset",
-        help_de: "es in ein Programm je Nullpunktverschiebung teilen",
+        en: "{word} selects a work offset, which a post does not write: everything after it would be milled somewhere else",
+        de: "{word} wählt eine Nullpunktverschiebung, die ein Postprozessor nicht schreibt: alles danach würde woanders gefräst",
+        help_en: "make a program of its own for each work offset, without {word}; select the offset at the machine or in the texts of the post",
+        help_de: "für jede Nullpunktverschiebung ein eigenes Programm ohne {word} anlegen; die Verschiebung an der Maschine oder in den Texten des Postprozessors wählen",
     }
     /// A cut from or to an unknown position, for example after G91, in a program to be written through a post.
     JOB_PLACE_UNKNOWN: NothingToPost {
@@ -365,8 +376,8 @@ messages! {
     }
     /// A cut with the length of another tool, or without a length where the tool has one, in a program to be written through a post.
     JOB_LENGTH: NothingToPost {
-        en: "the tool length offset (H) is not that of the tool that cuts: a post writes one for each tool, with the tool's own number",
-        de: "die Werkzeuglänge (H) ist nicht die des Werkzeugs, das fräst: ein Postprozessor schreibt eine je Werkzeug, mit der Nummer des Werkzeugs",
+        en: "cuts after this line use another tool length (H) than a post writes: one for each tool, with the tool's own number",
+        de: "Schnitte nach dieser Zeile verwenden eine andere Werkzeuglänge (H), als ein Postprozessor schreibt: eine je Werkzeug, mit der Nummer des Werkzeugs",
         help_en: "name the tool with T, and write H with the same number once after each tool change",
         help_de: "das Werkzeug mit T nennen und nach jedem Werkzeugwechsel einmal H mit derselben Nummer schreiben",
     }

@@ -46,15 +46,26 @@ messages! {
         help_en: "write {nearest}: macros begin with a dollar sign",
         help_de: "{nearest} schreiben: Makros beginnen mit einem Dollarzeichen",
     }
-    /// A syntax error in XML or TOML.
+    /// A syntax error in XML.
     POST_SYNTAX: InvalidPost {
         en: "the definition cannot be read: {reason}",
         de: "die Definition ist nicht lesbar: {reason}",
+        help_en: "correct this place: in XML, & is written as &amp; and < as &lt;; `pathbuild post show linuxcnc` shows a valid definition",
+        help_de: "die Stelle berichtigen: in XML steht &amp; für & und &lt; für <; `pathbuild post show linuxcnc` zeigt eine gültige Definition",
+    }
+    /// A syntax error in TOML.
+    POST_TOML_SYNTAX: InvalidPost {
+        en: "the definition cannot be read: {reason}",
+        de: "die Definition ist nicht lesbar: {reason}",
+        help_en: "correct this place; `pathbuild post show din` shows a valid definition",
+        help_de: "die Stelle berichtigen; `pathbuild post show din` zeigt eine gültige Definition",
     }
     /// A definition file that is larger than the limit.
     POST_TOO_LARGE: InvalidPost {
         en: "the definition has {size} bytes; the limit is {limit}",
         de: "die Definition hat {size} Bytes; die Grenze ist {limit}",
+        help_en: "check whether the file is the definition of a post-processor",
+        help_de: "prüfen, ob die Datei die Definition eines Postprozessors ist",
     }
     /// An XML file with a root element other than `PostProcessor`.
     POST_WRONG_ROOT: InvalidPost {
@@ -87,6 +98,13 @@ messages! {
         help_en: "define it as \"$name=value\" in PostProcessorMacros or in the configuration",
         help_de: "als \"$name=Wert\" in PostProcessorMacros oder in der Konfiguration definieren",
     }
+    /// A macro in the arguments of the definition's command, which has only two of its own.
+    UNKNOWN_COMMAND_MACRO: UnknownMacro {
+        en: "unknown macro {macro} in {section}",
+        de: "unbekanntes Makro {macro} in {section}",
+        help_en: "use one of {known}: a command has no other macros",
+        help_de: "eines von {known} verwenden: ein Befehl hat keine anderen Makros",
+    }
     /// An unknown macro with a similar known one.
     UNKNOWN_MACRO_NEAREST: UnknownMacro {
         en: "unknown macro {macro} in {section}",
@@ -105,6 +123,15 @@ messages! {
     POST_REPEATED_ELEMENT: DoubtfulPost {
         en: "<{element}> occurs again; the last one applies",
         de: "<{element}> kommt noch einmal vor; das letzte gilt",
+        help_en: "keep only one of them",
+        help_de: "nur eines davon behalten",
+    }
+    /// An element within one that contains text.
+    POST_NESTED_ELEMENT: DoubtfulPost {
+        en: "<{element}> is within <{outer}>, which contains text only; it is ignored",
+        de: "<{element}> steht in <{outer}>, das nur Text enthält, und wird übergangen",
+        help_en: "write < as &lt; if it belongs to the text, otherwise move the element out of <{outer}>",
+        help_de: "< als &lt; schreiben, wenn es zum Text gehört, sonst das Element aus <{outer}> herausnehmen",
     }
     /// A malformed line of `PostProcessorMacros`.
     POST_MACRO_LINE: DoubtfulPost {
@@ -145,6 +172,15 @@ messages! {
     VALUE_MISSING: MissingPostValue {
         en: "{macro} in {section} has no value in {operation}",
         de: "{macro} in {section} hat in {operation} keinen Wert",
+        help_en: "remove {macro} from {section}, or use it only where it has a value",
+        help_de: "{macro} aus {section} entfernen oder nur dort verwenden, wo es einen Wert hat",
+    }
+    /// A macro for the number of a program with a name from which no number can be derived.
+    PROGRAM_NUMBER_MISSING: MissingPostValue {
+        en: "{macro} in {section} has no value in {operation}: the name contains no number",
+        de: "{macro} in {section} hat in {operation} keinen Wert: der Name enthält keine Zahl",
+        help_en: "set `program-number` in [post] of pathbuild.toml",
+        help_de: "`program-number` in [post] von pathbuild.toml setzen",
     }
     /// A missing value that only the configuration or the definition can provide.
     VALUE_MISSING_OPEN: MissingPostValue {
@@ -202,6 +238,8 @@ messages! {
     POST_UNKNOWN_KEY: InvalidPost {
         en: "the key {key} is unknown",
         de: "der Schlüssel {key} ist unbekannt",
+        help_en: "use one of {known}",
+        help_de: "einen von {known} verwenden",
     }
     /// An unknown key in a TOML definition with a similar known one.
     POST_UNKNOWN_KEY_NEAREST: InvalidPost {
@@ -221,6 +259,8 @@ messages! {
     VARIABLE_UNDEFINED: UnknownMacro {
         en: "{text}, line {line}, column {column}: there is no variable {name} here",
         de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
+        help_en: "correct the name, translate it in [alias], or assign the variable in a text that is called earlier, such as program-start",
+        help_de: "den Namen berichtigen, in [alias] übersetzen oder die Variable in einem Text zuweisen, der vorher aufgerufen wird, etwa program-start",
     }
     /// A variable that has no value in the text that uses it.
     VARIABLE_WITHOUT_VALUE: UnknownMacro {
@@ -269,6 +309,8 @@ messages! {
     OPEN_BRACE: InvalidControlText {
         en: "{text}, line {line}, column {column}: a statement is not closed",
         de: "{text}, Zeile {line}, Spalte {column}: eine Anweisung ist nicht geschlossen",
+        help_en: "add the missing brace",
+        help_de: "die fehlende Klammer ergänzen",
     }
     /// Further content in a statement that is already complete.
     STATEMENT_GOES_ON: InvalidControlText {

@@ -414,6 +414,7 @@ pub(super) mod limits {
     }
 
     limits! {
+        ANY_AXIS: "X, Y or Z", "X, Y oder Z";
         COUNT: "a whole number, 0 or more", "eine ganze Zahl ab 0";
         HOLES: "a whole number of holes, 1 or more", "eine ganze Zahl von Bohrungen ab 1";
         NOT_BELOW_Z: "at least Z", "mindestens Z";

@@ -101,12 +101,12 @@ impl Interpreter<'_> {
         let is_straight = matches!(motion, Motion::Rapid | Motion::Feed);
         if self.rules.motion_is_stated && is_straight && !sets_feed {
             self.report(block, &say::NEEDS, span, |d| {
-                let d = d.quoting("word", codes::name('G', code)).quoting("missing", "X, Y, Z");
+                let d = d.quoting("word", codes::name('G', code)).with("missing", &limits::ANY_AXIS);
                 Diagnostic { severity: Severity::Warning, ..d }
             });
         } else if matches!(code, 382..=385) {
             self.report(block, &say::NEEDS, span, |d| {
-                d.quoting("word", codes::name('G', code)).quoting("missing", "X, Y, Z")
+                d.quoting("word", codes::name('G', code)).with("missing", &limits::ANY_AXIS)
             });
         }
     }
@@ -330,7 +330,9 @@ impl Interpreter<'_> {
             return self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", "G10"));
         };
         if self.rules.offsets_need_axis && given_axes(&coordinates).is_empty() {
-            self.report(block, &say::NEEDS, span, |d| d.quoting("word", "G10").quoting("missing", "X, Y, Z"));
+            self.report(block, &say::NEEDS, span, |d| {
+                d.quoting("word", "G10").with("missing", &limits::ANY_AXIS)
+            });
         }
         if number > 9 {
             return self.report(block, &say::OUT_OF_RANGE, span, |d| {
@@ -443,7 +445,9 @@ impl Interpreter<'_> {
 
     fn set_origins(&mut self, block: &Block<'_>, span: Span) {
         if !self.words.values.has_coordinates() {
-            self.report(block, &say::NEEDS, span, |d| d.quoting("word", "G92").quoting("missing", "X, Y, Z"));
+            self.report(block, &say::NEEDS, span, |d| {
+                d.quoting("word", "G92").with("missing", &limits::ANY_AXIS)
+            });
         }
         for (axis, slot) in self.words.values.take_coordinates().into_iter().enumerate() {
             if let Some(slot) = slot {
@@ -550,7 +554,8 @@ impl Interpreter<'_> {
         };
         let arc = Arc { plane, centre, clockwise, extra_turns };
         if arc.radius(&from) == 0.0 {
-            self.report(block, &say::RADIUS_ZERO, whole_line(block), |d| d);
+            let words = plane_words(plane, ["I", "J", "K"]);
+            self.report(block, &say::RADIUS_ZERO, whole_line(block), |d| d.quoting("centre", words));
             return self.omit_arc(to);
         }
         let mut movement = Move { from, to, shape: MoveShape::Arc(arc), pace: Pace::Feed(0.0), named: None };

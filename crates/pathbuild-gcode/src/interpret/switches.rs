@@ -147,9 +147,7 @@ impl Interpreter<'_> {
     fn seconds_of_turns(&mut self, block: &Block<'_>, turns: Slot) -> f64 {
         let speed = self.state.spindle.speed.filter(|speed| *speed > 0.0);
         if speed.is_none() {
-            self.report(block, &say::NEEDS, turns.span, |d| {
-                d.quoting("word", "G4 S").quoting("missing", "S")
-            });
+            self.report(block, &say::TURNS_WITHOUT_SPEED, turns.span, |d| d);
         }
         speed.map_or(0.0, |speed| 60.0 * turns.value / speed)
     }
@@ -270,11 +268,11 @@ impl Interpreter<'_> {
         let is_across =
             [b'X', b'Y'].iter().any(|axis| self.words.values.has(*axis)) && !self.words.values.has(b'Z');
         let length = match (code, entry.map(whole_number)) {
-            (430, _) if is_across => ToolLength::Other,
+            (430, _) if is_across => ToolLength::Other(code),
             (490, _) => ToolLength::Off,
             (430, None) => ToolLength::OfTool(None),
             (430, Some(Some(number))) => ToolLength::OfTool(Some(number)),
-            _ => ToolLength::Other,
+            _ => ToolLength::Other(code),
         };
         if code != 431 {
             self.state.offsets.set_length((code == 490).then_some(0.0));

@@ -79,7 +79,7 @@ impl TipHeight {
             }
             Action::Change(Change::ToolLength(length)) => {
                 self.is_beside_change = false;
-                let is_other = *length == ToolLength::Other || self.length != Some(*length);
+                let is_other = matches!(length, ToolLength::Other(_)) || self.length != Some(*length);
                 self.length = Some(*length);
                 if is_other && *length != ToolLength::Off {
                     return self.change_at_stop();

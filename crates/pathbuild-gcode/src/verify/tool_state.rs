@@ -123,7 +123,7 @@ impl ToolState {
             _ if is_outdated => LengthFit::Outdated,
             ToolLength::OfTool(Some(entry)) if tool.is_some() => LengthFit::OfEntry(entry),
             ToolLength::OfTool(None) if tool.is_some() && !self.keeps_entry() => LengthFit::Fits,
-            ToolLength::OfTool(_) | ToolLength::Other => LengthFit::Unknown,
+            ToolLength::OfTool(_) | ToolLength::Other(_) => LengthFit::Unknown,
         }
     }
 

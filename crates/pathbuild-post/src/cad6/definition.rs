@@ -40,7 +40,7 @@ impl Definition {
             Ok(table) => table,
             Err(error) => {
                 reader.report(
-                    Diagnostic::new(&posts::POST_SYNTAX)
+                    Diagnostic::new(&posts::POST_TOML_SYNTAX)
                         .with("reason", pathbuild_diagnostic::Value::foreign(error.message())),
                     error.span().unwrap_or(0..0),
                 );
@@ -213,6 +213,7 @@ impl ControlTextReader<'_> {
         let nearest = nearest(key.get_ref(), known.iter().copied());
         let diagnostic =
             Diagnostic::new(&posts::POST_UNKNOWN_KEY).or_nearest(&posts::POST_UNKNOWN_KEY_NEAREST, nearest);
+        let diagnostic = diagnostic.with("known", known.iter().collect::<pathbuild_diagnostic::Value>());
         self.report(diagnostic.quoting("key", format!("{prefix}{}", key.get_ref())), key.span());
     }
 

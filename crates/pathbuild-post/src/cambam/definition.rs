@@ -265,7 +265,8 @@ impl<'a> CbppReader<'a> {
         for nested in element.children().filter(Node::is_element) {
             let line = self.lines.line(nested.range().start);
             let name = nested.tag_name().name();
-            self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).quoting("element", name), line);
+            let nested = Diagnostic::new(&posts::POST_NESTED_ELEMENT).quoting("element", name);
+            self.report(nested.quoting("outer", element.tag_name().name()), line);
         }
     }
 

@@ -15,8 +15,8 @@ mod values;
 mod writer;
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Value};
 
 use crate::PostOptions;
 use crate::findings::EngineOutput;
@@ -102,8 +102,11 @@ pub(super) fn post_build(
         let argument = argument.replace("{$outfile}", &output).replace("{$cbfile.name}", &job.name);
         if let Some(start) = argument.find("{$") {
             let name = argument[start + 2..].split('}').next().unwrap_or("");
-            let diagnostic = Diagnostic::new(&posts::UNKNOWN_MACRO).quoting("macro", macro_in_braces(name));
-            return Err(Box::new(diagnostic.quoting("section", "PostBuildCommandArgs").in_file(file)));
+            let diagnostic = Diagnostic::new(&posts::UNKNOWN_COMMAND_MACRO)
+                .quoting("macro", macro_in_braces(name))
+                .quoting("section", "PostBuildCommandArgs");
+            let known = ["outfile", "cbfile.name"].map(macro_in_braces);
+            return Err(Box::new(diagnostic.with("known", known.iter().collect::<Value>()).in_file(file)));
         }
         words.push(argument);
     }

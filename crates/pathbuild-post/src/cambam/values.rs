@@ -72,7 +72,11 @@ impl Writer<'_> {
             self.line.omit_value();
             return Ok(());
         }
-        let message = if value.may_be_missing() { &posts::VALUE_MISSING_OPEN } else { &posts::VALUE_MISSING };
+        let message = match value {
+            Value::ProgramNumber => &posts::PROGRAM_NUMBER_MISSING,
+            _ if value.may_be_missing() => &posts::VALUE_MISSING_OPEN,
+            _ => &posts::VALUE_MISSING,
+        };
         let diagnostic = Diagnostic::new(message)
             .quoting("macro", macro_in_braces(value.name()))
             .quoting("name", value.name())

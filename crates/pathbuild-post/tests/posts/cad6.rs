@@ -292,7 +292,7 @@ fn unknown_keys_are_errors_that_name_the_nearest() {
     let expected = [
         "2: PB750 the key post.dezimals is unknown (did you mean decimals?)",
         "4: PB750 the key text.programm-start is unknown (did you mean program-start?)",
-        "5: PB750 the key other is unknown",
+        "5: PB750 the key other is unknown (use one of post, text, alias)",
     ];
     let mut errors =
         texts(&PostDefinition::read(definition.as_bytes(), Utf8Path::new("t.toml")).unwrap_err());

@@ -74,7 +74,10 @@ fn an_unknown_element_is_a_warning() {
 fn a_repeated_element_is_a_warning_and_the_last_one_holds() {
     let text = bare("<G0>G00</G0>\n<G0>G000</G0>");
     let written = output(&text, &job(vec![]), &PostOptions::default()).unwrap();
-    assert_eq!(texts(&written.warnings), ["4: PB752 <G0> occurs again; the last one applies"]);
+    assert_eq!(
+        texts(&written.warnings),
+        ["4: PB752 <G0> occurs again; the last one applies (keep only one of them)"]
+    );
     assert_eq!(lines(&text, &job(vec![]))[0], "G000 Z5.0");
 }
 
@@ -239,8 +242,8 @@ fn an_element_within_a_text_is_a_warning() {
     let options = PostOptions { unchecked: true, ..PostOptions::default() };
     let warnings = texts(&post.write(&job(vec![]), &options).unwrap().warnings);
     let expected = [
-        "3: PB752 <b> is not an element of CamBam definitions and is ignored (correct its name, or remove it)",
-        "3: PB752 <i> is not an element of CamBam definitions and is ignored (correct its name, or remove it)",
+        "3: PB752 <b> is within <PostFile>, which contains text only; it is ignored (write < as &lt; if it belongs to the text, otherwise move the element out of <PostFile>)",
+        "3: PB752 <i> is within <Notes>, which contains text only; it is ignored (write < as &lt; if it belongs to the text, otherwise move the element out of <Notes>)",
     ];
     assert_eq!(warnings[..2], expected, "{warnings:?}");
 }
@@ -271,6 +274,8 @@ fn a_value_that_the_program_lacks_is_an_error() {
     let text = definition("<PostFile>\n{$stock_x} {$tool.length}</PostFile>");
     let found = errors(&text, &job(vec![]));
     assert!(found[0].starts_with("4: PB754 {$stock_x} in PostFile has no value in mill (write "));
+    let unnumbered = errors(&definition("<PostFile>{$program.number}</PostFile>"), &job(vec![]));
+    assert!(unnumbered[0].ends_with("(set `program-number` in [post] of pathbuild.toml)"), "{unnumbered:?}");
 }
 
 #[test]
@@ -286,12 +291,20 @@ fn the_command_of_a_post_is_handed_out_only_when_it_will_be_run() {
     let run = output(&bare(command), &job(vec![]), &PostOptions { run_post_build: true, ..options }).unwrap();
     assert_eq!(run.post_build.unwrap(), ["C:\\my tools\\x.bat", "-f", "a b.nc", "part"]);
     assert!(run.notes.iter().all(|note| !note.text(Lang::En).contains("was not run")));
+    let unknown = command.replace("{$cbfile.name}", "{$mine}");
+    let expected = "PB751 unknown macro {$mine} in PostBuildCommandArgs (use one of {$outfile}, {$cbfile.name}: a command has no other macros)";
+    assert_eq!(errors(&bare(&unknown), &job(vec![])), [expected]);
 }
 
 #[test]
 fn an_empty_program_is_refused() {
     let empty = pathbuild_post::Job::default();
-    assert_eq!(errors(&bare(""), &empty), ["PB765 the program mills nothing: there is nothing to write"]);
+    assert_eq!(
+        errors(&bare(""), &empty),
+        [
+            "PB765 the program mills nothing: there is nothing to write (check that this is the right file, and that it is complete)"
+        ]
+    );
     let at = |x| [x, 0.0, 0.0];
     let arc = |from, centre, to, feed| arc(false, [from, 0.0, 0.0], [centre; 2], [0.0, to, 0.0], feed);
     let nan = f64::NAN;

@@ -130,8 +130,9 @@ fn what_a_job_cannot_say_is_an_error_with_its_line() {
     );
     assert!(
         errors(&format!("{start}G55 G0 X1"))[0]
-            .starts_with("2: PB765 a post cannot write a program that uses several work offsets")
+            .starts_with("2: PB765 G55 selects a work offset, which a post does not write")
     );
+    assert!(errors("G21 G90 G57 G0 X0 Y0 Z5\n")[0].starts_with("1: PB765 G57 selects"), "a single one");
     assert!(errors(&format!("{start}G2 X0 Y0 I5 P2 F60"))[0].starts_with("2: PB765 a move of this kind"));
 }
 
@@ -207,12 +208,12 @@ fn a_zero_set_where_the_tool_is_known_to_be_is_followed() {
 #[test]
 fn a_length_that_the_program_states_before_its_first_cut_is_an_error() {
     for dialect in [Dialect::Grbl, Dialect::LinuxCnc] {
-        is_zero_refused(&format!("{HEAD}G43.1 Z7\n{CUT}"), dialect, 2, "G43.1, G44");
+        is_zero_refused(&format!("{HEAD}G43.1 Z7\n{CUT}"), dialect, 2, "G43.1");
         let job = job_of(&format!("{HEAD}G49\n{CUT}G43.1 Z7\nG1 Z-1\n"), dialect).expect("followed");
         let last = job.operations[0].steps.last();
         assert!(matches!(last, Some(JobStep::Move(movement)) if movement.to.z() == 6.0), "{last:?}");
         // Another tool has another length.
-        is_zero_refused(&format!("{HEAD}G49\n{CUT}M0\nG43.1 Z7\nG0 Z5\n{CUT}"), dialect, 9, "G43.1, G44");
+        is_zero_refused(&format!("{HEAD}G49\n{CUT}M0\nG43.1 Z7\nG0 Z5\n{CUT}"), dialect, 9, "G43.1");
     }
 }
 
@@ -302,7 +303,8 @@ fn each_tool_has_one_length_with_its_own_number() {
     let head = "G21 G90 G17\n";
     let is_refused = |text: &str, line: u32| {
         let errors = job_of(&format!("{head}{text}"), Dialect::LinuxCnc).expect_err(text);
-        let start = format!("{line}: PB765 the tool length offset (H) is not that of the tool that cuts");
+        let start =
+            format!("{line}: PB765 cuts after this line use another tool length (H) than a post writes");
         assert!(errors[0].starts_with(&start), "{text}: {errors:?}");
     };
     is_refused(&format!("T1 M6\nG43 H5\n{CUT}"), 3);

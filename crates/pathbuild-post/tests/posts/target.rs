@@ -475,6 +475,9 @@ fn without_a_dialect_words_and_spindle_are_followed_too() {
             doubts(words)
         );
     }
+    let linuxcnc = PostOptions { dialect: Some("linuxcnc".into()), ..PostOptions::default() };
+    let warnings = texts(&written("M3 S1000\nG43.1 Z0", &linuxcnc).unwrap().warnings);
+    assert!(warnings[0].starts_with("PB752 the output applies a tool length with G43.1"), "{warnings:?}");
     // A spindle word is not required if the operator controls the spindle, or if the user takes responsibility for the output.
     for options in [
         PostOptions { manual_spindle: true, ..PostOptions::default() },

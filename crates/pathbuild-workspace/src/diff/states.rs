@@ -335,7 +335,7 @@ fn length_words(length: ToolLength) -> String {
         ToolLength::Off => "G49".to_owned(),
         ToolLength::OfTool(None) => "G43".to_owned(),
         ToolLength::OfTool(Some(number)) => format!("G43 H{number}"),
-        ToolLength::Other => "G43.1".to_owned(),
+        ToolLength::Other(code) => code_name('G', code),
     }
 }
 

@@ -102,7 +102,10 @@ impl<'w> Setup<'w> {
         match &step.action {
             Action::Move(movement) => self.check_move(line, movement, problems),
             Action::Dwell(seconds) => self.check_dwell(line, *seconds, problems),
-            Action::Stop { .. } if self.is_low() => report_extra_word(line, "M0, M1".to_owned(), problems),
+            Action::Stop { optional } if self.is_low() => {
+                let word = if *optional { "M1" } else { "M0" };
+                report_extra_word(line, word.to_owned(), problems);
+            }
             Action::Word(StatedWord { group: Some(group), .. }) => _ = self.missing.remove(group),
             Action::SelectTool(number) => self.check_selected_tool(line, *number, problems),
             Action::ChangeTool(number) => {
@@ -117,7 +120,7 @@ impl<'w> Setup<'w> {
                 (self.coolant, self.coolant_line) = (*coolant, line);
                 self.reported.coolant = false;
                 if self.has_post() && *coolant != Coolant::default() && !self.switches_coolant() {
-                    report_extra_word(line, "M7, M8".to_owned(), problems);
+                    report_extra_word(line, coolant_text(*coolant).to_owned(), problems);
                 }
             }
             Action::Change(change) => self.check_change(line, *change, problems),
@@ -130,21 +133,24 @@ impl<'w> Setup<'w> {
             if self.expected.turning.is_some_and(Turning::is_on) {
                 problems.add_at_line(&say::STOP_MISSING, self.line, |d| d.quoting("word", "M5"));
             } else {
-                report_extra_word(self.spindle_line, "M3, M4".to_owned(), problems);
+                let word = spindle_text(Some(self.tools.spindle().turning), None);
+                report_extra_word(self.spindle_line, word, problems);
             }
         }
         if self.coolant != Coolant::default() && self.switches_coolant() {
             if self.expected.coolant.is_some_and(|expected| expected != Coolant::default()) {
                 problems.add_at_line(&say::STOP_MISSING, self.line, |d| d.quoting("word", "M9"));
             } else {
-                report_extra_word(self.coolant_line, "M7, M8".to_owned(), problems);
+                report_extra_word(self.coolant_line, coolant_text(self.coolant).to_owned(), problems);
             }
         }
     }
 
     fn check_change(&mut self, line: u32, change: Change, problems: &mut Problems) {
         match change {
-            Change::ToolLength(ToolLength::Other) => report_extra_word(line, "G43, G44".to_owned(), problems),
+            Change::ToolLength(ToolLength::Other(code)) => {
+                report_extra_word(line, code_name('G', code), problems);
+            }
             Change::ToolLength(ToolLength::OfTool(_)) if self.tools.length_fit() != LengthFit::Fits => {
                 self.reported.length = true;
                 problems.add_at_line(&say::LENGTHS_DIFFER, line, |d| d);
@@ -172,7 +178,8 @@ impl<'w> Setup<'w> {
                 }
             }
             Change::Plane(Plane::Xy) | Change::Switch(_) => {}
-            Change::Plane(_) => report_extra_word(line, "G18, G19".to_owned(), problems),
+            Change::Plane(Plane::Zx) => report_extra_word(line, "G18".to_owned(), problems),
+            Change::Plane(Plane::Yz) => report_extra_word(line, "G19".to_owned(), problems),
             Change::Parameter => report_extra_word(line, "#".to_owned(), problems),
         }
     }
@@ -202,7 +209,7 @@ impl<'w> Setup<'w> {
             && spindle.turning == Turning::Unstated
             && spindle.speed.unwrap_or_default() == 0.0;
         if is_left_alone && !is_foot {
-            report_extra_word(line, "M3, M4, M5, S".to_owned(), problems);
+            report_extra_word(line, spindle_text(Some(spindle.turning), spindle.speed), problems);
         }
     }
 
@@ -340,6 +347,9 @@ impl<'w> Setup<'w> {
         };
         if !fits && !std::mem::replace(&mut self.reported.length, true) {
             let at = self.tools.length_line().unwrap_or(line);
+            if fit == LengthFit::Fits {
+                return report_extra_word(at, "G43".to_owned(), problems);
+            }
             problems.add_at_line(&say::LENGTHS_DIFFER, at, |d| d);
         }
     }
