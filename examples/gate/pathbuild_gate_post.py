@@ -17,14 +17,17 @@ TOOLTIP_ARGS = post.TOOLTIP_ARGS
 
 def export(objectslist, filename, argstring):
     gcode = post.export(objectslist, "-", argstring)
-    with tempfile.TemporaryDirectory() as directory:
-        program = os.path.join(directory, os.path.basename(filename) if filename != "-" else "program.nc")
+    is_file = filename != "-"
+    # Beside the program, so that the pathbuild.toml of its directory applies.
+    beside = os.path.dirname(os.path.abspath(filename)) if is_file else None
+    with tempfile.TemporaryDirectory(dir=beside) as directory:
+        program = os.path.join(directory, os.path.basename(filename) if is_file else "program.nc")
         with open(program, "w") as file:
             file.write(gcode)
         verified = subprocess.run(["pathbuild", "verify", *OPTIONS, "--", program], capture_output=True, text=True)
     if verified.returncode != 0:
         raise RuntimeError("pathbuild: the program was not written\n" + verified.stdout + verified.stderr)
-    if filename != "-":
+    if is_file:
         with open(filename, "w") as file:
             file.write(gcode)
     return gcode

@@ -182,6 +182,13 @@ fn the_post_for_freecad_writes_only_what_passes() {
     let written = export("sound");
     assert!(written.status.success(), "{written:?}");
     assert_eq!(place.read("out.nc"), SOUND);
+    // The configuration beside the program applies, and nothing else is left there.
+    let place = place.file("machine/pathbuild.toml", "[machine]\ntravel = [30, 30, 30]\n");
+    let run = |gcode: &str, out: &str| command(&place, name).args(["run.py", gcode, out]).output().unwrap();
+    let refused = run("sound", "machine/out.nc");
+    assert!(!refused.status.success(), "{refused:?}");
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("PB748"), "{refused:?}");
+    assert_eq!(std::fs::read_dir(place.path().join("machine")).unwrap().count(), 1);
 }
 
 /// If pathbuild had to assume a probed height, it has not checked the moves that the machine makes.
