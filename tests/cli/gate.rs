@@ -109,6 +109,49 @@ fn moves_after_a_word_that_is_not_followed_do_not_count_as_checked() {
     assert_eq!(unknown.stderr.matches("[PB523]").count(), 2, "{unknown}");
 }
 
+/// Fanuc's block end, printed as a character, hides the moves of its line.
+#[test]
+fn moves_of_a_line_that_is_ignored_do_not_count_as_checked() {
+    let verify = |end: &str| {
+        let program = SOUND.replace("G1 X40 F600\n", &format!("G1 X40 F600{end}\n"));
+        let place =
+            Place::new().file("pathbuild.toml", "severity.PB702 = \"ignore\"\n").file("a.nc", program);
+        place.run("verify a.nc --dialect fanuc --cutter 6 --surface 0 --require rapids")
+    };
+    assert_eq!(verify("").status, Some(0), "{}", verify(""));
+    let hidden = verify(";");
+    assert!(hidden.stderr.contains("[PB523]"), "{hidden}");
+}
+
+/// A program that moves by distances from beginning to end may begin anywhere.
+#[test]
+fn moves_from_a_place_that_is_never_stated_do_not_count_as_checked() {
+    let verify = |mode: &str| {
+        let program = format!(
+            "G21 {mode} G94 G17\nT1 M6\nS12000 M3\nG0 Z5\nG0 X10 Y10\nG1 Z-7 F200\nG1 X40 F600\nG0 Z7\nG0 Y20\nM5\nM30\n"
+        );
+        let configuration = "[machine]\ntravel = [400, 300, 80]\n";
+        let place = Place::new().file("pathbuild.toml", configuration).file("a.nc", program);
+        place.run("verify a.nc --dialect grbl --cutter 6 --surface 0 --require rapids,envelope")
+    };
+    assert_eq!(verify("G90").status, Some(0), "{}", verify("G90"));
+    let unknown = verify("G91");
+    assert_eq!(unknown.stderr.matches("[PB523]").count(), 2, "{unknown}");
+}
+
+/// Whether the surface is stated makes no difference if the cutter is unknown.
+#[test]
+fn a_rapid_move_far_from_all_cuts_is_doubted_with_a_surface_too() {
+    let verify = |y: &str| {
+        let program = format!(
+            "G21 G90 G94 G17\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-2 F200\nG1 X40\nG0 Y{y}\nG1 X0\nG0 Z5\nM5\nM30\n"
+        );
+        Place::new().file("a.nc", program).run("verify a.nc --dialect grbl --surface 0")
+    };
+    assert!(verify("200").stderr.contains("PB781"), "{}", verify("200"));
+    assert!(!verify("20").stderr.contains("PB781"), "{}", verify("20"));
+}
+
 /// A rapid move begins at a position that only the machine knows, and goes down below the surface.
 #[test]
 fn a_rapid_move_on_an_unknown_way_does_not_count_as_checked() {

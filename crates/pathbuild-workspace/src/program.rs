@@ -238,11 +238,9 @@ impl Program {
         text
     }
 
-    /// Whether the dialect knows all words that may move the tool, and the reader interprets them.
+    /// Whether all lines were read, the dialect knows all words that may move the tool, and the reader interprets them.
     pub fn are_moves_known(&self) -> bool {
-        let hides_moves = |problem: &Diagnostic| {
-            problem.is_error() && matches!(problem.code(), Code::UnknownWord | Code::WordNotFollowed)
-        };
+        let hides_moves = |problem: &Diagnostic| problem.is_error() && HIDING_MOVES.contains(&problem.code());
         !self.read.problems.iter().any(hides_moves)
     }
 
@@ -272,6 +270,23 @@ impl Program {
         self.text.split_inclusive(|byte| *byte == b'\n').count()
     }
 }
+
+/// The errors of reading with which a line or a word is ignored, so that the moves are not known.
+const HIDING_MOVES: [Code; 13] = [
+    Code::NotGCode,
+    Code::UnknownCharacter,
+    Code::InvalidWord,
+    Code::InvalidComment,
+    Code::InvalidExpression,
+    Code::LongLine,
+    Code::UnknownWord,
+    Code::WordNotFollowed,
+    Code::ConflictingWords,
+    Code::MissingWord,
+    Code::ValueOutOfRange,
+    Code::CannotEvaluate,
+    Code::InvalidArc,
+];
 
 /// Reads the bytes of a program from a file.
 ///

@@ -27,7 +27,7 @@ pub struct BlindRapidRules {
     /// The axes that the program has stated since the last tool change.
     stated: Axes,
     /// Whether an unknown height is above everything, because the operator, a move to a machine position or a tool changer has raised the tool. False
-    /// after a probe.
+    /// after a probe, and after a move down by a distance (G91).
     is_raised: bool,
     found: Option<BlindRapids>,
 }
@@ -54,10 +54,12 @@ impl BlindRapidRules {
                     let found = self.found.get_or_insert(BlindRapids { count: 0, line: step.line });
                     found.count += 1;
                 }
+                let is_known = movement.to.known.has(Axes::Z);
+                let descends = movement.named.is_none() && !is_known && movement.to.z() < movement.from.z();
                 self.is_raised = match movement.pace {
                     Pace::Probe { .. } => false,
-                    _ if is_low => false,
-                    _ => self.is_raised || movement.homes_z() || movement.to.known.has(Axes::Z),
+                    _ if is_low || descends => false,
+                    _ => self.is_raised || movement.homes_z() || is_known,
                 };
             }
             Action::ChangeTool(_) => self.is_raised = true,

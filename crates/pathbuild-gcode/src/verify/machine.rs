@@ -84,6 +84,11 @@ impl<'m> MachineRules<'m> {
         self.reach.frames.len() > 1
     }
 
+    /// Whether the program moves an axis by distances (G91) without ever stating a position of this axis, so nothing is known about its travel.
+    pub fn has_unknown_axis(&self) -> bool {
+        !self.reach.moved.without(self.reach.stated).is_empty()
+    }
+
     /// Returns all problems, ordered by line.
     pub fn finish(self) -> Vec<Diagnostic> {
         self.problems.into_diagnostics()
@@ -129,6 +134,10 @@ struct Reach {
     /// The extent of positions in machine coordinates. It includes machine zero, because that is within the travel of every machine.
     machine: Extent,
     said: [[bool; 2]; 3],
+    /// The axes that moves change.
+    moved: Axes,
+    /// The axes of which a position was known after some move.
+    stated: Axes,
 }
 
 /// Least and greatest coordinates of X, Y and Z, in mm.
@@ -147,6 +156,11 @@ impl Reach {
 
     fn check(&mut self, line: u32, movement: &Move, travel: &Travel, problems: &mut Problems) {
         self.check_machine_position(line, movement, travel, problems);
+        if movement.named.is_none() {
+            let changes = |axis: &usize| movement.from.at[*axis] != movement.to.at[*axis];
+            self.moved = (0..3).filter(changes).map(Axes::of).fold(self.moved, Axes::with);
+            self.stated = self.stated.with(movement.to.known);
+        }
         let mut movement = *movement;
         if std::mem::take(&mut self.is_entering) && movement.shape == MoveShape::Line {
             movement.from.known = Axes::NONE;

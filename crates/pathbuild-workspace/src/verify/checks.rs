@@ -91,10 +91,12 @@ pub enum Reason {
     NoCornerLimit,
     /// All cuts end above the surface that an option states.
     NoCutBelow,
-    /// The program contains a word that pathbuild does not interpret, so its moves are not known.
+    /// The program contains a line or a word that pathbuild does not read or interpret, so its moves are not known.
     NotFollowed,
     /// The program moves in coordinate systems whose positions relative to each other are not known.
     SeveralZeros,
+    /// The program moves an axis, but never states a position of this axis.
+    NoPosition,
     /// A limit of `[limits]` is exceeded.
     TooLarge,
 }
@@ -108,8 +110,8 @@ pub(super) struct References {
     pub(super) has_keep_out: bool,
     /// Whether pathbuild interprets all words of the program that may move the tool.
     pub(super) are_moves_known: bool,
-    /// Whether the program moves in coordinate systems whose positions relative to each other are not known.
-    pub(super) has_several_zeros: bool,
+    /// The reason why the travel that the program needs is not known; `None` if it is.
+    pub(super) travel_doubt: Option<Reason>,
 }
 
 /// Returns the checks of a program. `rapids` is the outcome of the check of rapid moves.
@@ -132,7 +134,7 @@ pub(super) fn records(
     };
     let envelope = match limits(|machine| machine.travel.is_some()) {
         Outcome::Made(_) if !references.are_moves_known => Outcome::NotMade(Reason::NotFollowed),
-        Outcome::Made(_) if references.has_several_zeros => Outcome::NotMade(Reason::SeveralZeros),
+        Outcome::Made(_) => references.travel_doubt.map_or(Outcome::Made(None), Outcome::NotMade),
         other => other,
     };
     let all = [
@@ -236,8 +238,12 @@ impl CheckRecord {
                 de: "das native Programm, das zeigt, wo welche Höhe gilt",
             },
             (Reason::NotFollowed, _) => &Text {
-                en: "a program without words that are unknown or not interpreted (PB720, PB721)",
-                de: "ein Programm ohne unbekannte und nicht ausgewertete Wörter (PB720, PB721)",
+                en: "a program that is read without errors, such as PB703, PB720 or PB721",
+                de: "ein Programm, das sich ohne Fehler wie PB703, PB720 oder PB721 lesen lässt",
+            },
+            (Reason::NoPosition, _) => &Text {
+                en: "X, Y and Z in G90 before other moves",
+                de: "X, Y und Z in G90 vor anderen Bewegungen",
             },
             (Reason::SeveralZeros, _) => &Text {
                 en: "one work offset, or G10 L2 for each",
@@ -370,8 +376,12 @@ impl Reason {
                 de: "alle Schnitte enden über dem Material von --surface",
             },
             Self::NotFollowed => &Text {
-                en: "the program has a word that pathbuild does not interpret, so its moves are not known",
-                de: "das Programm hat ein Wort, das pathbuild nicht auswertet; seine Bewegungen sind daher nicht bekannt",
+                en: "the program has lines or words that pathbuild cannot read or interpret, so its moves are not known",
+                de: "das Programm hat Zeilen oder Wörter, die pathbuild nicht lesen oder auswerten kann; seine Bewegungen sind daher nicht bekannt",
+            },
+            Self::NoPosition => &Text {
+                en: "the program moves an axis without ever stating a position in G90",
+                de: "das Programm bewegt eine Achse, ohne je eine Position in G90 zu nennen",
             },
             Self::SeveralZeros => &Text {
                 en: "only the machine knows where the work offsets of the program lie",

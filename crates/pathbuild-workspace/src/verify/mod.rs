@@ -246,7 +246,7 @@ struct AsWrittenSteps<'m> {
 struct AsWrittenFindings {
     statistics: Vec<Diagnostic>,
     limits: Vec<Diagnostic>,
-    has_several_zeros: bool,
+    travel_doubt: Option<Reason>,
 }
 
 impl<'m> AsWrittenSteps<'m> {
@@ -278,9 +278,18 @@ impl<'m> AsWrittenSteps<'m> {
             && Provenance::of_head(&program.text).is_some()
             && !native::is_compatible(&program.text);
         let statistics = if has_own_statistics { self.stated.finish() } else { Vec::new() };
-        let has_several_zeros = self.limits.as_ref().is_some_and(MachineRules::has_several_frames);
+        let travel_doubt = self.limits.as_ref().and_then(travel_doubt);
         let limits = self.limits.map(MachineRules::finish).unwrap_or_default();
-        (self.header.finish(program.inch_word()), AsWrittenFindings { statistics, limits, has_several_zeros })
+        (self.header.finish(program.inch_word()), AsWrittenFindings { statistics, limits, travel_doubt })
+    }
+}
+
+/// Returns the reason why the travel that a program needs is not known; `None` if it is.
+fn travel_doubt(limits: &MachineRules<'_>) -> Option<Reason> {
+    if limits.has_several_frames() {
+        Some(Reason::SeveralZeros)
+    } else {
+        limits.has_unknown_axis().then_some(Reason::NoPosition)
     }
 }
 
@@ -342,8 +351,8 @@ struct CheckEvidence {
     corners: CornerRules,
     /// The lowest height in mm that a cut reaches.
     lowest_cut: Option<f64>,
-    /// Whether the program moves in coordinate systems whose positions relative to each other are not known.
-    has_several_zeros: bool,
+    /// The reason why the travel that the program needs is not known; `None` if it is.
+    travel_doubt: Option<Reason>,
 }
 
 impl CheckEvidence {
@@ -407,7 +416,7 @@ impl<'v> Examination<'v> {
             speeds: SpindleStarts::default(),
             corners: CornerRules::new(self.verifier.settings.general.part_tolerance.value),
             lowest_cut: None,
-            has_several_zeros: written.has_several_zeros,
+            travel_doubt: written.travel_doubt,
         };
         let (mut found, comparison) = self.findings(written, rewritten.as_ref(), &mut evidence);
         if let Some(against) =
@@ -546,7 +555,7 @@ impl<'v> Examination<'v> {
             // A check that was not made is an error only if it is required.
             problem.severity = Severity::Warning;
         }
-        let CheckEvidence { blind, speeds, corners, lowest_cut, has_several_zeros } = evidence;
+        let CheckEvidence { blind, speeds, corners, lowest_cut, travel_doubt } = evidence;
         let verifier = self.verifier;
         let references = checks::References {
             is_compared_to_its_end: verifier
@@ -555,7 +564,7 @@ impl<'v> Examination<'v> {
                 .map(|_| comparison.is_none_or(|comparison| comparison.equal == comparison.moves)),
             has_keep_out: verifier.settings.general.keep_out.value.is_some(),
             are_moves_known: self.sources.are_moves_known(),
-            has_several_zeros,
+            travel_doubt,
         };
         // XpertMILL sets the speeds by layer, and not in the program.
         let states_speed =

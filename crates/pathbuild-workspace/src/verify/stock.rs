@@ -190,14 +190,14 @@ impl<'s> Sources<'s> {
         }
     }
 
-    /// Reports rapid moves at cutting depth. Reports none if the surface is known from more than the comments of another CAM program, and none on
-    /// lines that already have an error. A cutter that is not known may be as wide as [`MAX_ASSUMED_DIAMETER`].
+    /// Reports rapid moves at cutting depth. Reports none if the cutter is known, and the surface from more than the comments of another CAM program;
+    /// and none on lines that already have an error. A cutter that is not known may be as wide as [`MAX_ASSUMED_DIAMETER`].
     pub(super) fn doubtful_rapids(&self, rules: DepthRules, found: &[Diagnostic]) -> Vec<Diagnostic> {
-        let is_known = self.options().surface.is_some()
+        let is_surface_known = self.options().surface.is_some()
             || self.verifier.against.is_some()
             || self.program.dialect == Dialect::Native
             || self.header.is_of_pathbuild;
-        if is_known {
+        if is_surface_known && self.cutters().is_some() {
             return Vec::new();
         }
         let widest = [(0, Cutter::flat(MAX_ASSUMED_DIAMETER))];
