@@ -187,6 +187,17 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
 }
 
 {
+  // A rapid move below the upper face is marked far from all cuts as well; one above it does not enlarge the stock.
+  const far = (z) => {
+    const stock = stockOf(plain(2, 2, [move("plunge", [0, 0, 5], [0, 0, 1]), move("mill", [0, 0, 1], [20, 0, 1]), move("sweep", [40, 20, z], [60, 20, z])]));
+    stock.seek(3);
+    return [stock.map.at(50, 20), stock.map.hasRapidCut];
+  };
+  assert.ok(Math.abs(far(1)[0] - 1.002) < 1e-6 && far(1)[1], "a rapid move far away");
+  assert.deepEqual(far(2), [-1e9, false], "on the upper face");
+}
+
+{
   // A cut goes through at the plate or below: not if Z0 is the upper face, and for a raised component where that lies.
   const cut = (z) => [move("plunge", [0, 0, 9], [0, 0, z]), move("mill", [0, 0, z], [20, 0, z])];
   const isThrough = (scene) => {

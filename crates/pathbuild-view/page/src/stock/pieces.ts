@@ -74,6 +74,7 @@ export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
   }
   if (blanks.size === 0) return null;
   const all = [...blanks.values()];
+  widen(all, numbers);
   return {
     pieces: new Float32Array(numbers),
     until: new Uint32Array(until),
@@ -82,6 +83,17 @@ export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
     top: Math.max(...all.map((it) => it.top)),
     low,
   };
+}
+
+/** Widens the lowest blank by the rapid moves below every upper face: they run through material wherever the stock reaches that far. */
+function widen(blanks: Blank[], pieces: number[]): void {
+  const lowest = blanks.reduce((one, other) => (other.top < one.top ? other : one));
+  for (let at = 0; at < pieces.length; at += WIDTH) {
+    if (pieces[at + 7] === 0 || Math.min(pieces[at + 2], pieces[at + 5]) >= lowest.top) continue;
+    const [ax, ay, , bx, by, , radius] = pieces.slice(at, at + WIDTH);
+    const margin = 2 * radius;
+    lowest.box = joined(lowest.box, [Math.min(ax, bx) - margin, Math.min(ay, by) - margin, Math.max(ax, bx) + margin, Math.max(ay, by) + margin]);
+  }
 }
 
 /** Returns Z of the upper face and of the plate where a move cuts, in mm: components may be raised. */
