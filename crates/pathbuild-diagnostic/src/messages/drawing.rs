@@ -100,8 +100,8 @@ messages! {
     UNKNOWN_LINE_TYPE: UnknownLineType {
         en: "line type {line_type} has no meaning on a path layer; elements with it: {count}",
         de: "Linientyp {line_type} hat auf einem Pfadlayer keine Bedeutung; betroffene Elemente: {count}",
-        help_en: "use one of {known} (each also with 2, X2 or TINY added), or define the name under [line-types] in pathbuild.toml",
-        help_de: "einen von {known} verwenden (jeweils auch mit angehängtem 2, X2 oder TINY) oder den Namen unter [line-types] in pathbuild.toml festlegen",
+        help_en: "use one of {known} (PHANTOM on circles only, DASHED and HIDDEN on lines and arcs only; each also with 2, X2 or TINY added), or define the name under [line-types] in pathbuild.toml",
+        help_de: "einen von {known} verwenden (PHANTOM nur bei Kreisen, DASHED und HIDDEN nur bei Linien und Bögen; jeweils auch mit angehängtem 2, X2 oder TINY) oder den Namen unter [line-types] in pathbuild.toml festlegen",
     }
     /// A line type without a meaning, with a suggestion.
     LINE_TYPE_LIKE_ANOTHER: UnknownLineType {

@@ -40,8 +40,8 @@ messages! {
     NOT_CUT_THROUGH: LeftoverAtPart {
         en: "the cut along the outline of the part, from {from} to {to}, over {length} mm, does not go through: it ends at Z{height} (places: {count})",
         de: "der Schnitt am Umriss des Teils, von {from} bis {to}, auf {length} mm, geht nicht durch: er endet bei Z{height} (Stellen: {count})",
-        help_en: "to cut through, draw it with CONTINUOUS lines and set B to 0 or below; a mark (DIVIDE) only goes down to D",
-        help_de: "zum Durchtrennen mit CONTINUOUS zeichnen und B auf 0 oder darunter setzen; eine Markierung (DIVIDE) geht nur bis D",
+        help_en: "to cut through, set B to 0 or below; a mark (DIVIDE) only goes down to D: draw it CONTINUOUS, or BORDER for support bars",
+        help_de: "zum Durchtrennen B auf 0 oder darunter setzen; eine Markierung (DIVIDE) geht nur bis D: sie CONTINUOUS zeichnen, mit Stützstegen BORDER",
     }
     /// A sweep along the outline of a part, where the other sides are cut.
     SWEEP_ALONG_OUTLINE: LeftoverAtPart {
