@@ -69,6 +69,35 @@ fn halves_of_a_part_lie_as_in_their_drawing() {
     assert_eq!(displaced(&[right(0.0, 0.0), LEFT]), [], "in the other order");
 }
 
+/// The part lies at one height, so its halves must not be raised differently.
+#[test]
+fn halves_of_a_part_lie_at_one_height() {
+    let found = |raised: f64| {
+        let project = project(&[LEFT, right(0.0, 0.0)]).replace(">1234.1R", &format!(">1234.1R H{raised}"));
+        let files = [("8001.1P.dxf", &*project), ("1234.1L-1234.1R.dxf", &*halves("30,30"))];
+        found("PB221", &PartTest::default(), &files)
+    };
+    assert_eq!(found(0.019), []);
+    let raised = found(0.021);
+    assert_eq!(raised.len(), 1, "{raised:?}");
+    assert!((number(&raised[0], "distance") - 0.021).abs() < 1e-9, "{raised:?}");
+    assert_eq!(raised[0].place.point, Some(Point::new(30.0, 30.0)), "the second line");
+    assert_eq!(found(2.0).len(), 1);
+}
+
+/// A path that only engraves the part may be raised to any height.
+#[test]
+fn an_engraving_may_be_raised() {
+    let engraving = halves("30,30").replace(
+        "layer 1234.1R\nstart 30,30 \"T2 O2 I1 B0 D1 P4 U10",
+        "layer 1234.1R\nstart 30,30 \"T2 O2 I1 B1.5",
+    );
+    let engraving = engraving.replace("bars 21,22 42,22\nbars to", "mill 21,22 42,22\nmill to");
+    let project = project(&[LEFT, right(0.0, 0.0)]).replace(">1234.1R", ">1234.1R H0.3");
+    let files = [("8001.1P.dxf", &*project), ("1234.1L-1234.1R.dxf", &*engraving)];
+    assert_eq!(found("PB221", &PartTest::default(), &files), []);
+}
+
 /// The message names where both paths place the part, in the program, which begins at the start marker.
 #[test]
 fn both_places_of_the_part_are_named() {
@@ -160,6 +189,28 @@ fn nothing_is_milled_in_loose_waste() {
     assert_eq!(in_waste(&closed, &insert(), [FRAME, INSERT], &held), []);
 }
 
+/// Elements of the project itself are milled between the paths that it embeds.
+#[test]
+fn a_project_cuts_nothing_in_loose_waste_itself() {
+    let count = |opening: &str, cut: &str, is_after: bool| {
+        let frame = frame(opening);
+        let embedded = "subpath -5,-5 55,-5 \">1234.1P\"\n";
+        let elements = if is_after {
+            format!("{embedded}sweep 55,-5 20,20\n{cut}sweep 30,30 60,60\n")
+        } else {
+            format!("sweep -5,-5 20,20\n{cut}sweep 30,30 -5,-5\n{embedded}sweep 55,-5 60,60\n")
+        };
+        let project = format!("layer 8001.1P\nstart -5,-5 \"T2 O2 I1 S5 MX\"\n{elements}end 60,60\n");
+        let files = [("8001.1P.dxf", &*project), ("1234.1P.dxf", &*frame)];
+        found("PB222", &PartTest::default(), &files).len()
+    };
+    let cut = "mill 20,20 30,30 \"B0\"\n";
+    assert_eq!(count(&opening("mill", 11.0), cut, true), 1);
+    assert_eq!(count(&opening("mill", 11.0), cut, false), 0, "the opening is cut afterwards");
+    assert_eq!(count(&opening("bars", 11.0), cut, true), 0, "bars hold the waste");
+    assert_eq!(count(&opening("mill", 11.0), "sweep 20,20 30,30\n", true), 0, "no cut");
+}
+
 /// Two cuts in a row that are O or more apart leave a bridge.
 #[test]
 fn a_bridge_holds_the_waste_of_an_opening() {
@@ -245,7 +296,23 @@ fn an_outline_in_an_opening_is_no_part() {
     assert!(is_found("bars", 0.5) && is_found("bars", 1.95), "wrong distances");
     assert!(!is_found("bars", 2.05), "O or more away");
     assert!(!is_found("bars", -1.0), "an opening in the opening");
-    assert!(!is_found("mill", 1.0), "without bars, it may be anything");
+    assert!(is_found("mill", 1.0) && is_found("mill", 1.019), "cut out without bars");
+    assert!(!is_found("mill", 1.021) && !is_found("mill", 0.979), "without bars, it may be anything");
+}
+
+/// A ring that is cleared in turns is no part, even if one of the turns runs half of O beside a circle in it. A hole in a part does not matter.
+#[test]
+fn a_part_without_bars_is_left_whole() {
+    let is_found = |cut: &str, outlines: &str| {
+        let drawing = plate_in_opening("mill", 1.0)
+            .replace("sweep 31,19 25,25\n", &format!("sweep 31,19 25,25\n{cut}"))
+            + outlines;
+        codes(&drawing).contains(&"PB223".to_owned())
+    };
+    assert!(is_found("", ""));
+    assert!(!is_found("mill circle 25,25 d 6\n", ""), "cleared");
+    assert!(is_found("mill circle 25,25 d 6\n", "circle 25,25 d 6\n"), "a hole in the part");
+    assert!(is_found("mill circle 25,25 d 6 \"B1\"\n", ""), "a groove");
 }
 
 /// A part in an opening may stay in the drawing if the layer names its path.

@@ -134,6 +134,13 @@ messages! {
         help_en: "embed the paths relative to each other as they lie in their drawing; two copies of the part must be O or more apart",
         help_de: "die Pfade so zueinander einbetten, wie sie in ihrer Zeichnung liegen; zwei Exemplare des Teils müssen mindestens um O auseinanderliegen",
     }
+    /// Two paths that cut the same part out, but are raised by different heights.
+    RAISED_PATH: DisplacedPath {
+        en: "paths {name} and {other} cut the same part out, but one of them {distance} mm higher than the other",
+        de: "die Pfade {name} und {other} fräsen dasselbe Teil aus, aber der eine {distance} mm höher als der andere",
+        help_en: "embed both paths with the same H, since the part lies at one height",
+        help_de: "beide Pfade mit demselben H einbetten, denn das Teil liegt auf einer Höhe",
+    }
     /// A cut in a piece of waste that nothing holds any more.
     CUT_IN_LOOSE_WASTE: CutInLooseWaste {
         en: "path {name} cuts in waste that is loose by then: the opening of path {other} whose outline begins at {place} in the program has been cut out all round",
@@ -143,8 +150,8 @@ messages! {
     }
     /// An outline in an opening that a path cuts as a part.
     PART_IN_OPENING: PartInOpening {
-        en: "support bars stand along the outside of this outline, but it lies in an opening, so it is not checked as a part",
-        de: "an der Außenseite dieses Umrisses stehen Stützstege, er liegt aber in einem Ausschnitt und wird deshalb nicht als Teil geprüft",
+        en: "a path runs along the outside of this outline as round a part, but the outline lies in an opening, so it is not checked as a part",
+        de: "ein Pfad läuft an der Außenseite dieses Umrisses entlang wie um ein Teil, der Umriss liegt aber in einem Ausschnitt und wird deshalb nicht als Teil geprüft",
         help_en: "give the inner part a drawing of its own, and embed its path; if this is not an outline of a part, move it to another layer",
         help_de: "das innere Teil in eine eigene Zeichnung setzen und seinen Pfad einbetten; ist dies kein Umriss eines Teils, ihn auf einen anderen Layer legen",
     }

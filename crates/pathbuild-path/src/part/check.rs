@@ -10,7 +10,7 @@ use super::boxes::may_be_near;
 use super::cuts::{CutIndex, IndexedCut, PathCuts};
 use super::enclosure::Enclosure;
 use super::gouge::{ClassifiedCut, ClassifiedCuts, Gouge, classify_cuts, gouges};
-use super::intervals::at as at_along;
+use super::intervals::{at as at_along, offset_curve};
 use super::leftover::{Beside, LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
 use super::prepared::{PreparedPart, Side};
 use super::{Part, PartRing, PartSettings};
@@ -149,15 +149,19 @@ impl<'s> PartCheck<'s> {
         (0..rings.len()).filter(move |ring| rings[*ring].nest == *ring && !is_near(*ring))
     }
 
-    /// Returns the rings in openings that paths cut as parts: support bars stand along their outside. Bars at the edge of a ring around them hold the
-    /// waste of that ring.
+    /// Returns the rings in openings that paths cut as parts: support bars or cuts all round stand along their outside. Those at the edge of a ring
+    /// around them hold or clear the waste of that ring.
     fn inner_parts(&self) -> impl Iterator<Item = usize> {
         let rings = self.part.part.rings.iter().enumerate();
         let inner = rings.filter(|(ring, drawn)| drawn.nest != *ring);
-        inner.filter(|(ring, drawn)| self.is_cut_as_part(*ring, drawn)).map(|(ring, _)| ring)
+        let is_cut = |ring: usize, drawn: &PartRing| {
+            self.has_bars_outside(ring, drawn) || self.is_cut_round(ring, drawn)
+        };
+        inner.filter(move |(ring, drawn)| is_cut(*ring, drawn)).map(|(ring, _)| ring)
     }
 
-    fn is_cut_as_part(&self, ring: usize, drawn: &PartRing) -> bool {
+    /// Whether support bars stand along the outside of a ring.
+    fn has_bars_outside(&self, ring: usize, drawn: &PartRing) -> bool {
         let rings = || self.part.part.rings.iter().enumerate();
         let is_near = |ring: &PartRing, bar: &Curve, reach: f64| {
             ring.curves.iter().any(|curve| may_be_near(curve, bar, reach) && curve.distance(bar) < reach)
@@ -171,6 +175,44 @@ impl<'s> PartCheck<'s> {
             !around.contains(&ring)
                 && !rings().any(|(ring, other)| around.contains(&ring) && is_near(other, &bar, reach))
         })
+    }
+
+    /// Whether cuts through the plate run half of O beside the outside of a ring all round, and leave what lies in it.
+    fn is_cut_round(&self, ring: usize, drawn: &PartRing) -> bool {
+        let is_followed = |curve: &Curve, share: f64| {
+            let extent = widened_box(curve, 0.0);
+            self.cuts.near(extent).any(|number| self.is_beside_outside(ring, curve, share, number))
+        };
+        let shares = [0.25, 0.5, 0.75];
+        drawn.curves.iter().all(|curve| shares.iter().all(|share| is_followed(curve, *share)))
+            && !self.judged.iter().any(|judged| self.is_directly_in(ring, judged))
+    }
+
+    /// Whether a cut through the plate runs half of O beside a point of a ring's curve, on its outside, and not at the edge of a ring around it.
+    fn is_beside_outside(&self, ring: usize, curve: &Curve, share: f64, number: usize) -> bool {
+        let IndexedCut { path, radius, through, .. } = &self.cuts.cuts[number];
+        // The right of an opening's curves is inside it.
+        let Some((through, away)) = through.zip(offset_curve(curve, -radius)) else { return false };
+        let at = at_along(&away, share * away.length());
+        let Side::Openings(around) = self.part.side(at) else { return false };
+        let rings = &self.part.part.rings;
+        let reach = radius + self.settings.tolerance;
+        let is_at_edge = |ring: &usize| rings[*ring].curves.iter().any(|curve| curve.distance_to(at) < reach);
+        self.part.part.may_belong_to(&self.cuts.paths[*path].name)
+            && through.distance_to(at) <= self.settings.tolerance
+            && !around.contains(&ring)
+            && !around.iter().any(is_at_edge)
+    }
+
+    /// Whether a cut through the plate lies in a ring, and in no other ring in that one.
+    fn is_directly_in(&self, ring: usize, judged: &ClassifiedCut<'_>) -> bool {
+        let Side::Openings(around) = &judged.side else { return false };
+        let is_in_ring = |inner: &usize| {
+            let start = self.part.part.rings[*inner].curves[0].start();
+            *inner != ring
+                && matches!(self.part.side(start), Side::Openings(around) if around.contains(&ring))
+        };
+        judged.cut.through.is_some() && around.contains(&ring) && !around.iter().any(is_in_ring)
     }
 
     /// Returns the findings about the part, each with the index of its path. Whether material is left depends on the cuts of all owners together.

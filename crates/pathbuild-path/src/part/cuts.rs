@@ -99,7 +99,7 @@ impl PathCuts {
 
     /// Whether the path cuts parts out: one of its cuts goes through the plate or leaves support bars, which hold nothing where the plate is whole, and
     /// it is not milled with a slot cutter.
-    fn is_contour(&self) -> bool {
+    pub fn is_contour(&self) -> bool {
         let cuts_out = |element: &CutElement| element.lowest <= THROUGH_HEIGHT || element.supported.is_some();
         !self.is_slot && self.elements.iter().any(cuts_out)
     }

@@ -1,6 +1,7 @@
 //! Cuts in waste that earlier cuts have separated from the plate. (book: language/part)
 
 use std::cell::OnceCell;
+use std::ops::Range;
 
 use rstar::{AABB, Envelope as _};
 
@@ -36,9 +37,14 @@ pub struct WasteCut {
 const MIN_STRETCH: f64 = 0.01;
 
 impl PlacedCuts<'_> {
-    /// Returns the first cut of another path in the waste of an opening of this path's parts, if the earlier cuts in that opening leave nothing that
-    /// holds the waste. A cut where they have removed the waste does not count.
-    pub fn cut_in_loose_waste(&self, later: &Self, earlier: &[EarlierCuts<'_, '_>]) -> Option<WasteCut> {
+    /// Returns the first of some cuts of another path in the waste of an opening of this path's parts, if the earlier cuts in that opening leave nothing
+    /// that holds the waste. A cut where they have removed the waste does not count. `cuts` are indices into [`PathCuts::cuts`](super::PathCuts::cuts).
+    pub fn cut_in_loose_waste(
+        &self,
+        later: &Self,
+        cuts: Range<usize>,
+        earlier: &[EarlierCuts<'_, '_>],
+    ) -> Option<WasteCut> {
         let mut parts = self.parts.iter().filter(|part| part.rings.len() > 1);
         parts.find_map(|part| {
             let part = placed_part(part, &self.placement);
@@ -47,14 +53,15 @@ impl PlacedCuts<'_> {
             let mut outermost = openings.filter(|(ring, drawn)| drawn.nest == *ring);
             outermost.find_map(|(ring, _)| {
                 let through = OnceCell::new();
-                Opening { owner: self, part: &part, ring, earlier, through }.cut_in_loose_waste(later)
+                Opening { owner: self, part: &part, ring, earlier, through }
+                    .cut_in_loose_waste(later, cuts.clone())
             })
         })
     }
 
-    /// Returns the first cuts where they are below a height in the program, as placed, each with its element.
-    fn curves_below(&self, count: usize, height: f64) -> impl Iterator<Item = (u32, Curve)> {
-        self.cuts.cuts.iter().take(count).filter_map(move |cut| {
+    /// Returns some cuts where they are below a height in the program, as placed, each with its element.
+    fn curves_below(&self, cuts: Range<usize>, height: f64) -> impl Iterator<Item = (u32, Curve)> {
+        self.cuts.cuts.iter().take(cuts.end).skip(cuts.start).filter_map(move |cut| {
             let below = cut.way.part_below(height - self.raised)?;
             Some((cut.element, self.placement.place_curve(&below)))
         })
@@ -73,10 +80,10 @@ struct Opening<'o> {
 }
 
 impl Opening<'_> {
-    fn cut_in_loose_waste(&self, later: &PlacedCuts<'_>) -> Option<WasteCut> {
+    fn cut_in_loose_waste(&self, later: &PlacedCuts<'_>, cuts: Range<usize>) -> Option<WasteCut> {
         let top = self.owner.raised + self.owner.cuts.thickness - MIN_CUT_DEPTH;
         let extent = self.extent();
-        let cuts = later.curves_below(usize::MAX, top);
+        let cuts = later.curves_below(cuts, top);
         let mut near = cuts.filter(|(_, curve)| widened_box(curve, 0.0).intersects(&extent));
         near.find_map(|(element, curve)| {
             let is_loose = self.points_in_waste(&curve).any(|at| is_enclosed(at, self.through()));
@@ -119,7 +126,7 @@ impl Opening<'_> {
                 earlier.path.swept.is_some_and(|swept| swept.intersects(&extent))
             };
             let through = self.earlier.iter().filter(is_near).flat_map(|EarlierCuts { path, count }| {
-                let curves = path.curves_below(*count, self.owner.raised + THROUGH_HEIGHT);
+                let curves = path.curves_below(0..*count, self.owner.raised + THROUGH_HEIGHT);
                 curves.map(|(_, curve)| (curve, path.cuts.radius))
             });
             let is_inside = |(curve, _): &(Curve, f64)| self.contains(at_along(curve, curve.length() / 2.0));

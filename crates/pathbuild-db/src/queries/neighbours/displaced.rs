@@ -25,10 +25,19 @@ struct Partners<'db> {
     part: &'db Part,
     /// The largest distance in mm between the places that the two paths give to a point of the part's outline.
     distance: f64,
+    /// The difference in mm between the heights at which the two paths cut the part out; 0 if one of them only cuts into it.
+    raised: f64,
+}
+
+impl Partners<'_> {
+    fn displacement(&self) -> f64 {
+        self.distance.max(self.raised)
+    }
 }
 
 impl<'db> PlacedProgram<'db> {
-    /// Returns PB221 for paths that cut the same part of a drawing, but are embedded less than O away from where they cut it together.
+    /// Returns PB221 for paths that cut the same part of a drawing, but are embedded less than O away from where they cut it together, or at another
+    /// height.
     pub(super) fn displaced_paths(&self) -> Vec<Diagnostic> {
         let mut reported = BTreeSet::new();
         let mut found = Vec::new();
@@ -58,16 +67,16 @@ impl<'db> PlacedProgram<'db> {
     }
 
     /// Returns, for each other path that cuts a part together with this one, its nearest embedding: if that is within O, and places the part
-    /// differently.
+    /// differently or raises it.
     fn displaced_partners(&self, path: &CuttingPath<'db>, all: &[CuttingPath<'db>]) -> Vec<Partners<'db>> {
         let mut nearest: BTreeMap<&str, Partners<'db>> = BTreeMap::new();
         for other in all.iter().filter(|other| other.name != path.name) {
             let Some(partners) = self.partners(path, other) else { continue };
-            if nearest.get(other.name).is_none_or(|known| partners.distance < known.distance) {
+            if nearest.get(other.name).is_none_or(|known| partners.displacement() < known.displacement()) {
                 nearest.insert(other.name, partners);
             }
         }
-        nearest.into_values().filter(|partners| partners.distance > self.settings.tolerance).collect()
+        nearest.into_values().filter(|partners| partners.displacement() > self.settings.tolerance).collect()
     }
 
     /// Returns two paths as partners if they cut a part together and place it less than O apart. In joined programs, they belong to different programs.
@@ -85,22 +94,27 @@ impl<'db> PlacedProgram<'db> {
             shared.map(|part| (largest_displacement(part, &cuts.placement, &other_cuts.placement), part));
         let (distance, part) = displaced.reduce(|most, next| if next.0 > most.0 { next } else { most })?;
         let paths = [one.number.min(other.number), one.number.max(other.number)];
-        (distance < diameter).then_some(Partners { paths, part, distance })
+        let cut_out = cuts.cuts.is_contour() && other_cuts.cuts.is_contour();
+        let raised = if cut_out { (cuts.raised - other_cuts.raised).abs() } else { 0.0 };
+        (distance < diameter).then_some(Partners { paths, part, distance, raised })
     }
 
     fn displaced(
         &self,
-        Partners { paths: [earlier, later], part, distance }: &Partners<'db>,
+        Partners { paths: [earlier, later], part, distance, raised }: &Partners<'db>,
     ) -> Option<Diagnostic> {
         let name = |path: usize| self.paths[path].cuts.cuts.name.as_str();
         let start = part.rings[0].curves[0].start();
         let place = |path: usize| diagnostic_point(self.paths[path].cuts.placement.place(start));
-        let problem = Diagnostic::new(&messages::DISPLACED_PATH)
-            .quoting("name", name(*later))
-            .quoting("other", name(*earlier))
-            .with("distance", *distance)
-            .with("point", place(*later))
-            .with("place", place(*earlier));
+        let problem = if *distance > self.settings.tolerance {
+            Diagnostic::new(&messages::DISPLACED_PATH)
+                .with("distance", *distance)
+                .with("point", place(*later))
+                .with("place", place(*earlier))
+        } else {
+            Diagnostic::new(&messages::RAISED_PATH).with("distance", *raised)
+        };
+        let problem = problem.quoting("name", name(*later)).quoting("other", name(*earlier));
         let first = || Some((*later, &self.paths[*later].cuts.cuts.elements.first()?.origin));
         let (path, origin) = self.embedding_beside(*later, *earlier).or_else(first)?;
         Some(self.at(path, origin, problem))

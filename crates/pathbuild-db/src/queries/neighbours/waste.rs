@@ -1,35 +1,63 @@
 //! Paths that are milled in loose waste. (book: language/part)
 
+use std::cell::OnceCell;
+use std::ops::Range;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_path::{EarlierCuts, WasteCut};
 
 use super::{PlacedPath, PlacedProgram, diagnostic_point};
 
+/// Cuts of a path between which it embeds no other.
+struct Section<'p, 'db> {
+    /// Indices into [`PathCuts::cuts`](pathbuild_path::PathCuts::cuts).
+    cuts: Range<usize>,
+    /// Number of paths in [`PlacedProgram::paths`] that begin before these cuts.
+    paths_before: usize,
+    /// The cuts of other paths that are made before. Computed when first needed.
+    earlier: OnceCell<Vec<EarlierCuts<'p, 'db>>>,
+}
+
 impl<'db> PlacedProgram<'db> {
-    /// Returns PB222 for embedded paths with cuts in waste that earlier cuts have separated from the plate.
+    /// Returns PB222 for paths with cuts in waste that earlier cuts have separated from the plate.
     pub(super) fn cuts_in_loose_waste(&self) -> Vec<Diagnostic> {
         if self.settings.is_held_otherwise {
             return Vec::new();
         }
-        let embedded =
-            (0..self.paths.len()).filter(|path| self.paths[*path].parent.is_some() || self.is_joined);
-        embedded.flat_map(|later| self.cuts_of_path_in_loose_waste(later)).collect()
+        (0..self.paths.len()).flat_map(|later| self.cuts_of_path_in_loose_waste(later)).collect()
     }
 
     /// Returns PB222 for a path, once for each path in whose openings it cuts loose waste.
     fn cuts_of_path_in_loose_waste(&self, later: usize) -> Vec<Diagnostic> {
-        let owners: Vec<usize> =
-            (0..self.paths.len()).filter(|owner| self.may_share_waste(*owner, later)).collect();
-        if owners.is_empty() {
-            return Vec::new();
-        }
-        let earlier = self.cuts_before(later);
+        let sections: Vec<Section<'_, 'db>> = self.sections(later).collect();
+        let paths_before = sections.last().map_or(0, |section| section.paths_before);
+        let owners = (0..paths_before).filter(|owner| self.may_share_waste(*owner, later));
         let cut = |owner: usize| {
-            let cut = self.paths[owner].cuts.cut_in_loose_waste(&self.paths[later].cuts, &earlier)?;
+            let mut sections = sections.iter().filter(|section| owner < section.paths_before);
+            let cut = sections.find_map(|section| {
+                let earlier = section.earlier.get_or_init(|| self.cuts_before(later, section.paths_before));
+                let (owned, cutting) = (&self.paths[owner].cuts, &self.paths[later].cuts);
+                owned.cut_in_loose_waste(cutting, section.cuts.clone(), earlier)
+            })?;
             Some(self.loose_waste(owner, later, &cut))
         };
-        owners.into_iter().filter_map(cut).collect()
+        owners.filter_map(cut).collect()
+    }
+
+    /// Returns the sections with cuts of a path, which the paths that it embeds divide.
+    fn sections(&self, path: usize) -> impl Iterator<Item = Section<'_, 'db>> {
+        let is_within = |inner: &usize| self.path_and_embedders(*inner).any(|around| around == path);
+        let end = (path..self.paths.len()).find(|inner| !is_within(inner)).unwrap_or(self.paths.len());
+        let parent = move |inner: usize| self.paths[inner].parent.filter(|parent| parent.path == path);
+        let children = (path..end).filter_map(move |inner| Some((inner, parent(inner)?.cuts_before)));
+        let ends = children.chain([(end, self.paths[path].cuts.cuts.cuts.len())]);
+        let mut start = 0;
+        let sections = ends.map(move |(paths_before, end)| {
+            let cuts = std::mem::replace(&mut start, end)..end;
+            Section { cuts, paths_before, earlier: OnceCell::new() }
+        });
+        sections.filter(|section| !section.cuts.is_empty())
     }
 
     /// Whether a path may cut waste from an opening of another drawing's part; in joined programs, of another program's.
@@ -42,11 +70,12 @@ impl<'db> PlacedProgram<'db> {
             && !(self.is_joined && self.root(owner) == self.root(later))
     }
 
-    /// Returns the cuts that are made before a path is milled, except for those of the same drawing at the same place.
-    fn cuts_before(&self, later: usize) -> Vec<EarlierCuts<'_, 'db>> {
+    /// Returns the cuts of the first paths that are made before a section of a path is milled, except for those of the same drawing at the same place.
+    /// The number of paths is [`Section::paths_before`].
+    fn cuts_before(&self, later: usize, paths_before: usize) -> Vec<EarlierCuts<'_, 'db>> {
         let PlacedPath { instance, cuts, .. } = &self.paths[later];
         let is_other = |path: &usize| !self.is_at(&self.paths[*path], *instance, &cuts.placement);
-        let mut counts = vec![usize::MAX; later];
+        let mut counts = vec![usize::MAX; paths_before];
         for inner in self.path_and_embedders(later) {
             if let Some(parent) = &self.paths[inner].parent {
                 counts[parent.path] = parent.cuts_before;
