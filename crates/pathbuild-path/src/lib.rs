@@ -51,9 +51,10 @@ pub use names::files::{
 };
 pub use names::{CaseSensitiveName, LayerPattern, PathLayer, PathName, PathPattern, PatternError};
 pub use part::{
-    CutElement, DrawnParts, EarlierCuts, EmbeddedPlace, LeftMaterial, LostBar, NeighbourCuts, NeighbourGouge,
-    Part, PartCut, PartFindings, PartRing, PartSettings, PartSweep, PathCuts, PlacedCuts, PlacedPart,
-    SeveredPart, StandingBar, THROUGH_HEIGHT, WasteCut, check_parts, gouging_moves, largest_displacement,
+    CutElement, DrawnParts, EarlierCuts, EmbeddedPlace, LeftMaterial, LostBar, MAX_WEAK_BRIDGE,
+    NeighbourCuts, NeighbourGouge, Part, PartCut, PartFindings, PartRing, PartSettings, PartSweep, PathCuts,
+    PlacedCuts, PlacedPart, SeveredPart, StandingBar, THROUGH_HEIGHT, WasteCut, check_parts, gouging_moves,
+    largest_displacement,
 };
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,

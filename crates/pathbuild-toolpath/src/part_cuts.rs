@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use pathbuild_path::{
-    Bars, Curve, Cut, CutElement, EmbeddedPlace, Item, Line, PartCut, PartSweep, Path, PathCuts,
-    PlacedSubpath, Role, SegmentKind, Shape, StandingBar, TipMove, WalkedPath, Xy, approx,
+    Bars, Curve, Cut, CutElement, EmbeddedPlace, Item, Line, MAX_WEAK_BRIDGE, PartCut, PartSweep, Path,
+    PathCuts, PlacedSubpath, Role, SegmentKind, Shape, StandingBar, TipMove, WalkedPath, Xy, approx,
 };
 
 use crate::chain::last_pass;
@@ -182,14 +182,19 @@ impl BarPlace {
     /// Returns the bar as the cuts beside it leave it.
     fn standing_bar(&self, radius: f64, goes_on: &dyn Fn(Xy) -> bool) -> StandingBar {
         let length = self.curve.length();
-        let is_whole = |end: f64, at: Xy| approx::near(end, 0.0) && goes_on(at);
-        let from = if is_whole(self.from, self.curve.start()) { 0.0 } else { self.from + radius };
-        let to = if is_whole(length - self.to, self.curve.end()) { length } else { self.to - radius };
+        let ends = [(self.from, self.curve.start()), (length - self.to, self.curve.end())];
+        let is_at_end = ends.map(|(end, _)| approx::near(end, 0.0));
+        let is_whole = [0, 1].map(|end| is_at_end[end] && goes_on(ends[end].1));
+        let from = if is_whole[0] { 0.0 } else { self.from + radius };
+        let to = if is_whole[1] { length } else { self.to - radius };
         let foot = self.curve.section((self.from - self.slope).max(0.0), (self.to + self.slope).min(length));
-        let middle = (to - from > MAX_NEGLIGIBLE_REMNANT).then(|| self.curve.section(from, to));
+        let middle = if to - from > MAX_WEAK_BRIDGE {
+            Some(self.curve.section(from, to))
+        } else {
+            // A whole segment is drawn for its bar alone, so the cuts that leave nothing of it are to be found. Within a run of bars, it stands
+            // however short it is.
+            (is_at_end == [true; 2] && is_whole[0] == is_whole[1]).then_some(self.curve)
+        };
         StandingBar { middle, foot, top: self.top }
     }
 }
-
-/// Length in mm up to which the remnant of a bar is ignored.
-const MAX_NEGLIGIBLE_REMNANT: f64 = 0.01;

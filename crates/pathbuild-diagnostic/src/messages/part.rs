@@ -75,8 +75,8 @@ messages! {
     BAR_CUT_AWAY: BarCutAway {
         en: "this cut removes {lost} of the {length} mm of the support bar at {point} of path {other} (bars: {count})",
         de: "dieser Schnitt nimmt {lost} von {length} mm des Stützstegs bei {point} von Pfad {other} weg (Stege: {count})",
-        help_en: "leave the bar out of this cut, or end the cut higher than D of the bar",
-        help_de: "den Schnitt am Steg aussparen oder höher als D des Stegs enden lassen",
+        help_en: "leave the bar out of this cut, end the cut higher than D of the bar, or make a short line with a bar longer than O",
+        help_de: "den Schnitt am Steg aussparen oder höher als D des Stegs enden lassen, oder eine kurze Linie mit Steg länger als O zeichnen",
     }
     /// Support bars that a cut of another path of the project removes.
     NEIGHBOURS_BAR_CUT_AWAY: BarCutAway {

@@ -145,15 +145,15 @@ messages! {
     }
     /// Support bars that leave no gap, because the segment is too short.
     NO_GAP_BETWEEN_BARS: NoGapBetweenBars {
-        en: "everything is left standing up to D {top}: a length of {length} mm is shorter than P + U, which is {pitch} mm",
-        de: "alles bleibt bis D {top} stehen: eine Länge von {length} mm ist kürzer als P + U ({pitch} mm)",
+        en: "everything is milled only down to D {top}: a length of {length} mm is shorter than P + U, which is {pitch} mm",
+        de: "alles wird nur bis D {top} gefräst: eine Länge von {length} mm ist kürzer als P + U ({pitch} mm)",
         help_en: "for a gap, lower P, the length of a bar, or U, the minimum distance between bars; use line type DIVIDE to mill only to D, and CONTINUOUS to mill through",
         help_de: "für eine Lücke P, die Länge eines Stegs, oder U, den Mindestabstand der Stege, verkleinern; Linientyp DIVIDE fräst nur bis D, CONTINUOUS ganz durch",
     }
     /// Connected segments with support bars that leave no gap, because each of them is too short.
     NO_GAP_IN_RUN: NoGapBetweenBars {
-        en: "everything is left standing up to D {top} over a length of {length} mm: each of these {count} connected segments is shorter than P + U, which is {pitch} mm",
-        de: "auf einer Länge von {length} mm bleibt alles bis D {top} stehen: jedes dieser {count} verbundenen Segmente ist kürzer als P + U ({pitch} mm)",
+        en: "everything is milled only down to D {top} over a length of {length} mm: each of these {count} connected segments is shorter than P + U, which is {pitch} mm",
+        de: "auf einer Länge von {length} mm wird alles nur bis D {top} gefräst: jedes dieser {count} verbundenen Segmente ist kürzer als P + U ({pitch} mm)",
         help_en: "draw longer lines or arcs, such as a few arcs instead of an ellipse, or lower P or U; line type CONTINUOUS mills through without bars",
         help_de: "längere Linien oder Bögen zeichnen, etwa wenige Bögen statt einer Ellipse, oder P oder U verkleinern; Linientyp CONTINUOUS fräst ohne Stege durch",
     }

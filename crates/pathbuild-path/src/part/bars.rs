@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
+use pathbuild_diagnostic::{Diagnostic, Severity};
 
 use super::boxes::BoxIndex;
 use super::cuts::{CutIndex, PathCuts, StandingBar};
 use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, at as at_along, join_stretches};
+use super::loose::MAX_WEAK_BRIDGE;
 use crate::approx;
 use crate::element::diagnostic_point;
 use crate::geometry::{Curve, Xy};
@@ -35,6 +36,8 @@ pub struct LostBar {
     pub at: Xy,
     /// The middle line of the bar. A bar at a corner has a section on each side of the corner.
     pub sections: Vec<Curve>,
+    /// Whether the bar is a whole segment so short that cuts of its own path on both sides leave nothing of it.
+    pub is_too_short: bool,
 }
 
 /// Returns the bars of all paths that are cut away, once for each path that cuts one away.
@@ -49,7 +52,9 @@ pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
                 let length = sections.iter().map(Curve::length).sum();
                 let at = middle_of(&sections);
                 let is_lost = lost > BAR_LOSS * length;
-                is_lost.then_some(LostBar { of, bar, by, element, lost, length, at, sections })
+                let is_segment = matches!(&whole[..], [(bar, _)] if bar.foot.length() <= length + JOIN_GAP);
+                let is_too_short = by == of && is_segment && length <= 2.0 * path.radius + MAX_WEAK_BRIDGE;
+                is_lost.then_some(LostBar { of, bar, by, element, lost, length, at, sections, is_too_short })
             }));
         }
     }
@@ -57,7 +62,7 @@ pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
 }
 
 impl LostBar {
-    /// Returns PB218 for bars that the same element takes away from a path. The bar that loses most is named. `is_placed`: whether its place is given
+    /// Returns PB218 for bars that the same element takes away from a path: a warning if all of them are too short, otherwise an error. The bar that loses most is named. `is_placed`: whether its place is given
     /// in the program instead of in the drawing.
     pub fn problem<'l>(
         bars: impl IntoIterator<Item = &'l Self>,
@@ -75,7 +80,11 @@ impl LostBar {
             .with("length", worst.length)
             .with("point", diagnostic_point(worst.at))
             .quoting("other", path.name.as_str());
-        Some(problem.with("count", bars.len()))
+        let mut problem = problem.with("count", bars.len());
+        if bars.iter().all(|bar| bar.is_too_short) {
+            problem.severity = Severity::Warning;
+        }
+        Some(problem)
     }
 
     /// Whether another bar loses more. Of equal losses, the leftmost counts, as for cuts into the part.

@@ -80,7 +80,8 @@ pub struct PartSweep {
 /// A support bar that a path leaves standing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StandingBar {
-    /// The section of the bar's middle line that the cuts beside the bar leave; `None` if they leave nothing.
+    /// The section of the bar's middle line that the cuts beside the bar leave; `None` if they leave nothing. If the bar is a whole segment of which
+    /// cuts on both sides would leave nothing, the whole segment.
     pub middle: Option<Curve>,
     /// The section of the segment along which the bar and its slopes keep the tool above B.
     pub foot: Curve,

@@ -12,6 +12,9 @@ use crate::keep_out::widened_box;
 /// Largest distance in mm between an arc and the chords that replace it.
 const MAX_SAGITTA: f64 = 0.02;
 
+/// Width in mm up to which material between two cuts holds nothing.
+pub const MAX_WEAK_BRIDGE: f64 = 0.1;
+
 /// The area that a cutter covers while it moves in a straight line.
 #[derive(Clone, Copy)]
 struct SweptLine {
@@ -76,8 +79,10 @@ fn leads_straight_out(at: Xy, bar: Xy, cuts: &[(Curve, f64)]) -> bool {
     let farthest = |curve: &Curve| (curve.start() - at).norm() + curve.length();
     let reach = cuts.iter().map(|(curve, radius)| farthest(curve) + radius).fold(0.0, f64::max);
     let way = Curve::Line(Line { start: at, end: at + direction * reach });
-    let meets =
-        |(curve, radius): &(Curve, f64)| may_be_near(curve, &way, *radius) && curve.distance(&way) <= *radius;
+    let meets = |(curve, radius): &(Curve, f64)| {
+        let radius = bridged_radius(*radius);
+        may_be_near(curve, &way, radius) && curve.distance(&way) <= radius
+    };
     !cuts.iter().any(meets)
 }
 
@@ -211,7 +216,12 @@ fn point_in_material(part: &PreparedPart<'_>, cuts: &[(Curve, f64)], boxes: &Box
 }
 
 fn swept_by(cuts: &[(Curve, f64)]) -> Vec<SweptLine> {
-    cuts.iter().flat_map(|(curve, radius)| swept_lines(curve, *radius)).collect()
+    cuts.iter().flat_map(|(curve, radius)| swept_lines(curve, bridged_radius(*radius))).collect()
+}
+
+/// Returns the radius in mm of a cutter that also takes away half of a weak bridge on each side.
+fn bridged_radius(radius: f64) -> f64 {
+    radius + MAX_WEAK_BRIDGE / 2.0
 }
 
 fn swept_lines(curve: &Curve, radius: f64) -> Vec<SweptLine> {

@@ -29,6 +29,7 @@ pub use cuts::{CutElement, EmbeddedPlace, PartCut, PartSweep, PathCuts, Standing
 pub use displacement::largest_displacement;
 pub use gouge::gouging_moves;
 pub use leftover::LeftMaterial;
+pub use loose::MAX_WEAK_BRIDGE;
 pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts, SeveredPart};
 pub use waste::{EarlierCuts, WasteCut};
 
