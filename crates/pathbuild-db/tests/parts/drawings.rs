@@ -449,7 +449,7 @@ fn components_are_checked_with_the_values_of_the_project() {
     assert_eq!(found("mill", "0,0.5", "0.5"), ["PB215", "PB217"], "of the project, and of the component");
 }
 
-/// A path that only engraves leaves the outline to others. A path with a through cut or support bars anywhere should also cut through along the
+/// A path that only engraves leaves the outline to others; if there are none, the outline is not cut. A path with a through cut or support bars anywhere should also cut through along the
 /// outline: bars hold nothing where the plate is whole.
 #[test]
 fn only_paths_with_through_cuts_or_bars_leave_material() {
@@ -460,7 +460,10 @@ fn only_paths_with_through_cuts_or_bars_leave_material() {
         )
     };
     let left = |other: &str| codes(&path(other)).contains(&"PB215".to_owned());
-    assert!(!left("0.5"), "it only engraves");
+    assert_eq!(codes(&path("0.5")), ["PB220"], "it only engraves");
+    let other = "layer 1234.1L\nstart 0,0 \"T2 O2 I1 B0 S5\"\nmill 0,0 40,0\nend 40,0\n";
+    let both = PartTest::default().codes(&[("1234.1.dxf", &(path("0.5") + other))]);
+    assert_eq!(both, [""; 0], "another path cuts the outline");
     assert!(left("0"), "it goes through elsewhere");
     let with_bars = path("0.5").replace("mill 0,-10 20,-10", "bars 0,-10 20,-10");
     assert!(codes(&with_bars).contains(&"PB215".to_owned()), "it has support bars elsewhere");
@@ -635,6 +638,25 @@ fn of_rings_in_each_other_one_must_be_cut() {
     assert_eq!(messages(&drawing), [""; 0]);
     let drawing = plate("bars") + "circle 21,13 d 5\n";
     assert_eq!(codes(&drawing), ["PB220"]);
+}
+
+/// A hole is 2.9 or 3.1 mm from the edge, along which a cutter of 6 mm runs: material of the part lies between the two, so the cut is not for the hole.
+#[test]
+fn cuts_behind_the_material_of_the_part_do_not_cut_a_hole() {
+    let with = |web: f64| {
+        codes(&format!(
+            "layer 1234.1P\nstart -9,-9 \"T2 O6 I0.5 B-0.2 D0.8 P3 U12 S5\"\nsweep -9,-9 -2,-2\nbars -2,-2 44,-2\n\
+             bars to 44,29 -2,29 -2,-2\nsweep -2,-2 50,-9\nend 50,-9\nlayer Part\n\
+             polyline 1,1 41,1 41,26 1,26 closed\ncircle {},13 d 8\n",
+            5.0 + web
+        ))
+    };
+    assert_eq!(with(2.9), ["PB220"]);
+    assert_eq!(with(3.1), ["PB220"]);
+    // A cut through the material beside a hole is an error itself, so the hole is not reported as well.
+    let beside =
+        plate("bars").replace("sweep 31,13 0,0", "sweep 31,13 21,13\nmill circle 21,13 d 2\nsweep 21,13 0,0");
+    assert_eq!(codes(&(beside + "circle 21,15.5 d 2\n")), ["PB213"]);
 }
 
 #[test]

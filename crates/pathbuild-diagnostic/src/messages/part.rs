@@ -122,10 +122,10 @@ messages! {
     }
     /// An outline of a part that no path cuts.
     OUTLINE_NOT_CUT: OutlineNotCut {
-        en: "no path of this drawing cuts along this outline",
-        de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang",
-        help_en: "draw the missing path; move a path that runs O or more away to half of O beside the outline; if this is not an outline of the part, move it to another layer",
-        help_de: "den fehlenden Pfad zeichnen; einen Pfad, der um O oder mehr entfernt verläuft, auf die Hälfte von O neben den Umriss verschieben; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
+        en: "no path of this drawing cuts through the plate along this outline",
+        de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang durch die Platte",
+        help_en: "draw the missing path; give a path along it that ends above the plate a lower B; move a path that runs O or more away to half of O beside the outline; if this is not an outline of the part, move it to another layer",
+        help_de: "den fehlenden Pfad zeichnen; einem Pfad daran, der über der Platte endet, ein tieferes B geben; einen Pfad, der um O oder mehr entfernt verläuft, auf die Hälfte von O neben den Umriss verschieben; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
     }
     /// Two paths that cut the same part, but are embedded at different places.
     DISPLACED_PATH: DisplacedPath {

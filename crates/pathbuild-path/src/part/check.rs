@@ -21,7 +21,7 @@ use crate::keep_out::widened_box;
 /// The result of checking a drawing's parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PartFindings {
-    /// The outlines that no path comes near: for each, the index of its part, and of the ring in the part.
+    /// The outlines that no path cuts out: for each, the index of its part, and of the ring in the part.
     pub uncut: Vec<(usize, usize)>,
     /// The outlines in openings along which support bars stand as for a part, likewise.
     pub inner: Vec<(usize, usize)>,
@@ -118,8 +118,8 @@ struct PartCheck<'s> {
     part: &'s PreparedPart<'s>,
     cuts: &'s CutIndex<'s>,
     settings: &'s PartSettings,
-    /// For each ring, whether each path comes within O of it.
-    near_paths: Vec<Vec<bool>>,
+    /// For each ring, whether a cut that may cut it out comes near.
+    is_cut: Vec<bool>,
     /// For each path, whether it may own the part and comes within O of one of its rings. Only these paths, the owners, can leave material at the part.
     owners: Vec<bool>,
     /// For each path, whether it is an owner that cuts parts out.
@@ -130,23 +130,22 @@ struct PartCheck<'s> {
 
 impl<'s> PartCheck<'s> {
     fn new(part: &'s PreparedPart<'s>, cuts: &'s CutIndex<'s>, settings: &'s PartSettings) -> Self {
-        let near_paths: Vec<Vec<bool>> =
-            part.part.rings.iter().map(|ring| near_paths(part.part, &ring.curves, cuts)).collect();
-        let is_owner = |path: usize| near_paths.iter().any(|near| near[path]);
+        let judged = classify_cuts(part, cuts, cuts.near(part.extent()), settings.tolerance);
+        let rings = 0..part.part.rings.len();
+        let near: Vec<NearPaths> = rings.map(|ring| near_paths(part.part, ring, cuts, &judged)).collect();
+        let is_owner = |path: usize| near.iter().any(|near| near.paths[path]);
         let owners: Vec<bool> = (0..cuts.paths.len()).map(is_owner).collect();
         let contours = owners.iter().zip(&cuts.contours).map(|(own, contour)| *own && *contour).collect();
-        let judged = classify_cuts(part, cuts, cuts.near(part.extent()), settings.tolerance);
-        Self { part, cuts, settings, near_paths, owners, contours, judged }
+        let is_cut = near.iter().map(|near| near.is_cut).collect();
+        Self { part, cuts, settings, is_cut, owners, contours, judged }
     }
 
-    /// Returns the outermost ring of each nest that no path comes near.
+    /// Returns the outermost ring of each nest that no path cuts out.
     fn nests_without_cuts(&self) -> impl Iterator<Item = usize> {
         let rings = &self.part.part.rings;
-        let is_near = |nest: usize| {
-            let mut near = rings.iter().zip(&self.near_paths).filter(|(ring, _)| ring.nest == nest);
-            near.any(|(_, paths)| paths.contains(&true))
-        };
-        (0..rings.len()).filter(move |ring| rings[*ring].nest == *ring && !is_near(*ring))
+        let is_cut =
+            |nest: usize| rings.iter().zip(&self.is_cut).any(|(ring, cut)| *cut && ring.nest == nest);
+        (0..rings.len()).filter(move |ring| rings[*ring].nest == *ring && !is_cut(*ring))
     }
 
     /// Returns the rings in openings that paths cut as parts: support bars or cuts all round stand along their outside. Those at the edge of a ring
@@ -294,21 +293,32 @@ impl<'s> PartCheck<'s> {
     }
 }
 
-/// Returns, for each path, whether it may cut the part and comes within O of the ring.
-fn near_paths(part: &Part, ring: &[Curve], cuts: &CutIndex<'_>) -> Vec<bool> {
+/// The paths that come within O of a ring.
+struct NearPaths {
+    /// For each path, whether it may cut the part and comes near.
+    paths: Vec<bool>,
+    /// Whether one of their cuts may cut the ring out.
+    is_cut: bool,
+}
+
+fn near_paths(part: &Part, ring: usize, cuts: &CutIndex<'_>, judged: &ClassifiedCuts<'_>) -> NearPaths {
     let may_cut: Vec<bool> = cuts.paths.iter().map(|path| part.may_belong_to(&path.name)).collect();
-    let mut is_near = vec![false; may_cut.len()];
-    for curve in ring {
+    let mut near = NearPaths { paths: vec![false; may_cut.len()], is_cut: false };
+    for curve in &part.rings[ring].curves {
         for number in cuts.near(widened_box(curve, 0.0)) {
             let cut = &cuts.cuts[number];
-            is_near[cut.path] = is_near[cut.path]
-                || may_cut[cut.path] && cut.cut.way.curve.distance(curve) < 2.0 * cut.radius;
+            let is_known = near.is_cut && near.paths[cut.path];
+            if !is_known && may_cut[cut.path] && cut.cut.way.curve.distance(curve) < 2.0 * cut.radius {
+                near.paths[cut.path] = true;
+                near.is_cut = near.is_cut
+                    || cuts.may_cut_out(cut) && judged.get(number).is_some_and(|judged| judged.faces(ring));
+            }
         }
-        if is_near == may_cut {
+        if near.is_cut && near.paths == may_cut {
             break;
         }
     }
-    is_near
+    near
 }
 
 fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {

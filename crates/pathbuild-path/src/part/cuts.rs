@@ -171,6 +171,11 @@ impl<'c> CutIndex<'c> {
         self.boxes.near(widened(&extent, reach(self.largest_radius))).filter(is_near)
     }
 
+    /// Whether a cut may cut out an outline beside it: it goes through the plate, belongs to a segment with support bars, or is that of a slot cutter.
+    pub(super) fn may_cut_out(&self, cut: &IndexedCut<'c>) -> bool {
+        cut.through.is_some() || cut.element(self).supported.is_some() || self.paths[cut.path].is_slot
+    }
+
     /// Returns the numbers of the sweeps that may run beside a curve at a distance of half of O, in ascending order.
     pub(super) fn sweeps_beside(&self, curve: &Curve, tolerance: f64) -> impl Iterator<Item = usize> {
         self.sweep_boxes.near(widened_box(curve, self.largest_radius + tolerance))

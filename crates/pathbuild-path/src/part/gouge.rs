@@ -68,6 +68,13 @@ pub(super) fn classify_cuts<'c>(
     ClassifiedCuts(judged)
 }
 
+impl ClassifiedCut<'_> {
+    /// Whether no material lies between the cut and a ring near it: the cut is on the ring's waste side, or in the material itself.
+    pub(super) fn faces(&self, ring: usize) -> bool {
+        self.side == Side::Material || self.side.is_beside(ring)
+    }
+}
+
 impl<'c> ClassifiedCuts<'c> {
     pub(super) fn get(&self, number: usize) -> Option<&ClassifiedCut<'c>> {
         let place = self.0.binary_search_by_key(&number, |judged| judged.number).ok()?;

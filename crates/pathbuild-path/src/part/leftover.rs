@@ -13,7 +13,7 @@ use super::intervals::{
     intersection, join_ends, join_stretches, offset_curve,
 };
 use super::loose::is_surrounded;
-use super::prepared::{PreparedPart, Side};
+use super::prepared::PreparedPart;
 use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::keep_out::widened_box;
 
@@ -235,12 +235,7 @@ impl<'s> LeftoverSearch<'s> {
         let judged = curve.near.iter().filter_map(|number| self.judged.get(*number));
         judged.filter(move |judged| {
             let element = judged.cut.element(self.cuts);
-            let is_on_side = match &judged.side {
-                Side::Outside => ring == 0,
-                Side::Openings(openings) => openings.contains(&ring),
-                Side::Material => false,
-            };
-            is_on_side
+            judged.side.is_beside(ring)
                 && self.contours[judged.cut.path]
                 && judged.cut.cut.way.lowest() <= element.lowest + JOIN_GAP
                 && !self.grooves.contains(&judged.cut.number())
@@ -554,11 +549,8 @@ impl<'s> LeftoverSearch<'s> {
     /// are not classified; they lie outside of it.
     fn first_cut_outwards(&self, ring: usize, along: f64, whole: f64) -> Option<&'s IndexedCut<'s>> {
         let (curve, along) = self.ring_place(ring, along, whole);
-        let is_beside = |number: &usize| match self.judged.get(*number).map(|judged| &judged.side) {
-            Some(Side::Outside) | None => ring == 0,
-            Some(Side::Openings(openings)) => openings.contains(&ring),
-            Some(Side::Material) => false,
-        };
+        let is_beside =
+            |number: &usize| self.judged.get(*number).map_or(ring == 0, |judged| judged.side.is_beside(ring));
         let cuts = self.cuts.cuts.iter().enumerate();
         let beside = cuts.filter(|(number, cut)| self.contours[cut.path] && is_beside(number));
         let way = |cut: &IndexedCut<'s>| Some(cut.element(self.cuts).supported.unwrap_or(cut.through?));

@@ -42,6 +42,17 @@ pub(crate) enum Side {
     Openings(Vec<usize>),
 }
 
+impl Side {
+    /// Whether this is the side of a ring on which waste lies.
+    pub(crate) fn is_beside(&self, ring: usize) -> bool {
+        match self {
+            Self::Outside => ring == 0,
+            Self::Openings(openings) => openings.contains(&ring),
+            Self::Material => false,
+        }
+    }
+}
+
 impl CutterPassage {
     /// Returns the passage along a curve that lies entirely on one side.
     pub(crate) fn on_side(side: Side, way: &Curve) -> Self {
