@@ -640,6 +640,24 @@ fn of_rings_in_each_other_one_must_be_cut() {
     assert_eq!(codes(&drawing), ["PB220"]);
 }
 
+/// A hole of 6 mm with a thread of 8.4 mm round it is milled with other diameters: neither outline is cut.
+#[test]
+fn of_rings_in_each_other_the_one_that_is_cut_must_be_met() {
+    let milled = |diameter: f64| {
+        let drawing = plate("bars") + "circle 31,13 d 8.4\n";
+        messages(&drawing.replace("mill circle 31,13 d 6", &format!("mill circle 31,13 d {diameter}")))
+    };
+    let left = |found: &[String], thickness: &str| {
+        found.len() == 1 && found[0].starts_with(&format!("PB215 up to {thickness} mm"))
+    };
+    assert_eq!(milled(5.97), [""; 0], "within the tolerance");
+    assert!(left(&milled(5.8), "0.1"), "{:?}", milled(5.8));
+    assert_eq!(milled(6.03), [""; 0], "within the tolerance");
+    assert!(left(&milled(6.2), "1.1"), "up to the thread, more than O away from the cut: {:?}", milled(6.2));
+    assert!(left(&milled(7.9), "0.25"), "{:?}", milled(7.9));
+    assert_eq!(milled(8.4), [""; 0]);
+}
+
 /// A hole is 2.9 or 3.1 mm from the edge, along which a cutter of 6 mm runs: material of the part lies between the two, so the cut is not for the hole.
 #[test]
 fn cuts_behind_the_material_of_the_part_do_not_cut_a_hole() {
@@ -833,6 +851,26 @@ fn a_sweep_in_place_of_one_side_of_the_contour_leaves_that_side() {
     assert_eq!(with("39,27 38,40"), [""; 0], "beside a short stretch only");
 }
 
+/// Only a short piece of the contour is a sweep. The cuts at its ends leave two rounded pieces, which join in the middle if the sweep is short.
+#[test]
+fn a_sweep_longer_than_the_cutter_leaves_a_piece_of_the_contour() {
+    let with = |length: f64| {
+        let upper =
+            format!("mill 42,27 30,27\nsweep 30,27 {x},27\nmill {x},27 0,27\nbars to 0,0", x = 30.0 - length);
+        let drawing = plate("bars").replace("bars to 42,27 0,27 0,0", &format!("bars to 42,27\n{upper}"));
+        let mut found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
+        found.retain(|found| found.code().to_string() == "PB215");
+        let [found] = &found[..] else { panic!("{length}: {found:?}") };
+        (found.text(Lang::En).contains("only a sweep"), number(found, "length"))
+    };
+    // A cut reaches the outline up to 0.2 mm beyond its end, and comes within O of it up to 1.73 mm beyond.
+    for (length, is_swept) in [(3.4, false), (3.48, true), (3.5, true), (3.55, true), (3.7, true)] {
+        let (swept, uncut) = with(length);
+        assert_eq!(swept, is_swept, "{length}");
+        assert!((uncut - (length - 0.4)).abs() < 0.01, "{length}: {uncut}");
+    }
+}
+
 /// The ends of a flat bar are cut, and a sweep along one of its edges leads from one cut to the other.
 #[test]
 fn a_sweep_along_the_edge_of_a_flat_bar_is_no_missing_cut() {
@@ -961,6 +999,25 @@ fn cuts_that_cross_or_overlap_close_a_ring() {
     assert!(is_loose(1.99), "they overlap");
     assert!(is_loose(2.09), "a bridge too weak to hold the part");
     assert!(!is_loose(2.11), "a bridge that holds");
+}
+
+/// Another cut ends near the outline, and its box contains the outline's side, but the side's own cut is nearer.
+#[test]
+fn material_left_is_as_thick_as_the_distance_to_the_nearest_cut() {
+    let thickness = |end: &str| {
+        let drawing = format!(
+            "layer 1234.1P\nstart -20,-10 \"T2 O3 I1 B0 S5\"\nsweep -20,-10 -3.02,-3.02\n\
+             mill -3.02,-3.02 21.02,-3.02\nmill to 21.02,23.02 -3.02,23.02 -3.02,-3.02\n\
+             sweep -3.02,-3.02 -1.9,18\nmill -1.9,18 {end}\nsweep {end} -10,-12\nend -10,-12\n\
+             layer Part\npolyline 0,0 18,0 18,20 0,20 closed\n"
+        );
+        let mut found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
+        found.retain(|found| found.code().to_string() == "PB215");
+        found.iter().map(|found| number(found, "thickness")).fold(0.0, f64::max)
+    };
+    for end in ["-1.9,17", "-5,-3"] {
+        assert!((thickness(end) - 1.52).abs() < 0.01, "{end}: {}", thickness(end));
+    }
 }
 
 /// A cut that gradually approaches the edge leaves a wedge, in whichever direction it is milled.

@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Vector2;
+use rstar::AABB;
 
 use super::boxes::square;
 use super::cuts::{CutIndex, IndexedCut, IndexedSweep, StandingBar, THROUGH_HEIGHT};
@@ -123,6 +124,17 @@ impl RingStretches {
     }
 }
 
+/// How far the cuts follow a ring that lies in another ring or around one, the best first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Agreement {
+    /// Cuts come near at least a part of the ring.
+    Followed,
+    /// No cut comes near.
+    Uncut,
+    /// Most of the ring is cut away, so it is not the ring that is to be cut.
+    Exceeded,
+}
+
 /// A curve of a ring with the cuts near it.
 struct RingCurve<'r> {
     ring: usize,
@@ -146,7 +158,7 @@ impl<'s> LeftoverSearch<'s> {
         Self { part, cuts, judged, contours, tolerance, grooves, is_ringed: OnceCell::new() }
     }
 
-    /// Returns the material left at all rings. Of the rings of a nest, only the ring with the least leftover material is considered.
+    /// Returns the material left at all rings. Of the rings of a nest, only the ring that the cuts follow best is considered.
     pub(super) fn leftovers(&self) -> Leftovers {
         let mut nests: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (ring, drawn) in self.part.part.rings.iter().enumerate() {
@@ -155,10 +167,7 @@ impl<'s> LeftoverSearch<'s> {
         let mut found = Leftovers::default();
         let mut longest = 0.0;
         for members in nests.values() {
-            let judged = members.iter().filter_map(|ring| Some((*ring, self.ring(*ring)?)));
-            let total = |ring: &RingStretches| ring.stretches_left().map(|(from, to)| to - from).sum::<f64>();
-            let best = judged.min_by(|one, other| total(&one.1).total_cmp(&total(&other.1)));
-            let Some((ring, stretches)) = best else { continue };
+            let Some((ring, stretches)) = self.cut_ring(members) else { continue };
             let described =
                 stretches.left.iter().filter_map(|stretch| self.leftover(ring, *stretch, &stretches));
             found.stretches.extend(described);
@@ -170,6 +179,39 @@ impl<'s> LeftoverSearch<'s> {
         found
     }
 
+    /// Returns the ring of a nest that the cuts follow best, with its stretches; `None` if no cut beside the part comes near any of them.
+    fn cut_ring(&self, nest: &[usize]) -> Option<(usize, RingStretches)> {
+        let judged = nest.iter().filter_map(|ring| Some((*ring, self.ring(*ring)?)));
+        let [_, _, ..] = nest else { return judged.last() };
+        let mut judged: Vec<_> =
+            judged.map(|(ring, stretches)| (self.agreement(ring, &stretches), ring, stretches)).collect();
+        judged.sort_by(|one, other| {
+            let left = |stretches: &RingStretches| total_length(stretches.stretches_left());
+            one.0.cmp(&other.0).then_with(|| left(&one.2).total_cmp(&left(&other.2)))
+        });
+        let is_exceeded = judged.iter().any(|(agreement, ..)| *agreement == Agreement::Exceeded);
+        let (agreement, ring, mut stretches) = judged.into_iter().next()?;
+        if is_exceeded && agreement == Agreement::Uncut {
+            stretches.left = join_ends(std::mem::take(&mut stretches.never), stretches.length);
+        }
+        Some((ring, stretches))
+    }
+
+    /// Returns how far the cuts follow a ring of a nest of several rings.
+    fn agreement(&self, ring: usize, stretches: &RingStretches) -> Agreement {
+        let exceeded = self.part.part.rings[ring].curves.iter().map(|curve| {
+            let curve = RingCurve { ring, curve, near: self.cuts.near(widened_box(curve, 0.0)).collect() };
+            total_length(self.stretches_within_cuts(&curve, -self.tolerance).into_iter())
+        });
+        if 2.0 * exceeded.sum::<f64>() > stretches.length {
+            Agreement::Exceeded
+        } else if total_length(stretches.never.iter().copied()) > stretches.length - MIN_REPORTED_LENGTH {
+            Agreement::Uncut
+        } else {
+            Agreement::Followed
+        }
+    }
+
     /// Returns the stretches of a ring; `None` if no cut beside the part comes near the ring.
     fn ring(&self, ring: usize) -> Option<RingStretches> {
         let mut all = RingStretches::default();
@@ -179,7 +221,7 @@ impl<'s> LeftoverSearch<'s> {
             let curve = RingCurve { ring, curve, near: self.cuts.near(widened_box(curve, 0.0)).collect() };
             is_near = is_near || self.cuts_beside(&curve).next().is_some();
             let length = curve.curve.length();
-            let gaps = gaps_between(&self.covered_stretches(&curve), (0.0, length));
+            let gaps = gaps_between(&self.stretches_within_cuts(&curve, self.tolerance), (0.0, length));
             if !gaps.is_empty() {
                 self.add_gaps(&curve, &gaps, &mut all, &mut uncut);
             }
@@ -190,7 +232,7 @@ impl<'s> LeftoverSearch<'s> {
             self.add_notches(&mut all, &mut uncut);
         }
         if is_near {
-            self.add_swept_stretches(ring, &mut all);
+            self.add_swept_stretches(ring, &mut all, &mut uncut);
         }
         let is_long = |(from, to): &Stretch| to - from >= MIN_REPORTED_LENGTH;
         all.left = join_ends(join_stretches(uncut, NEIGHBOUR_JOIN_GAP), all.length)
@@ -242,8 +284,8 @@ impl<'s> LeftoverSearch<'s> {
         })
     }
 
-    /// Returns the stretches of a curve that are within the tolerance of through cuts, or of the support bars between them.
-    fn covered_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
+    /// Returns the stretches of a curve that are within `margin` mm of the edges of through cuts, or of the support bars between them.
+    fn stretches_within_cuts(&self, curve: &RingCurve<'_>, margin: f64) -> Vec<Stretch> {
         let mut found = Vec::new();
         let mut last = None;
         for judged in curve.near.iter().filter_map(|number| self.judged.get(*number)) {
@@ -255,7 +297,7 @@ impl<'s> LeftoverSearch<'s> {
                 continue;
             }
             let way = supported.unwrap_or(judged.curve);
-            add_stretches_within(curve.curve, &way, judged.cut.radius + self.tolerance, &mut found);
+            add_stretches_within(curve.curve, &way, judged.cut.radius + margin, &mut found);
         }
         join_stretches(found, JOIN_GAP)
     }
@@ -299,9 +341,9 @@ impl<'s> LeftoverSearch<'s> {
         }
     }
 
-    /// Adds the stretches that no cut comes near, but along which a sweep runs as a cut would. Nothing is added if other long stretches are not cut
-    /// either: the edge of the plate may be the edge of the part.
-    fn add_swept_stretches(&self, ring: usize, all: &mut RingStretches) {
+    /// Adds the stretches that no cut comes near, but along which a sweep runs as a cut would, together with what the cuts on both sides leave there.
+    /// Nothing is added if other long stretches are not cut either: the edge of the plate may be the edge of the part.
+    fn add_swept_stretches(&self, ring: usize, all: &mut RingStretches, uncut: &mut Vec<Stretch>) {
         let Some(radius) = self.smallest_radius() else { return };
         let is_long = |(from, to): &Stretch| to - from > 2.0 * radius;
         let embeds_others = self.cuts.paths.iter().any(|path| !path.embedded.is_empty());
@@ -309,15 +351,21 @@ impl<'s> LeftoverSearch<'s> {
             return;
         }
         let mut never = all.never.clone();
+        let mut left = join_stretches(std::mem::take(uncut), NEIGHBOUR_JOIN_GAP);
+        let unswept = left.clone();
         let mut swept = Vec::new();
         for (number, beside) in self.stretches_beside_sweeps(ring) {
-            let here = intersection(&never, &beside).into_iter();
-            swept.extend(
-                here.filter(|(from, to)| to - from >= MIN_REPORTED_LENGTH).map(|here| (here, number)),
-            );
-            never = difference(&never, &beside);
+            let open = join_stretches([&never[..], &left].concat(), NEIGHBOUR_JOIN_GAP);
+            let has_never = |stretch: &Stretch| !intersection(&never, &[*stretch]).is_empty();
+            let mut here = intersection(&open, &beside);
+            here.retain(|stretch| stretch.1 - stretch.0 >= MIN_REPORTED_LENGTH && has_never(stretch));
+            never = difference(&never, &here);
+            left = difference(&left, &here);
+            swept.extend(here.into_iter().map(|here| (here, number)));
         }
-        if !never.iter().any(is_long) {
+        let is_other_edge = never.iter().any(is_long);
+        *uncut = if is_other_edge { unswept } else { left };
+        if !is_other_edge {
             all.swept = swept;
         }
     }
@@ -386,26 +434,29 @@ impl<'s> LeftoverSearch<'s> {
         let Some(radius) = smallest else { return Vec::new() };
         let length = curve.curve.length();
         let Some(away) = offset_curve(curve.curve, radius) else {
-            return if self.reaches_whole_arc(curve.curve, radius) {
-                Vec::new()
-            } else {
-                vec![(0.0, length)]
-            };
+            return if self.reaches_whole_arc(curve, radius) { Vec::new() } else { vec![(0.0, length)] };
         };
         let scale = length / away.length();
         let mut found = Vec::new();
-        for (_, other) in self.part.curves_near(widened_box(&away, radius)) {
+        for (_, other) in self.curves_beside(curve.ring, widened_box(&away, radius)) {
             add_stretches_within(&away, other, radius - self.tolerance, &mut found);
         }
         join_stretches(found.into_iter().map(|(from, to)| (from * scale, to * scale)).collect(), JOIN_GAP)
     }
 
     /// Whether a curve is an inner arc with the cutter's radius: the cutter then reaches the whole arc from the arc's centre.
-    fn reaches_whole_arc(&self, curve: &Curve, radius: f64) -> bool {
-        let Curve::Arc(arc) = curve else { return false };
+    fn reaches_whole_arc(&self, curve: &RingCurve<'_>, radius: f64) -> bool {
+        let Curve::Arc(arc) = curve.curve else { return false };
         let reach = radius - self.tolerance;
-        let mut near = self.part.curves_near(square(arc.centre, reach));
+        let mut near = self.curves_beside(curve.ring, square(arc.centre, reach));
         arc.radius >= reach && near.all(|(_, other)| other.distance_to(arc.centre) >= reach)
+    }
+
+    /// Returns the curves near a box that limit the cutter beside a ring: not those of other rings in the same nest, which are alternatives.
+    fn curves_beside(&self, ring: usize, extent: AABB<[f64; 2]>) -> impl Iterator<Item = (usize, &Curve)> {
+        let rings = &self.part.part.rings;
+        let is_other = move |other: usize| other != ring && rings[other].nest == rings[ring].nest;
+        self.part.curves_near(extent).filter(move |(other, _)| !is_other(*other))
     }
 
     /// Returns the stretches beside support bars, where the path is meant to cut only down to the bar.
@@ -517,7 +568,10 @@ impl<'s> LeftoverSearch<'s> {
     fn distance(&self, at: Xy) -> f64 {
         let distance = |cut: &IndexedCut<'_>| cut.cut.way.curve.distance_to(at) - cut.radius;
         let near = self.cuts.near(square(at, 0.0)).map(|number| &self.cuts.cuts[number]);
-        let nearest = near.filter(|cut| self.contours[cut.path]).map(distance).min_by(f64::total_cmp);
+        let near = near.filter(|cut| self.contours[cut.path]).map(|cut| (distance(cut), cut.radius));
+        // A cut whose box is near may be farther away than one whose box is not.
+        let near = near.filter(|(distance, radius)| distance <= radius).map(|(distance, _)| distance);
+        let nearest = near.min_by(f64::total_cmp);
         nearest.unwrap_or_else(|| self.all_contour_cuts().map(distance).fold(f64::INFINITY, f64::min))
     }
 
@@ -526,6 +580,7 @@ impl<'s> LeftoverSearch<'s> {
     fn cut_beside(&self, ring: usize, along: f64, whole: f64) -> Option<&'s IndexedCut<'s>> {
         let at = self.ring_point(ring, along, whole);
         let near = self.nearest_of(self.cuts.near(square(at, 0.0)).collect(), ring, at);
+        let near = near.filter(|cut| cut.cut.way.curve.distance_to(at) <= 2.0 * cut.radius);
         let near = near.or_else(|| self.first_cut_outwards(ring, along, whole));
         near.or_else(|| self.nearest_of((0..self.cuts.cuts.len()).collect(), ring, at))
     }
@@ -602,6 +657,10 @@ impl<'s> LeftoverSearch<'s> {
         }
         (&curves[0], 0.0)
     }
+}
+
+fn total_length(stretches: impl Iterator<Item = Stretch>) -> f64 {
+    stretches.map(|(from, to)| to - from).sum()
 }
 
 /// Returns the direction at a right angle to a curve of a ring, out of the material on its left; `None` for a curve without length.
