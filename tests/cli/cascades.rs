@@ -22,7 +22,7 @@ fn path(name: &str, start: &str, elements: &str) -> String {
 }
 
 fn embedding(name: &str, embedded: &str) -> String {
-    path(name, "T5 O2 I1 MX", &format!("subpath 0,0 40,0 \"{embedded}\"\nend 40,0"))
+    path(name, "T5 O2 MX", &format!("subpath 0,0 40,0 \"{embedded}\"\nend 40,0"))
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn a_cycle_is_one_error_in_each_of_its_paths() {
     let outside = embedding("8001.1P", ">1001.1P");
     drawings.push(("8001.1P", &outside));
     assert_eq!(found(&place(&drawings)), ["509 1001", "509 1002", "509 1003", "511 8001"]);
-    let itself = path("1001.1P", "T5 O2 I1 MX :B0~1", "subpath 0,0 40,0 \">1001.1P :B=B\"\nend 40,0");
+    let itself = path("1001.1P", "T5 O2 MX :B0~1", "subpath 0,0 40,0 \">1001.1P :B=B\"\nend 40,0");
     assert_eq!(found(&place(&[("1001.1P", &itself)])), ["509 1001"]);
 }
 

@@ -22,7 +22,7 @@ use crate::support::Place;
 const BEFORE: &str = r#"
 == a 8001.1P.dxf ==
 layer 8001.1P
-start 0,0 "T5 O2 MPlate S20 F150"
+start 0,0 "T5 O2 MPlate S20"
 subpath 0,0 40,0 ">1234.1P"
 end 40,0
 == 1234.dxf ==

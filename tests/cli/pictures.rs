@@ -215,7 +215,7 @@ fn places_in_the_program_are_marked_in_the_drawing() {
         let (start, from, to, end) = (at(0, 0), at(10, 10), at(30, 10), at(50, 10));
         let [a, b, c, d] = [at(5, 10), at(35, 10), at(35, 30), at(5, 30)];
         let project = format!(
-            "layer 8111.1P\nstart {start} \"T2 O2 F100 M20x2\"\nsweep {start} {from}\nsubpath {from} {to} \">1111.1P\"\nsweep {to} {end}\nend {end}\nlayer Part\npolyline {a} {b} {c} {d} closed\n"
+            "layer 8111.1P\nstart {start} \"T2 O2 M20x2\"\nsweep {start} {from}\nsubpath {from} {to} \">1111.1P\"\nsweep {to} {end}\nend {end}\nlayer Part\npolyline {a} {b} {c} {d} closed\n"
         );
         let options = "part = 'Part'\nrapid = 900\nsweep-height = 9\n";
         let place = Place::new().file("pathbuild.toml", options);
@@ -237,7 +237,7 @@ fn cuts_by_a_neighbour(length: i32, shims: &str, [x, y]: [i32; 2]) -> BTreeMap<S
     let at = |right: i32, up: i32| format!("{},{}", x + right, y + up);
     let (start, right, top, end) = (at(0, 0), at(40, 0), at(13, 32), at(13, 32 - length));
     let project = format!(
-        "layer 8122.1P\nstart {start} \"O2 T2 M20x2 S10 F150\"\nsubpath {start} {right} \">1121.1P\"\n\
+        "layer 8122.1P\nstart {start} \"O2 T2 M20x2 S10\"\nsubpath {start} {right} \">1121.1P\"\n\
          sweep {right} {top}\nsubpath {top} {end} \">1129.1P{shims}\"\nend {end}\n"
     );
     let place = Place::new().file("pathbuild.toml", fs::read(folder.join("pathbuild.toml")).unwrap());
@@ -276,7 +276,7 @@ fn regions_that_no_cut_or_another_path_makes_are_filled() {
         place = place.file(name, fs::read(folder.join(name)).unwrap());
     }
     let groove = "layer 1129.1P\nstart 0,0 \"O2 T2 M20x2 I0.5 F150 B-0.2\"\nmill 0,0 0,-5\nend 0,-5\n";
-    let project = "layer 8122.1P\nstart 0,-6 \"O2 T2 M20x2 S10 F150\"\nsubpath 0,-6 40,-6 \">1121.1P\"\n\
+    let project = "layer 8122.1P\nstart 0,-6 \"O2 T2 M20x2 S10\"\nsubpath 0,-6 40,-6 \">1121.1P\"\n\
                    sweep 40,-6 13,26\nsubpath 13,26 13,21 \">1129.1P\"\nend 13,21\n";
     let place = place.file("1129.1P.dxf", dxf(groove)).file("8122.1P.dxf", dxf(project));
     let run = place.run("check . --pictures seen --no-cache");

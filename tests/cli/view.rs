@@ -746,7 +746,7 @@ fn cuts_go_through_material_that_lies_on_zero() {
 fn cuts_into_parts_are_red() {
     let slot = "layer 1234.1P\nstart 0,10 \"T2 O2 I1 B0 F100\"\nsweep 0,10 10,10\nmill 10,10 30,10\nsweep 30,10 50,10\nend 50,10\nlayer Part\npolyline 0,0 40,0 40,20 0,20 closed";
     let component = "layer 1111.1P\nstart 0,0 \"T2 O2 I1 B0 F100 M20x2\"\nmill 0,0 20,0\nend 20,0";
-    let project = "layer 8111.1P\nstart 0,0 \"T2 O2 F100 M20x2\"\nsweep 0,0 10,10\nsubpath 10,10 30,10 \">1111.1P\"\nsweep 30,10 50,10\nend 50,10\nlayer Part\npolyline 5,10.5 35,10.5 35,30 5,30 closed";
+    let project = "layer 8111.1P\nstart 0,0 \"T2 O2 M20x2\"\nsweep 0,0 10,10\nsubpath 10,10 30,10 \">1111.1P\"\nsweep 30,10 50,10\nend 50,10\nlayer Part\npolyline 5,10.5 35,10.5 35,30 5,30 closed";
     let mut place = Place::new().file("pathbuild.toml", "part = 'Part'\n");
     for (name, drawn) in [("1234.1P", slot), ("1111.1P", component), ("8111.1P", project)] {
         place = place.file(&format!("{name}.dxf"), sheet(drawn).unwrap().to_dxf());

@@ -73,10 +73,10 @@ impl RawPath {
     }
 
     /// Returns the findings about the drawing, without those about mistakes that are also in `problems`: a letter without effect (PB210) that also
-    /// has a value outside its limits (PB203) is a single mistake.
+    /// has a value outside its limits (PB203), or for two reasons, is a single mistake.
     pub fn findings_except(&self, problems: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_same = |found: &Diagnostic, problem: &Diagnostic| {
-            problem.code() == Code::ParameterOutOfRange
+            matches!(problem.code(), Code::ParameterOutOfRange | Code::ParameterWithoutEffect)
                 && (&problem.text, &problem.place) == (&found.text, &found.place)
         };
         let is_repeated = |found: &Diagnostic| {

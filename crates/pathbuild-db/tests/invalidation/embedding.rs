@@ -8,7 +8,7 @@ pub(crate) fn component(name: &str, bottom: &str) -> String {
 }
 
 fn project(name: &str, embedded: &str) -> String {
-    format!("layer {name}\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">{embedded}\"\nend 20,0")
+    format!("layer {name}\nstart 0,0 \"T5 O3 Mx\"\nsubpath 0,0 20,0 \">{embedded}\"\nend 20,0")
 }
 
 const COMPONENT: &str = "lib/1111.1P.dxf";

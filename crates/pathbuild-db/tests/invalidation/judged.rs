@@ -11,7 +11,7 @@ use crate::world::{LIMITS, World};
 const WITH_VARIABLE: &str = "layer 1114.1P\nstart 0,0 \"T5 O3 I1 Mx :B0,9\"\nmill 0,0 20,0 \"B=B\"\nend 20,0";
 
 fn project(path: &str, segment: &str) -> String {
-    format!("layer {path}\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \"{segment}\"\nend 20,0")
+    format!("layer {path}\nstart 0,0 \"T5 O3 Mx\"\nsubpath 0,0 20,0 \"{segment}\"\nend 20,0")
 }
 
 fn codes(files: &[(&str, &str)], file: &str, path: &str, role: Role) -> Vec<String> {
@@ -68,7 +68,7 @@ fn the_s_of_a_sweep_clears_what_the_path_embeds() {
     let component = component("1111.1P", "0");
     let checked = |path: &str, s: &str, role| {
         let drawn = format!(
-            "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx {path}\"\nsubpath 0,0 20,0 \">1111.1P H10\"\n\
+            "layer 8001.1P\nstart 0,0 \"T5 O3 Mx {path}\"\nsubpath 0,0 20,0 \">1111.1P H10\"\n\
              sweep 20,0 40,0 \"{s}\"\nend 40,0"
         );
         codes(

@@ -10,8 +10,7 @@ use crate::world::{READING, World};
 
 const PATH: &str = "lib/1111.1P.dxf";
 const OTHER: &str = "lib/1112.1P.dxf";
-const PROJECT: &str =
-    "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 300,0 \">1114.1P :B1\"\nend 300,0";
+const PROJECT: &str = "layer 8001.1P\nstart 0,0 \"T5 O3 Mx\"\nsubpath 0,0 300,0 \">1114.1P :B1\"\nend 300,0";
 
 /// Returns a path with so many segments that the walk checks the clock.
 fn long(name: &str, values: &str) -> String {

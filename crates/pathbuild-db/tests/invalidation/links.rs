@@ -22,7 +22,7 @@ fn codes(drawing: &Utf8Path, path: &str) -> Vec<String> {
 fn a_link_to_a_drawing_is_no_second_definition() {
     let directory = tempfile::tempdir().unwrap();
     let root = Utf8Path::from_path(directory.path()).unwrap();
-    let project = "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
+    let project = "layer 8001.1P\nstart 0,0 \"T5 O3 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
     let [drawing, other, link] = ["8001.1P.dxf", "1111.1P.dxf", "1111.dxf"].map(|name| root.join(name));
     OsSystem.write(&drawing, &dxf(project)).unwrap();
     OsSystem.write(&other, &dxf(&component("1111.1P", "0"))).unwrap();

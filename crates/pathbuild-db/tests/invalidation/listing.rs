@@ -7,7 +7,7 @@ const PROJECT: &str = "lib/8001.1P.dxf";
 
 /// Creates a project that embeds one path from a drawing named after it, and one from a drawing named after a range.
 fn world() -> World {
-    let project = "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\n\
+    let project = "layer 8001.1P\nstart 0,0 \"T5 O3 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\n\
                    subpath 20,0 40,0 \">2222.1P\"\nend 40,0";
     World::new(&[
         ("lib/1111.1P.dxf", &component("1111.1P", "0")),

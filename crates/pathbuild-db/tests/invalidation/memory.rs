@@ -5,8 +5,8 @@ use pathbuild_db::Role;
 use crate::embedding::component;
 use crate::world::World;
 
-const PROJECT: &str = "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
-const OTHER: &str = "layer 8002.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
+const PROJECT: &str = "layer 8001.1P\nstart 0,0 \"T5 O3 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
+const OTHER: &str = "layer 8002.1P\nstart 0,0 \"T5 O3 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
 
 /// The queries with large values: the entities of a drawing, and the stages of a path.
 const LARGE: [&str; 4] = ["raw_file component", "raw_path component", "path component", "chains component"];

@@ -26,7 +26,7 @@ fn component(name: &str, feed: &str, top: &str) -> String {
 
 /// Returns a project that embeds both components, far enough apart.
 fn project() -> String {
-    "layer 8001.1P\nstart 0,0 \"T5 O2 I1 F100 Mx\"\nsubpath 0,0 0,22 \">1111.1P\"\nsweep 0,22 100,0\n\
+    "layer 8001.1P\nstart 0,0 \"T5 O2 Mx\"\nsubpath 0,0 0,22 \">1111.1P\"\nsweep 0,22 100,0\n\
      subpath 100,0 100,22 \">1112.1P\"\nend 100,22"
         .to_owned()
 }

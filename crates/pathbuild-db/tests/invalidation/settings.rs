@@ -8,7 +8,7 @@ use salsa::Setter;
 use crate::embedding::component;
 use crate::world::World;
 
-const PROJECT: &str = "layer 8001.1P\nstart 0,0 \"T5 O3 I1 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
+const PROJECT: &str = "layer 8001.1P\nstart 0,0 \"T5 O3 Mx\"\nsubpath 0,0 20,0 \">1111.1P\"\nend 20,0";
 
 fn world() -> World {
     let mut world =

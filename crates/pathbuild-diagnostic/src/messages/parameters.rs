@@ -524,6 +524,13 @@ messages! {
         help_en: "remove it, or check the line types: only lines and arcs with CONTINUOUS, DIVIDE, BORDER or CENTER form chains",
         help_de: "entfernen oder die Linientypen prüfen: nur Linien und Bögen mit CONTINUOUS, DIVIDE, BORDER oder CENTER bilden Ketten",
     }
+    /// A letter of cuts at the start of a path that only embeds others.
+    WITHOUT_EFFECT_ON_EMBEDDED: ParameterWithoutEffect {
+        en: "{letter} has no effect here: the path only embeds others, which have their own {letter}",
+        de: "{letter} hat hier keine Wirkung: der Pfad bettet nur andere ein, und für diese gilt ihr eigener Wert",
+        help_en: "remove it; to change {letter}, write it in the embedded paths",
+        help_de: "entfernen; um {letter} zu ändern, den Wert in die eingebetteten Pfade schreiben",
+    }
     /// B on a marking segment.
     BOTTOM_OF_MARK: ParameterWithoutEffect {
         en: "{letter} has no effect here: a mark (line type DIVIDE) goes down to D",

@@ -145,7 +145,7 @@ impl<'a> Binder<'a> {
         let sweep_height = self.path_number(Letter::S);
         self.bind_segments(tool);
         self.report_missing_gaps();
-        self.check_unused_letters(tool);
+        self.check_bars(tool);
         let turns = self.raw.turns.iter();
         let start = self.marker(self.raw.start.as_ref())?;
         let end = self.marker(self.raw.end.as_ref())?;
@@ -626,20 +626,6 @@ fn is_closed_by(tool: f64, outline: &[Curve]) -> bool {
 const BAR_LETTERS: [Letter; 2] = [Letter::P, Letter::U];
 
 impl Binder<'_> {
-    /// Reports W of a path without a chain, and letters for support bars of a path that has none.
-    fn check_unused_letters(&mut self, tool: Option<f64>) {
-        let is_chain =
-            |element: &Element| matches!((element.role, element.shape), (Role::Cut(_), Shape::Curve(_)));
-        if self.values.has(Letter::W) && !self.raw.drawn.elements.iter().any(is_chain) {
-            let problem = Diagnostic::new(&messages::FIRST_DEPTH_WITHOUT_CHAIN);
-            let problem = problem.with("letter", Letter::W.as_char());
-            self.report_at_start(self.values.underline(Letter::W, problem));
-        }
-        if BAR_LETTERS.into_iter().any(|letter| self.values.has(letter)) {
-            self.check_bars(tool);
-        }
-    }
-
     /// Reports support segments that are nowhere cut through. Short edges of rounded corners are between longer sides with gaps, so single ones are
     /// only doubtful if no segment of the path has a gap.
     fn report_missing_gaps(&mut self) {
@@ -660,12 +646,14 @@ impl Binder<'_> {
         }
     }
 
-    /// Reports PB212 if there are no bars and the cuts through the material form a ring, so that the part would come loose. Parts that are held
+    /// Reports PB212 if P or U is given, but there are no bars and the cuts through the material form a ring, so that the part would come loose. Parts that are held
     /// otherwise need no bars.
     fn check_bars(&mut self, tool: Option<f64>) {
         let elements = &self.raw.drawn.elements;
+        let has_letters = BAR_LETTERS.into_iter().any(|letter| self.values.has(letter));
         let is_held_otherwise = self.language.part.as_ref().is_some_and(|part| part.is_held_otherwise);
-        if is_held_otherwise || elements.iter().any(|element| element.role == Role::Cut(Cut::Support)) {
+        let has_bars = || elements.iter().any(|element| element.role == Role::Cut(Cut::Support));
+        if !has_letters || is_held_otherwise || has_bars() {
             return;
         }
         let outline = self.segments.iter().filter_map(|segment| {

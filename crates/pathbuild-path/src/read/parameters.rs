@@ -64,7 +64,10 @@ impl PathCheck<'_> {
             self.report(self.raw.at_parameters(problem));
         }
         self.define_variables();
-        self.check_uses(starts);
+        if starts.is_empty() {
+            self.check_uses();
+            self.check_letters_of_cuts();
+        }
         self.check_elements(self.raw.tool());
     }
 
@@ -157,12 +160,12 @@ impl PathCheck<'_> {
 }
 
 impl PathCheck<'_> {
-    /// Reports PB210 for each variable that no text of the path refers to. Nothing is reported if paths of the drawing borrow texts from each other,
-    /// since the variable may be meant for one of them, or if errors may hide a reference.
-    fn check_uses(&mut self, starts: &Starts) {
+    /// Reports PB210 for each variable that no text of the path refers to. Nothing is reported if errors may hide a reference. Not for drawings
+    /// whose paths borrow texts from each other, since the variable may be meant for one of them.
+    fn check_uses(&mut self) {
         let faults = &self.raw.faults;
         let may_be_hidden = faults.has_broken_entity || faults.stray_letters != Letters::default();
-        if self.raw.definitions.is_empty() || !starts.is_empty() || may_be_hidden {
+        if self.raw.definitions.is_empty() || may_be_hidden {
             return;
         }
         let texts = self.raw.drawn.texts.iter();
@@ -180,6 +183,48 @@ impl PathCheck<'_> {
                 piece.letter == Some(Letter::Variable) && !used.contains(&name) && is_defined(&name);
             let problem = Diagnostic::new(&parameters::UNUSED_VARIABLE).with("variable", name);
             is_unused.then(|| self.raw.at_parameters(problem.with_text(parameters.fault(piece))))
+        });
+        for problem in unused.collect::<Vec<_>>() {
+            self.report(problem);
+        }
+    }
+}
+
+/// Letters that only cuts of the path itself use.
+const LETTERS_OF_CUTS: [Letter; 8] =
+    [Letter::A, Letter::B, Letter::C, Letter::D, Letter::I, Letter::P, Letter::U, Letter::W];
+
+impl PathCheck<'_> {
+    /// Reports PB210 for letters of the path's start that none of its elements uses: W without a chain, and everything about cutting in a path
+    /// that only embeds others. Not for drawings whose paths borrow texts from each other.
+    fn check_letters_of_cuts(&mut self) {
+        let drawn = Arc::clone(&self.raw.drawn);
+        let faults = &self.raw.faults;
+        let is_cut_hidden = faults.has_broken_entity
+            || !faults.unclear_curves.is_empty()
+            || !faults.unclear_circles.is_empty();
+        let has_cut = drawn.elements.iter().any(|element| matches!(element.role, Role::Cut(_)));
+        let names_path = |subpath: &Element| {
+            drawn.text(subpath.text).is_some_and(|text| text.letters.contains(Letter::Embed))
+        };
+        let mut subpaths = drawn.elements.iter().filter(|element| element.role == Role::Subpath).peekable();
+        let only_embeds = !has_cut && !is_cut_hidden && subpaths.peek().is_some() && subpaths.all(names_path);
+        let is_chain =
+            |element: &Element| matches!((element.role, element.shape), (Role::Cut(_), Shape::Curve(_)));
+        let (letters, message) = if only_embeds {
+            (&LETTERS_OF_CUTS[..], &parameters::WITHOUT_EFFECT_ON_EMBEDDED)
+        } else if !drawn.elements.iter().any(is_chain) {
+            (&[Letter::W][..], &parameters::FIRST_DEPTH_WITHOUT_CHAIN)
+        } else {
+            return;
+        };
+        // Z of a Z-probe defaults to F of the path.
+        let of_probes =
+            [Letter::F, Letter::Z].into_iter().filter(|_| only_embeds && self.raw.probes.is_empty());
+        let unused = letters.iter().copied().chain(of_probes).filter_map(|letter| {
+            let fault = self.raw.parameters().fault_of(letter)?;
+            let problem = Diagnostic::new(message).with("letter", letter.as_char()).with_text(Some(fault));
+            Some(self.raw.at_parameters(problem))
         });
         for problem in unused.collect::<Vec<_>>() {
             self.report(problem);

@@ -1,9 +1,9 @@
 //! Tests permitted values that are suspicious to a machinist: PB116 and PB211.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_path::{Bindings, DoubtThresholds, Language};
+use pathbuild_path::{Bindings, DoubtThresholds, Language, examine};
 
-use crate::support::{codes, compile, compile_raw, language, path, read_as};
+use crate::support::{codes, compile, compile_raw, language, path, raw, read_as};
 
 /// Returns the findings about a path, with their values.
 fn findings(drawing: &str, doubts: DoubtThresholds) -> Vec<String> {
@@ -413,6 +413,54 @@ fn a_first_depth_without_a_chain_has_no_effect() {
     assert_eq!(codes("circle 0,0 d 2\nmill 0,0 20,0\nend 20,0"), [""; 0]);
 }
 
+/// Returns the texts of the letters that are reported as without effect.
+fn without_effect(drawing: &str) -> Vec<String> {
+    let found = compile(drawing).found.into_iter().filter(|found| found.code().to_string() == "PB210");
+    let text = found.filter_map(|found| found.text);
+    text.map(|it| it.text[it.start as usize..it.end as usize].to_owned()).collect()
+}
+
+/// Embedded paths keep their own values, so those of a path that only embeds others hold for nothing.
+#[test]
+fn letters_of_cuts_have_no_effect_in_a_path_that_only_embeds() {
+    const EMBEDDING: &str = "subpath 0,0 40,0 \">2050.1P\"\n";
+    let found = |start: &str, statements: &str| {
+        without_effect(&path(&format!("T5 O2 Mx {start}"), &format!("{EMBEDDING}{statements}")))
+    };
+    for letter in ["A9", "B1", "C1", "D1", "F99", "I1", "P3", "U9", "W1", "Z50"] {
+        assert_eq!(found(letter, "end 40,0"), [letter]);
+        assert_eq!(found(letter, "mill 40,0 80,0 \"B1\"\nend 80,0"), [""; 0], "{letter}");
+    }
+    assert_eq!(found("S20 E2050 Ra", "end 40,0"), [""; 0]);
+    assert_eq!(found("F99 I1 W1", "circle 40,0 d 2 \"B1\"\nend 40,0"), ["W1"], "the path drills a hole");
+    // Z of a Z-probe is F of the path if nothing else gives it.
+    assert_eq!(found("F99 Z50 I1", "probe 20,20\nend 40,0"), ["I1"]);
+    let without_subpath = path("T5 O2 I1 F99", "sweep 0,0 40,0\nend 40,0");
+    assert_eq!(without_effect(&without_subpath), [""; 0]);
+    // A DASHDOT line that names no path may be meant as a cut.
+    assert_eq!(without_effect(&path("T5 O2 I1", "subpath 0,0 40,0 \"2050.1P\"\nend 40,0")), [""; 0]);
+    // The letters may be meant for the path that borrows them.
+    let borrowed = |text: &str| {
+        let lender = path("T5 O2 B1 I1 F99", &format!("{EMBEDDING}end 40,0"));
+        without_effect(&format!("{lender}\nlayer 1234.2P\nstart 0,50 \"{text}\"\nmill 0,50 40,50\nend 40,50"))
+    };
+    assert_eq!(borrowed("@1234.1P"), [""; 0]);
+    assert_eq!(borrowed("T5 O2 B1 I1"), ["B1", "I1", "F99"]);
+    // A line of an unknown line type may be meant as a cut.
+    let unclear = path("T5 O2 I1", &format!("{EMBEDDING}line \"UNKNOWN\" 40,0 80,0\nend 80,0"));
+    assert_eq!(without_effect(&unclear), [""; 0]);
+}
+
+#[test]
+fn a_letter_without_effect_for_two_reasons_is_one_mistake() {
+    let language = Language { doubts: MACHINE, ..language() };
+    for letter in ["B1", "C1", "F-1"] {
+        let raw = raw(&path(&format!("T5 O2 Mx {letter}"), "subpath 0,0 40,0 \">2050.1P\"\nend 40,0"));
+        let problems = examine(&raw, &Bindings::check_values(&[]), &language).problems;
+        assert_eq!(raw.findings_except(&problems).len() + problems.len(), 1, "{letter}");
+    }
+}
+
 #[test]
 fn a_nearer_element_of_another_kind_is_a_rival() {
     // The distance to a circle is the distance to its centre, 3.7 mm; the line is 0 to 3.8 mm away.
@@ -440,12 +488,12 @@ fn a_path_is_embedded_once_at_a_place() {
             "subpath 0,0 20,0 \">1111.1P N1\"\nsweep 20,0 20,9 0,9 0,0\nend 20,0\n\
              layer 1234.1P~A\nsubpath 0,0 20,0 \"{second} N9999\""
         );
-        codes(&compile(&path("T5 O3 I1 B0", &statements)).found)
+        codes(&compile(&path("T5 O3", &statements)).found)
     };
     assert_eq!(with(">1111.1P"), ["PB121"]);
     // The walk runs back along the second segment at once.
     let statements = "subpath 0,0 20,0 \">1111.1P\"\nend 0,0\nlayer 1234.1P~A\nsubpath 0,0 20,0 \">1111.1P\"";
-    assert_eq!(codes(&compile(&path("T5 O3 I1 B0", statements)).found), ["PB121"]);
+    assert_eq!(codes(&compile(&path("T5 O3", statements)).found), ["PB121"]);
     assert_eq!(with(">1111.2P"), [""; 0], "another path");
     assert_eq!(with(">1111.1P H0.01"), [""; 0], "higher");
     assert_eq!(with(">1111.1P :A5"), [""; 0], "with another value");

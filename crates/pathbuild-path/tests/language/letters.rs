@@ -195,7 +195,7 @@ fn helical_circle_with_bars() {
 fn subpath() {
     check_row("N:o T:o O:o M:o H:o >:o ::o", |text| {
         let name = if text.starts_with('>') { "" } else { ">1111.1P " };
-        format!("subpath 0,0 40,0 \"{name}{text}\"\nend 40,0")
+        format!("subpath 0,0 40,0 \"{name}{text}\"\nmill 40,0 80,0\nend 80,0")
     });
 }
 

@@ -79,7 +79,7 @@ fn an_alias_holds_in_a_drawing() {
 
 /// Returns the meaning of a drawn entity: its role, or the code of the finding.
 fn meaning(statement: &str) -> String {
-    let raw = raw(&path("T5 O3 I1 B0 D2 P1 U1", &format!("{statement}\nend 40,0")));
+    let raw = raw(&path("T5 O3", &format!("{statement}\nend 40,0")));
     match (raw.diagnostics.first(), raw.drawn.elements.first(), raw.probes.len()) {
         (Some(found), ..) => found.code().to_string(),
         (None, Some(element), 0) => format!("{:?}", element.role),

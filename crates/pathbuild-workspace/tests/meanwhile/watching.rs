@@ -176,7 +176,7 @@ fn what_was_just_tried_is_not_tried_again() {
 /// A drawing embeds another one in its directory, which cannot be listed when the embedded path is looked up.
 #[test]
 fn a_directory_in_which_something_was_looked_for_in_vain_is_listed_again() {
-    let project = "layer 8001.1P\nstart 0,0 \"T5 O2 I1 MX\"\nsubpath 0,0 40,0 \">1001.1P\"\nend 40,0";
+    let project = "layer 8001.1P\nstart 0,0 \"T5 O2 MX\"\nsubpath 0,0 40,0 \">1001.1P\"\nend 40,0";
     let place = OnDisk::configured(EMITTING, &[OTHER, (VICTIM, project)]);
     let edit = (OTHER.0, OTHER.1.replace("B0", "B1"));
     // The event happens the second time, because the first listing finds the drawings.
