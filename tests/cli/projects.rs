@@ -58,6 +58,29 @@ fn graph_lists_every_embedding_with_its_values() {
     assert_snapshot!(Place::of(LIBRARY).run("graph"));
 }
 
+/// A path that has the parameters of another one changes with it.
+#[test]
+fn parameters_that_are_borrowed_are_shown_as_well() {
+    let place = Place::of(&format!(
+        "{LIBRARY}== components/2301.dxf ==\nlayer 2301.1P\nstart 0,0 \"T5 O2 I1 MPlate :B0~1\"\n\
+         mill 0,0 40,0 \"B=B\"\nend 40,0\nlayer 2301.2P\nstart 0,20 \"@2301.1P\"\nmill 0,20 40,20 \"B=B\"\n\
+         end 40,20\n== projects/8301.dxf ==\nlayer 8301.1P\nstart 0,0 \"T5 O2 MPlate\"\n\
+         subpath 0,0 40,0 \">2301.2P :B0.5\"\nend 40,0\n\
+         == projects/8302.dxf ==\nlayer 8302.1P\nstart 0,0 \"T5 O2 MPlate\"\n\
+         subpath 0,0 40,0 \">2301.1P :B1\"\nend 40,0\n"
+    ));
+    let lines = [
+        "rdeps 2301.1P",
+        "rdeps 2301.2P --lang de",
+        "deps 8301.1P",
+        "graph 8301.1P",
+        "graph 8301.1P --format json",
+        "graph 8301.1P --format dot",
+        "graph 8301.1P --format mermaid",
+    ];
+    assert_snapshot!(runs(&place, lines));
+}
+
 /// Returns the codes that `check projects/8001.dxf` reports with these options.
 fn codes(place: &Place, options: &str) -> Vec<String> {
     let run = place.run(&format!("check projects/8001.dxf --format concise {options}"));

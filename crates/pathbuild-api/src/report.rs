@@ -325,7 +325,7 @@ pub struct GraphReport {
     pub findings: Vec<Finding>,
 }
 
-/// A path and another path that it embeds directly.
+/// A path and another path that it embeds directly, or whose parameters it has by @.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub struct GraphEdge {
@@ -337,6 +337,8 @@ pub struct GraphEdge {
     pub embedded_file: String,
     /// Name of the embedded path, as its layer spells it.
     pub embedded_path: String,
+    /// Whether the other path is not embedded, but lends its parameters.
+    pub is_lender: bool,
 }
 
 impl GraphReport {
@@ -357,7 +359,7 @@ impl GraphEdge {
             let EmbeddingEnd::Node(to) = embedding.to else { return None };
             let (file, path) = names(&graph.nodes[embedding.from]);
             let (embedded_file, embedded_path) = names(&graph.nodes[to]);
-            Some(Self { file, path, embedded_file, embedded_path })
+            Some(Self { file, path, embedded_file, embedded_path, is_lender: embedding.is_lender })
         };
         graph.embeddings.iter().filter_map(edge).collect()
     }

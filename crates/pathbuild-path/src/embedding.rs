@@ -28,6 +28,8 @@ pub struct PathHeader {
     pub is_sound: bool,
     /// The definitions of the path's variables, in the order written.
     pub definitions: Vec<Definition>,
+    /// The path of the same drawing that @ names, whose parameters the path has.
+    pub lender: Option<PathName>,
 }
 
 /// The properties of a bound path that others depend on. An edit that leaves them unchanged does not affect other paths. Lengths are in mm.
@@ -86,7 +88,12 @@ const COMPARED_LETTERS: [Letter; 5] = [Letter::Embed, Letter::T, Letter::O, Lett
 impl PathHeader {
     /// Creates the header of a path.
     pub fn of(raw: &RawPath) -> Self {
-        Self { name: raw.name.clone(), is_sound: raw.is_sound(), definitions: raw.definitions.clone() }
+        Self {
+            name: raw.name.clone(),
+            is_sound: raw.is_sound(),
+            definitions: raw.definitions.clone(),
+            lender: raw.borrowed_from.as_ref().map(|lender| lender.0.clone()),
+        }
     }
 }
 

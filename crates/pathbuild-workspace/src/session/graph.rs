@@ -4,8 +4,8 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
-    Closure, Database, Destination, Instance, Role, SourceFile, Target, check_file, closure, locate,
-    path_index, summary,
+    Closure, Database, Db, Destination, Instance, Role, SourceFile, Target, check_file, closure, file_index,
+    locate, path_index, summary,
 };
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Code, Diagnostic};
@@ -43,7 +43,8 @@ pub struct Node {
     pub is_sound: bool,
 }
 
-/// An embedding: all subpath segments of one path that embed the same other path.
+/// An embedding: all subpath segments of one path that embed the same other path. Or a path that has the parameters of another one, by @: a change
+/// of that one affects it as well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Embedding {
     /// Index of the embedding path in [`Graph::nodes`].
@@ -52,6 +53,8 @@ pub struct Embedding {
     pub to: EmbeddingEnd,
     /// Number of subpath segments with this embedding.
     pub count: usize,
+    /// Whether the other path is not embedded, but lends its parameters.
+    pub is_lender: bool,
 }
 
 /// The path that a subpath segment embeds, or the reason why there is none.
@@ -73,13 +76,17 @@ pub enum Direction {
 }
 
 impl Graph {
-    /// Returns the nodes of a path, one for each set of values. The node with example values is left out if other paths embed this path.
+    /// Returns the nodes of a path, one for each set of values. The node with example values is left out if other paths embed this path, unless
+    /// they have its parameters.
     pub fn nodes_of(&self, name: &PathName, file: &Utf8Path) -> Vec<usize> {
         let is_it = |node: &Node| node.name == *name && node.file == *file;
         let mut indices: Vec<usize> =
             (0..self.nodes.len()).filter(|index| is_it(&self.nodes[*index])).collect();
         if indices.iter().any(|index| !self.nodes[*index].is_example) {
-            indices.retain(|index| !self.nodes[*index].is_example);
+            let lends = |index: &usize| {
+                self.embeddings.iter().any(|other| other.is_lender && other.to == EmbeddingEnd::Node(*index))
+            };
+            indices.retain(|index| !self.nodes[*index].is_example || lends(index));
         }
         indices
     }
@@ -119,7 +126,7 @@ impl Graph {
                 EmbeddingEnd::Node(to) => EmbeddingEnd::Node(number[to]),
                 nowhere @ EmbeddingEnd::Nowhere(..) => nowhere.clone(),
             },
-            count: embedding.count,
+            ..*embedding
         };
         Self {
             nodes: order.iter().map(|index| self.nodes[*index].clone()).collect(),
@@ -260,9 +267,13 @@ impl Session<'_> {
 
 /// The graph of the paths that one target embeds.
 struct TargetGraph {
-    /// The paths; the first one is the target.
+    /// The paths; the first one is the target, and the last ones only lend their parameters.
     nodes: Vec<Node>,
+    /// Number of paths that the target embeds, including itself.
+    reached: usize,
     embeddings: Vec<(usize, EmbeddingEnd)>,
+    /// Paths with the parameters of another one, each with that one.
+    loans: Vec<(usize, usize)>,
     /// Diagnostics that explain why the graph of this target is incomplete.
     problems: Vec<Diagnostic>,
 }
@@ -309,7 +320,35 @@ fn target_graph(db: &Database, target: Target) -> TargetGraph {
         Destination::Nowhere { name, code } => EmbeddingEnd::Nowhere(name, code),
     };
     let embeddings = reached.edges(db).into_iter().map(|edge| (number[&edge.from], end(edge.to)));
-    TargetGraph { embeddings: embeddings.collect(), nodes, problems: too_many_paths }
+    let embeddings = embeddings.collect();
+    let reached = nodes.len();
+    let loans = add_lenders(db, &mut nodes);
+    TargetGraph { embeddings, nodes, reached, loans, problems: too_many_paths }
+}
+
+/// Adds the paths whose parameters others have by @, unless they are there, and returns each borrower with its lender.
+fn add_lenders(db: &Database, nodes: &mut Vec<Node>) -> Vec<(usize, usize)> {
+    let mut loans = Vec::new();
+    for borrower in 0..nodes.len() {
+        let file = nodes[borrower].file.clone();
+        let index = file_index(db, db.file(&file));
+        let lender =
+            index.path(&nodes[borrower].name).and_then(|path| index.path(path.header.lender.as_ref()?));
+        let Some(lender) = lender else { continue };
+        let name = &*lender.header.name;
+        let known = nodes.iter().position(|node| node.name == *name && node.file == file);
+        loans.push((borrower, known.unwrap_or(nodes.len())));
+        if known.is_none() {
+            nodes.push(Node {
+                name: name.clone(),
+                file,
+                bindings: lender.examples.clone(),
+                is_example: !lender.examples.is_empty(),
+                is_sound: lender.summary.signature.is_some(),
+            });
+        }
+    }
+    loans
 }
 
 /// Returns PB005 if the target embeds more paths than the limit allows, so that some are missing.
@@ -354,6 +393,12 @@ impl GraphBuilder {
         let numbers: Vec<usize> = part.nodes.iter().map(|node| self.node(node.clone())).collect();
         let cut = part.incomplete_nodes();
         let is_asked = |from: &usize| cut.contains(from) == (completeness == Completeness::Cut);
+        for (from, to) in part.loans.iter().filter(|(from, _)| is_asked(from)) {
+            if !self.complete.contains(&numbers[*from]) {
+                let to = EmbeddingEnd::Node(numbers[*to]);
+                self.graph.embeddings.push(Embedding { from: numbers[*from], to, count: 1, is_lender: true });
+            }
+        }
         let mut added: HashMap<(usize, EmbeddingEnd), usize> = HashMap::new();
         for (from, to) in part.embeddings.iter().filter(|(from, _)| is_asked(from)) {
             let from = numbers[*from];
@@ -368,10 +413,10 @@ impl GraphBuilder {
             let index = *added.entry((from, to.clone())).or_insert(embeddings.len());
             match embeddings.get_mut(index) {
                 Some(known) => known.count += 1,
-                None => embeddings.push(Embedding { from, to, count: 1 }),
+                None => embeddings.push(Embedding { from, to, count: 1, is_lender: false }),
             }
         }
-        self.complete.extend((0..numbers.len()).filter(is_asked).map(|node| numbers[node]));
+        self.complete.extend((0..part.reached).filter(is_asked).map(|node| numbers[node]));
     }
 
     fn node(&mut self, node: Node) -> usize {

@@ -112,7 +112,11 @@ fn tree(graph: &Graph, direction: Direction, words: &GraphTexts) -> String {
     let mut open: Vec<Step> = graph.roots.iter().rev().map(|root| Step::root(*root)).collect();
     while let Some(step) = open.pop() {
         let (label, mut remarks) = words.line(graph, &step);
-        if let EmbeddingEnd::Node(node) = step.to {
+        // What a path that only lends its parameters embeds is of no importance to the borrower.
+        let is_leaf = step.is_lender && direction == Direction::Down;
+        if let EmbeddingEnd::Node(node) = step.to
+            && !is_leaf
+        {
             if !std::mem::replace(&mut is_shown[node], true) {
                 let below = neighbours[node].iter().rev();
                 open.extend(
@@ -136,12 +140,14 @@ struct Step {
     to: EmbeddingEnd,
     /// Number of segments that embed the path at this point of the tree.
     count: usize,
+    /// See [`Embedding::is_lender`].
+    is_lender: bool,
     level: usize,
 }
 
 impl Step {
     fn root(node: usize) -> Self {
-        Self { to: EmbeddingEnd::Node(node), count: 1, level: 0 }
+        Self { to: EmbeddingEnd::Node(node), count: 1, is_lender: false, level: 0 }
     }
 
     fn along(embedding: &Embedding, direction: Direction, level: usize) -> Self {
@@ -149,13 +155,14 @@ impl Step {
             Direction::Down => embedding.to.clone(),
             Direction::Up => EmbeddingEnd::Node(embedding.from),
         };
-        Self { to, count: embedding.count, level }
+        Self { to, count: embedding.count, is_lender: embedding.is_lender, level }
     }
 }
 
 /// Texts of lists and trees in one language.
 struct GraphTexts {
     times: &'static str,
+    lender: &'static str,
     shown: &'static str,
     example: &'static str,
     errors: &'static str,
@@ -164,12 +171,20 @@ struct GraphTexts {
 impl GraphTexts {
     fn of(lang: Lang) -> &'static Self {
         match lang {
-            Lang::En => {
-                &Self { times: "times", shown: "as above", example: "example values", errors: "has errors" }
-            }
-            Lang::De => {
-                &Self { times: "mal", shown: "wie oben", example: "Beispielwerte", errors: "hat Fehler" }
-            }
+            Lang::En => &Self {
+                times: "times",
+                lender: "parameters by @",
+                shown: "as above",
+                example: "example values",
+                errors: "has errors",
+            },
+            Lang::De => &Self {
+                times: "mal",
+                lender: "Parameter über @",
+                shown: "wie oben",
+                example: "Beispielwerte",
+                errors: "hat Fehler",
+            },
         }
     }
 
@@ -178,6 +193,9 @@ impl GraphTexts {
         let mut remarks = Vec::new();
         if step.count > 1 {
             remarks.push(format!("{} {}", step.count, self.times));
+        }
+        if step.is_lender {
+            remarks.push(self.lender.to_owned());
         }
         let EmbeddingEnd::Node(node) = step.to else { return (end(graph, &step.to), remarks) };
         let node = &graph.nodes[node];
@@ -191,7 +209,7 @@ impl GraphTexts {
     }
 }
 
-/// Formats one line per embedding, such as `8001.1P > 2051.1P :A0,5`, sorted by the embedding path. Paths without any embeddings get a
+/// Formats one line per embedding, such as `8001.1P > 2051.1P :A0,5`, or `2051.2P @ 2051.1P` for borrowed parameters, sorted by the embedding path. Paths without any embeddings get a
 /// line of their own.
 fn list(graph: &Graph, words: &GraphTexts) -> String {
     let (below, above) = (graph.neighbours(Direction::Down), graph.neighbours(Direction::Up));
@@ -202,7 +220,8 @@ fn list(graph: &Graph, words: &GraphTexts) -> String {
             _ = writeln!(text, "{}{remark}", path(node));
         }
         for embedding in below[index].iter().map(|embedding| &graph.embeddings[*embedding]) {
-            _ = write!(text, "{} > {}", path(node), end(graph, &embedding.to));
+            let sign = if embedding.is_lender { '@' } else { '>' };
+            _ = write!(text, "{} {sign} {}", path(node), end(graph, &embedding.to));
             _ = match embedding.count {
                 1 => writeln!(text),
                 count => writeln!(text, "  ({count} {})", words.times),
@@ -220,8 +239,7 @@ fn dot(graph: &Graph) -> String {
         _ = writeln!(text, "  n{index} [label={}{style}];", quoted(&label));
     }
     for (index, embedding) in graph.embeddings.iter().enumerate() {
-        let label =
-            if embedding.count > 1 { format!(" [label=\"{}\"]", embedding.count) } else { String::new() };
+        let label = edge_label(embedding).map_or_else(String::new, |label| format!(" [label=\"{label}\"]"));
         match &embedding.to {
             EmbeddingEnd::Node(to) => _ = writeln!(text, "  n{} -> n{to}{label};", embedding.from),
             EmbeddingEnd::Nowhere(name, code) => {
@@ -233,6 +251,14 @@ fn dot(graph: &Graph) -> String {
     }
     text.push_str("}\n");
     text
+}
+
+/// Returns the label of an embedding in a drawn graph.
+fn edge_label(embedding: &Embedding) -> Option<String> {
+    if embedding.is_lender {
+        return Some("@".to_owned());
+    }
+    (embedding.count > 1).then(|| embedding.count.to_string())
 }
 
 /// Quotes a string for DOT; line breaks become `\n`.
@@ -247,7 +273,7 @@ fn mermaid(graph: &Graph) -> String {
         _ = writeln!(text, "  n{index}[\"{label}\"]");
     }
     for (index, embedding) in graph.embeddings.iter().enumerate() {
-        let arrow = if embedding.count > 1 { format!("-->|{}|", embedding.count) } else { "-->".to_owned() };
+        let arrow = edge_label(embedding).map_or_else(|| "-->".to_owned(), |label| format!("-->|{label}|"));
         match &embedding.to {
             EmbeddingEnd::Node(to) => _ = writeln!(text, "  n{} {arrow} n{to}", embedding.from),
             EmbeddingEnd::Nowhere(name, code) => {
@@ -294,7 +320,7 @@ fn values(bindings: &Bindings) -> Map<String, Value> {
 }
 
 /// Returns the JSON object of an embedding. If the target does not exist, `to` is null, `path` is the name in the segment, and `code` is
-/// the reason.
+/// the reason. `lender` states whether the target is not embedded, but lends its parameters by @.
 fn embedding(graph: &Graph, edge: &Embedding) -> Value {
     let (to, path, code) = match &edge.to {
         EmbeddingEnd::Node(to) => (Some(*to), Some(graph.nodes[*to].name.as_str()), None),
@@ -302,5 +328,12 @@ fn embedding(graph: &Graph, edge: &Embedding) -> Value {
             (None, name.as_ref().map(PathName::as_str), Some(code.to_string()))
         }
     };
-    json!({ "from": edge.from, "to": to, "count": edge.count, "path": path, "code": code })
+    json!({
+        "from": edge.from,
+        "to": to,
+        "count": edge.count,
+        "path": path,
+        "code": code,
+        "lender": edge.is_lender,
+    })
 }
