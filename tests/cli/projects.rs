@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{Place, runs};
+use crate::support::{Place, Run, runs};
 use insta::assert_snapshot;
 
 /// A library of components, a project, a fixture project with names as variables, a variable project, and a project with a missing component.
@@ -79,6 +79,45 @@ fn parameters_that_are_borrowed_are_shown_as_well() {
         "graph 8301.1P --format mermaid",
     ];
     assert_snapshot!(runs(&place, lines));
+}
+
+/// Hidden drawings are left out of the library, and of the search for embedded paths.
+#[test]
+fn a_hidden_drawing_defines_no_path_for_others() {
+    let hidden = |name: &str| LIBRARY.replace("components/1234.dxf", &format!("components/{name}"));
+    assert_eq!(codes(&Place::of(&hidden("1234.dxf")), ""), [""; 0]);
+    assert_eq!(codes(&Place::of(&hidden(".1234.dxf")), ""), ["503", "503"]);
+    let both = format!("{LIBRARY}== components/.1234.dxf ==\n{SECOND}");
+    assert_eq!(codes(&Place::of(&both), ""), [""; 0]);
+    let ignored = format!("{LIBRARY}== components/.ignore ==\n1234.dxf\n");
+    assert_eq!(codes(&Place::of(&ignored), ""), [""; 0], "an embedded path is named");
+}
+
+/// The rules beside pathbuild.toml apply to the directories of the library, from wherever pathbuild runs.
+#[test]
+fn ignore_files_beside_the_configuration_apply() {
+    let drawing = |name: &str| format!("layer {name}\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n");
+    let paths = |rules: &str, file: &str| {
+        let place = Place::of(&format!(
+            "== pathbuild.toml ==\nlibrary = [\"parts\"]\n== {file} ==\n{rules}\n== parts/a/1001.dxf ==\n{}\
+             == parts/copy 1002.dxf ==\n{}",
+            drawing("1001.1P"),
+            drawing("1002.1P")
+        ));
+        let count = |run: Run| run.stderr.lines().last().unwrap()[..1].to_owned();
+        let all = count(place.run("check"));
+        assert_eq!(count(place.run("check parts")), all);
+        assert_eq!(count(place.run_in("parts", &["check"])), all);
+        all
+    };
+    assert_eq!(paths("", ".ignore"), "2");
+    for file in [".ignore", ".gitignore"] {
+        assert_eq!(paths("copy*", file), "1");
+        assert_eq!(paths("/parts/copy*", file), "1");
+        assert_eq!(paths("/copy*", file), "2", "it is not beside the file");
+        assert_eq!(paths("a/", file), "1");
+        assert_eq!(paths("/parts/", file), "2", "the library names it");
+    }
 }
 
 /// Returns the codes that `check projects/8001.dxf` reports with these options.

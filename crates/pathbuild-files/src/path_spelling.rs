@@ -18,6 +18,11 @@ pub fn is_drawing(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
 }
 
+/// Whether an entry of a directory is hidden, as files of file managers, version control and interrupted transfers are.
+pub fn is_hidden(name: &str) -> bool {
+    name.starts_with('.')
+}
+
 /// Returns the path of a file in a directory, with separators as from [`with_forward_slashes`], in a single allocation of the right size.
 pub fn join(directory: &Utf8Path, name: impl AsRef<Utf8Path>) -> Utf8PathBuf {
     let name = name.as_ref();

@@ -12,7 +12,7 @@ use rustc_hash::FxHashSet;
 use crate::database::{Db, catch_bugs};
 use crate::inputs::{Directory, Settings, SourceFile};
 use crate::queries::index::{FileIndex, NameKey, file_index, path_index};
-use crate::system::{FileKind, Names, ReadError, is_drawing, join, or_current_directory};
+use crate::system::{FileKind, Names, ReadError, is_drawing, is_hidden, join, or_current_directory};
 
 /// The drawings of a directory, by the path names that they may contain according to their file names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -24,13 +24,15 @@ pub struct NameTable {
 }
 
 impl NameTable {
-    /// Creates a table of the drawings among these files.
+    /// Creates a table of the drawings among these files. Hidden ones define no paths for others, since the library leaves them out too.
     fn new(files: &Names, pattern: &FilePattern) -> Self {
         let (mut names, mut ranges) = (Names::default(), Vec::new());
         for name in files.iter().filter(|name| is_drawing(Utf8Path::new(name))) {
             let number = u32::try_from(names.len()).expect("a directory has fewer than 2^32 names");
-            let stem = &name[..name.len() - EXTENSION.len()];
-            pattern.each_range(stem, |range| ranges.push((range, number)));
+            if !is_hidden(name) {
+                let stem = &name[..name.len() - EXTENSION.len()];
+                pattern.each_range(stem, |range| ranges.push((range, number)));
+            }
             names.push(name);
         }
         Self { names, ranges: ranges.into_iter().collect(), fault: None }

@@ -348,6 +348,8 @@ impl Session<'_> {
             is_parallel: self.context.jobs != Some(1),
             is_wanted,
             obeys_git: true,
+            top: self.context.settings.directory(),
+            working_directory: &self.context.working_directory,
         }
     }
 }

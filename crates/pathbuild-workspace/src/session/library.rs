@@ -1,6 +1,8 @@
-//! Searches directories recursively for drawings, and obeys the .gitignore and .ignore files in them. Patterns have the same meaning as in Git.
+//! Searches directories recursively for drawings, and obeys the .gitignore and .ignore files in them, and in the directories above them up to that of
+//! the configuration. Patterns have the same meaning as in Git.
 //! Files outside the library, such as a user's global excludes, are not read: results must not depend on the user. (book: howto/large-libraries)
 
+use std::borrow::Cow;
 use std::cmp;
 use std::collections::HashSet;
 use std::ops::ControlFlow;
@@ -13,7 +15,7 @@ use ignore::Match;
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use pathbuild_cache::{Listing, Listings};
 use pathbuild_db::system::{
-    Entry, EntryKind, FileKind, Names, ReadError, is_drawing, join, or_current_directory,
+    Entry, EntryKind, FileKind, Names, ReadError, clean, is_drawing, is_hidden, join, or_current_directory,
 };
 use pathbuild_db::{Db, System, catch_bugs, listing_error, unlistable_error};
 use pathbuild_diagnostic::Diagnostic;
@@ -65,6 +67,9 @@ pub(super) struct Walk<'a> {
     pub(super) is_wanted: fn(&Utf8Path) -> bool,
     /// Whether .gitignore files apply, besides .ignore.
     pub(super) obeys_git: bool,
+    /// The directory of the configuration: its ignore files, and those of the directories between it and the root of the search, apply too.
+    pub(super) top: Option<&'a Utf8Path>,
+    pub(super) working_directory: &'a Utf8Path,
 }
 
 impl Walk<'_> {
@@ -104,12 +109,30 @@ impl Walk<'_> {
         Ok(rules)
     }
 
+    /// Returns the rules of the directories above the root of the search, if there are any.
+    fn rules_above(self, root: &Utf8Path, budget: &Budget) -> Result<Option<Arc<Rules>>, Box<Diagnostic>> {
+        let Some(top) = self.top else { return Ok(None) };
+        let [top, place] = [top, root].map(|directory| clean(&self.working_directory.join(directory)));
+        let above: Vec<&Utf8Path> =
+            place.ancestors().skip(1).take_while(|directory| directory.starts_with(&top)).collect();
+        let mut rules = None;
+        for directory in above.into_iter().rev() {
+            let mut level = self.rules(directory, rules, budget)?;
+            if let Some(level) = Arc::get_mut(&mut level) {
+                level.root = Some([root.to_owned(), place.clone()]);
+            }
+            rules = Some(level);
+        }
+        Ok(rules.filter(|rules| rules.levels().any(|level| !level.git.is_empty() || !level.own.is_empty())))
+    }
+
     /// Collects the files and directories unsorted, and counts them. Stops once the limit is exceeded.
     fn collect_levels(self, root: &Utf8Path) -> Result<(WalkResult, u64), Box<Diagnostic>> {
         let mut walked = WalkResult::default();
-        let mut open: Vec<(Utf8PathBuf, Option<Arc<Rules>>)> = vec![(root.to_owned(), None)];
-        let mut count = 1;
         let budget = Budget::new(self.rules_limit);
+        let mut open: Vec<(Utf8PathBuf, Option<Arc<Rules>>)> =
+            vec![(root.to_owned(), self.rules_above(root, &budget)?)];
+        let mut count = 1;
         while !open.is_empty() && count <= self.limit.saturating_add(1) {
             let list = |(directory, above): &(Utf8PathBuf, Option<Arc<Rules>>)| {
                 let list = || Directory::list(directory, above.clone(), self, &budget);
@@ -261,10 +284,6 @@ impl Directory {
     }
 }
 
-fn is_hidden(name: &str) -> bool {
-    name.starts_with('.')
-}
-
 /// Compares names like `Ord`, but faster: first as numbers made of the first eight bytes.
 pub fn compare_names(a: &str, b: &str) -> cmp::Ordering {
     let begin = |name: &str| name.as_bytes().first_chunk().map(|bytes| u64::from_be_bytes(*bytes));
@@ -375,6 +394,8 @@ pub(super) struct Rules {
     own: Gitignore,
     /// Whether the directory is the root of a repository: .gitignore files above it do not apply.
     is_repository: bool,
+    /// The root of the search as it is named, and as an absolute path, if the directory lies above it and therefore has an absolute name.
+    root: Option<[Utf8PathBuf; 2]>,
     above: Option<Arc<Self>>,
 }
 
@@ -447,19 +468,32 @@ impl Rules {
     ) -> Result<Arc<Self>, Box<Diagnostic>> {
         let read = |name| patterns(system, directory, name, budget);
         let is_repository = system.kind(&directory.join(".git")) != FileKind::Missing;
-        Ok(Arc::new(Self { git: read(".gitignore")?, own: read(".ignore")?, is_repository, above }))
+        Ok(Arc::new(Self {
+            git: read(".gitignore")?,
+            own: read(".ignore")?,
+            is_repository,
+            root: None,
+            above,
+        }))
     }
 
     /// Whether an entry is ignored. Rules in `.ignore` files take precedence over those in `.gitignore`, and rules of a directory take precedence
     /// over those of directories above it. Hidden entries are ignored unless a rule includes them.
     pub(super) fn exclude(&self, path: &Utf8Path, is_directory: bool) -> bool {
-        let by_own = self.levels().map(|level| level.own.matched(path, is_directory));
-        let by_git = self.git_levels().map(|level| level.git.matched(path, is_directory));
+        let by_own = self.levels().map(|level| level.own.matched(&*level.path(path), is_directory));
+        let by_git = self.git_levels().map(|level| level.git.matched(&*level.path(path), is_directory));
         match by_own.chain(by_git).find(|found| !found.is_none()) {
             Some(Match::Ignore(_)) => true,
             Some(_) => false,
-            None => path.file_name().is_some_and(|name| name.starts_with('.')),
+            None => path.file_name().is_some_and(is_hidden),
         }
+    }
+
+    /// Returns the path of an entry, which begins with the root of the search, in the spelling of this directory.
+    fn path<'p>(&self, path: &'p Utf8Path) -> Cow<'p, Utf8Path> {
+        let below =
+            self.root.as_ref().and_then(|[root, place]| Some(join(place, path.strip_prefix(root).ok()?)));
+        below.map_or(Cow::Borrowed(path), Cow::Owned)
     }
 
     fn levels(&self) -> impl Iterator<Item = &Self> {

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{Entry, EntryKind, FileKind, is_drawing, join};
+use pathbuild_db::system::{Entry, EntryKind, FileKind, is_drawing, is_hidden, join};
 use pathbuild_db::{
     Db, Role, SecondDefinition, SourceFile, Target, catch_bugs, check_file, defining_files, path_names,
 };
@@ -400,7 +400,7 @@ impl Session<'_> {
         let mut names = Vec::new();
         let mut take = |entry: Entry<'_>| {
             let counts = entry.kind == EntryKind::Directory || is_wanted(Utf8Path::new(entry.name));
-            if counts && entry.is_exact && !entry.name.starts_with('.') {
+            if counts && entry.is_exact && !is_hidden(entry.name) {
                 names.push(entry.name.to_owned());
             }
             ControlFlow::Continue(())

@@ -91,7 +91,7 @@ impl<'a> Library<'a> {
         self.session.parse_ahead(&drawings);
         let db = self.session.db();
         self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
-        self.unfollowed.extend(self.open.keys().cloned().chain(ignore_files(&selection)));
+        self.unfollowed.extend(self.open.keys().cloned().chain(ignore_files(&self.session, &selection)));
         self.problems = self.take_selection(selection);
         Update { now: self.problems.clone(), ..Update::default() }
     }
@@ -313,7 +313,7 @@ impl<'a> Library<'a> {
     /// Searches for drawings again: marks new ones to be checked, and drops missing ones.
     fn find_drawings(&mut self, concerned: &mut HashSet<SourceFile>, update: &mut Update) {
         let selection = self.session.select(self.inputs);
-        self.unfollowed.extend(ignore_files(&selection));
+        self.unfollowed.extend(ignore_files(&self.session, &selection));
         let db = self.session.db();
         let named = selection.named.iter().copied().chain(selection.paths.iter().map(|path| path.file));
         let named = named.map(|file| file.path(db));
@@ -451,9 +451,11 @@ fn parent(path: &Utf8Path) -> &Utf8Path {
     path.parent().unwrap_or(Utf8Path::new(""))
 }
 
-/// Returns the possible ignore files of the searched directories, which may be links.
-fn ignore_files(selection: &Selection) -> impl Iterator<Item = Utf8PathBuf> {
-    selection.below.iter().flat_map(|directory| IGNORE_FILES.map(|name| join(directory, name)))
+/// Returns the possible ignore files of the searched directories, and of the configuration's. They may be links.
+fn ignore_files(session: &Session<'_>, selection: &Selection) -> Vec<Utf8PathBuf> {
+    let top = session.workspace().settings.directory().map(|directory| session.normal(directory));
+    let directories = selection.below.iter().chain(&top);
+    directories.flat_map(|directory| IGNORE_FILES.map(|name| join(directory, name))).collect()
 }
 
 /// The drawings that depend on each input.
