@@ -221,6 +221,35 @@ fn each_path_must_be_embedded() {
     expect(&[(EMBEDDING, &skipped), ("layer 1234.0Q", "#! PB515 1234.1P\nlayer 1234.0Q")], 0);
 }
 
+/// The command that the help names works in the working directory.
+#[test]
+fn the_help_names_the_drawing_with_its_directory() {
+    let skipped = PAIR.replace(EMBEDDING, &EMBEDDING.replace("subpath", "skip"));
+    let library = skipped.split_once("\n== ").unwrap().1;
+    let help = |name: &str| {
+        let place = Place::of(&format!("== {}", library.replace("== 1234", &format!("== parts/{name}"))));
+        let run = place.run("check");
+        let (_, command) = run.stderr.split_once(": pathbuild ").unwrap_or_else(|| panic!("{run}"));
+        command.lines().next().unwrap().to_owned()
+    };
+    assert_eq!(help("1234"), "q-project parts/1234.dxf");
+    assert_eq!(help("1234 gear"), "q-project \"parts/1234 gear.dxf\"");
+}
+
+/// A drawing that was renamed leaves its Q-project behind.
+#[test]
+fn a_q_project_without_its_drawing_is_a_warning() {
+    let renamed =
+        |to: &str| PAIR.replace("== 1234.dxf", to).replace("layer 1234.0Q", "#! PB515\nlayer 1234.0Q");
+    let faults = |text: &str| fixture::faults(text).join("\n");
+    assert_eq!(faults(&renamed("== 1234 gear.dxf")), "");
+    let of_one = PAIR.replace("$ check .", "$ check 1234_Q.dxf");
+    assert_eq!(faults(&of_one), "", "the drawing exists, although it is not checked");
+    let component = "$ check .\n#! exit 0\n== pathbuild.toml ==\nlibrary = [\".\"]\n== 1234_Q.dxf ==\n\
+                     layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n";
+    assert_eq!(faults(component), "", "it embeds nothing");
+}
+
 #[test]
 fn a_value_other_than_the_proxy_lines_is_a_warning() {
     let other = EMBEDDING.replace(":B0,50", ":B0.6");
@@ -277,7 +306,8 @@ fn a_proxy_line_from_start_to_end_of_another_path_has_the_wrong_name() {
 
 #[test]
 fn a_drawing_without_a_q_project_may_have_any_lines() {
-    let place = Place::of(&PAIR.replace("1234_Q.dxf", "1235_Q.dxf").replace("O2 MPlate :B0.5", "O9 MPlate"));
+    let (component, _) = PAIR.split_once("== 1234_Q.dxf").unwrap();
+    let place = Place::of(&component.replace("O2 MPlate :B0.5", "O9 MPlate"));
     let run = place.run("check");
     assert!(run.stderr.contains("no errors, no warnings"), "{run}");
 }

@@ -155,7 +155,7 @@ pub struct QProjectFindings {
 }
 
 /// Compares a component with its Q-project. `paths`: the paths of the Q-project; `None` if one of them has errors, so that its embeddings are
-/// unknown. `drawing`: the file name of the component.
+/// unknown. `drawing`: the file of the component.
 pub fn compare_q_project(
     component: &Component<'_>,
     drawing: &str,
@@ -238,7 +238,7 @@ impl<'a> QProjectComparison<'a> {
         let of_name = |name: &PathName| match embedded.get(name) {
             None => {
                 let problem = Diagnostic::new(&messages::LACKS_PATH).quoting("name", name.as_str());
-                vec![problem.quoting("drawing", self.drawing)]
+                vec![self.with_drawing(problem)]
             }
             Some(segments) => {
                 let of_segment = |&(path, segment, subpath): &(&Path, &Segment, &Subpath)| {
@@ -285,7 +285,19 @@ impl<'a> QProjectComparison<'a> {
             let problem = Diagnostic::new(&messages::Q_LENGTH_DIFFERS).quoting("name", name.as_str());
             problems.push(problem.with("here", here).with("there", there));
         }
-        problems.into_iter().map(|problem| problem.quoting("drawing", self.drawing)).collect()
+        problems.into_iter().map(|problem| self.with_drawing(problem)).collect()
+    }
+
+    /// Names the drawing in a message, and as the argument of a command.
+    fn with_drawing(&self, problem: Diagnostic) -> Diagnostic {
+        let name = self.drawing.rsplit('/').next().unwrap_or_default();
+        let is_plain = |character: char| character.is_alphanumeric() || "-_=./:,+".contains(character);
+        let argument = if self.drawing.chars().all(is_plain) {
+            self.drawing.to_owned()
+        } else {
+            format!("\"{}\"", self.drawing)
+        };
+        problem.quoting("drawing", name).quoting("argument", argument)
     }
 }
 

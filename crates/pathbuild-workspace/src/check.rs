@@ -259,9 +259,10 @@ fn compare_q_projects(
     selection: &Selection,
 ) -> Vec<Answer<DrawingResult>> {
     let named = selection.named.iter().map(|file| file.path(session.db()));
-    let pairs = q_project_pairs(selection.drawings.iter().chain(named));
-    let compare = |open: &[&[&Utf8PathBuf; 2]]| {
-        let open: Vec<Pair> = open.iter().map(|pair| pair.map(|path| session.db().file(path))).collect();
+    let pairs = q_project_pairs(session.db().system(), selection.drawings.iter().chain(named));
+    let compare = |open: &[&[Utf8PathBuf; 2]]| {
+        let open: Vec<Pair> =
+            open.iter().map(|pair| pair.each_ref().map(|path| session.db().file(path))).collect();
         let found = session.compare_q_projects(&open).into_iter().zip(&open);
         let result = |(diagnostics, pair): (_, &Pair)| {
             let trace = Trace { files: pair.to_vec(), lookups: Vec::new() };
@@ -269,7 +270,7 @@ fn compare_q_projects(
         };
         found.map(result).collect()
     };
-    let subject = |[drawing, q_project]: &[&Utf8PathBuf; 2]| format!("{drawing}\0{q_project}").into();
+    let subject = |[drawing, q_project]: &[Utf8PathBuf; 2]| format!("{drawing}\0{q_project}").into();
     memo.get_or(&pairs, subject, |_, result| Some(result), compare)
 }
 

@@ -83,8 +83,7 @@ pub fn q_project(db: &dyn Db, drawing: SourceFile) -> Vec<QProject> {
 #[salsa::tracked]
 pub fn q_project_findings(db: &dyn Db, drawing: SourceFile, q_project: SourceFile) -> Vec<Diagnostic> {
     let paths = sound_paths(db, q_project);
-    let name = drawing.path(db).file_name().unwrap_or_default();
-    let found = compare_q_project(&component(db, drawing), name, paths.as_deref());
+    let found = compare_q_project(&component(db, drawing), drawing.path(db).as_str(), paths.as_deref());
     let in_component = found.in_component.into_iter().map(|problem| problem.in_file(drawing.path(db)));
     let in_q_project = found.in_q_project.into_iter().map(|problem| problem.in_file(q_project.path(db)));
     in_component.chain(in_q_project).collect()

@@ -205,22 +205,29 @@ messages! {
     LACKS_PATH: QProjectLacksPath {
         en: "the Q-project does not embed path {name} of {drawing}",
         de: "das Q-Projekt bettet Pfad {name} aus {drawing} nicht ein",
-        help_en: "add it, or delete the Q-project and write it again: pathbuild q-project {drawing}",
-        help_de: "ihn hinzufügen oder das Q-Projekt löschen und neu schreiben lassen: pathbuild q-project {drawing}",
+        help_en: "add it, or delete the Q-project and write it again: pathbuild q-project {argument}",
+        help_de: "ihn hinzufügen oder das Q-Projekt löschen und neu schreiben lassen: pathbuild q-project {argument}",
+    }
+    /// A Q-project whose drawing does not exist.
+    WITHOUT_DRAWING: QProjectLacksPath {
+        en: "there is no {drawing} beside this Q-project, so it is compared with nothing",
+        de: "neben diesem Q-Projekt liegt keine {drawing}, deshalb wird es mit nichts verglichen",
+        help_en: "if the drawing was renamed or moved, rename or move the Q-project as well; otherwise remove it",
+        help_de: "wurde die Zeichnung umbenannt oder verschoben, das Q-Projekt ebenso umbenennen oder verschieben; sonst entfernen",
     }
     /// A value on a Q-project's segment that differs from that of the proxy line.
     Q_VALUE_DIFFERS: QProjectDiffers {
         en: "{letter} is {here} here, but {there} on the proxy line of path {name} in {drawing}",
         de: "{letter} ist hier {here}, auf der Stellvertreterlinie von Pfad {name} in {drawing} aber {there}",
-        help_en: "make both agree, or delete the Q-project and write it again: pathbuild q-project {drawing}",
-        help_de: "die Werte angleichen oder das Q-Projekt löschen und neu schreiben lassen: pathbuild q-project {drawing}",
+        help_en: "make both agree, or delete the Q-project and write it again: pathbuild q-project {argument}",
+        help_de: "die Werte angleichen oder das Q-Projekt löschen und neu schreiben lassen: pathbuild q-project {argument}",
     }
     /// A length of a Q-project's segment that differs from that of the proxy line.
     Q_LENGTH_DIFFERS: QProjectDiffers {
         en: "the segment is {here} mm long, but the proxy line of path {name} in {drawing} is {there} mm long",
         de: "das Segment ist {here} mm lang, die Stellvertreterlinie von Pfad {name} in {drawing} aber {there} mm",
-        help_en: "make both agree, or delete the Q-project and write it again: pathbuild q-project {drawing}",
-        help_de: "die Werte angleichen oder das Q-Projekt löschen und neu schreiben lassen: pathbuild q-project {drawing}",
+        help_en: "make both agree, or delete the Q-project and write it again: pathbuild q-project {argument}",
+        help_de: "die Werte angleichen oder das Q-Projekt löschen und neu schreiben lassen: pathbuild q-project {argument}",
     }
     /// A proxy line that names a path which does not exist in the drawing.
     PROXY_OF_NOTHING: ProxyDiffers {

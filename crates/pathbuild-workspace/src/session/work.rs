@@ -5,11 +5,13 @@ use std::sync::OnceLock;
 use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::{FileKind, System, join};
 use pathbuild_db::{
-    Closure, Database, Instance, MissingOption, Role, SourceFile, Target, Trace, check_target, closure,
-    file_index, locate, path_names, q_project_findings, summary, trace,
+    Closure, Database, Db, Instance, MissingOption, Role, SourceFile, Target, Trace, check_target, closure,
+    embeds_others, file_index, locate, path_names, q_project_findings, summary, trace,
 };
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::outputs;
 use pathbuild_path::{PathName, PathSignature, is_q_project, tested_by_q_project};
 use rayon::prelude::*;
 
@@ -306,9 +308,12 @@ fn signature<'db>(db: &'db Database, instance: Instance<'db>) -> Option<&'db Pat
 }
 
 impl Session<'_> {
-    /// Returns, for each pair, the discrepancies between the drawing and its Q-project.
+    /// Returns, for each pair, the discrepancies between the drawing and its Q-project, or PB515 if the drawing does not exist.
     pub fn compare_q_projects(&self, pairs: &[Pair]) -> Vec<Vec<Diagnostic>> {
         let judge = |db: &Database, [drawing, q_project]: &Pair| {
+            if is_missing(db.system(), drawing.path(db)) {
+                return q_project_without_drawing(db, *drawing, *q_project).into_iter().collect();
+            }
             let found = q_project_findings(db, *drawing, *q_project).iter().cloned();
             found.map(|problem| locate(db, problem)).collect::<Vec<_>>()
         };
@@ -319,11 +324,29 @@ impl Session<'_> {
     }
 }
 
+fn is_missing(system: &dyn System, drawing: &Utf8Path) -> bool {
+    system.kind(drawing) == FileKind::Missing
+}
+
+/// Returns PB515 for a Q-project without its drawing. A drawing that embeds nothing is none, whatever its name.
+fn q_project_without_drawing(
+    db: &Database,
+    drawing: SourceFile,
+    q_project: SourceFile,
+) -> Option<Diagnostic> {
+    let name = drawing.path(db).file_name().unwrap_or_default();
+    let problem = || Diagnostic::new(&outputs::WITHOUT_DRAWING).quoting("drawing", name);
+    embeds_others(db, q_project).then(|| problem().in_file(q_project.path(db)))
+}
+
 /// A drawing and its Q-project.
 pub type Pair = [SourceFile; 2];
 
-/// Pairs each drawing with its Q-project, if that is among the drawings as well.
-pub fn pairs<'a>(drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone) -> Vec<[&'a Utf8PathBuf; 2]> {
+/// Pairs each Q-project with its drawing, if that is among the drawings as well, or does not exist.
+pub fn pairs<'a>(
+    system: &dyn System,
+    drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone,
+) -> Vec<[Utf8PathBuf; 2]> {
     // Fast path: even a library of ten thousand drawings has few Q-projects or none.
     if !drawings.clone().any(|drawing| may_be_q_project(drawing)) {
         return Vec::new();
@@ -333,7 +356,13 @@ pub fn pairs<'a>(drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone) -> Vec
         drawings.clone().filter_map(|path| Some((stem(path)?, path))).collect();
     let pair = |q_project: &'a Utf8PathBuf| {
         let (directory, name) = stem(q_project)?;
-        Some([*by_stem.get(&(directory, tested_by_q_project(name)?))?, q_project])
+        let tested = tested_by_q_project(name)?;
+        let drawing = match by_stem.get(&(directory, tested)) {
+            Some(drawing) => (*drawing).clone(),
+            None => Some(join(directory, format!("{tested}.dxf")))
+                .filter(|drawing| is_missing(system, drawing))?,
+        };
+        Some([drawing, q_project.clone()])
     };
     drawings.filter_map(pair).collect()
 }

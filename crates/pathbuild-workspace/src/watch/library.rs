@@ -343,6 +343,8 @@ impl<'a> Library<'a> {
         for (drawing, result) in gone {
             self.reverse.remove(db.file(&drawing));
             self.pairs = None;
+            let compared = self.q_projects.extract_if(.., |pair, _| pair.contains(&drawing));
+            update.before.extend(compared.flat_map(|(_, found)| found));
             self.has_other_content = true;
             update.before.extend(result.diagnostics);
             update.changed.insert(drawing.clone());
@@ -402,7 +404,7 @@ impl<'a> Library<'a> {
         update.checked_files.extend(checked_files);
     }
 
-    /// Compares drawings with their Q-projects, if either was checked.
+    /// Compares drawings with their Q-projects, if either was checked or has gone.
     fn compare_q_projects(&mut self, checked_files: &[SourceFile], update: &mut Update) {
         if self.pairs.is_none() {
             self.find_pairs(update);
@@ -410,8 +412,10 @@ impl<'a> Library<'a> {
         let Some(pairs) = self.pairs.as_ref().filter(|pairs| !pairs.is_empty()) else { return };
         let db = self.session.db();
         let checked_files: HashSet<&Utf8PathBuf> = checked_files.iter().map(|file| file.path(db)).collect();
-        let open = pairs.iter().filter(|pair| pair.iter().any(|path| checked_files.contains(path)));
-        let open: Vec<[Utf8PathBuf; 2]> = open.cloned().collect();
+        let is_open = |pair: &&[Utf8PathBuf; 2]| {
+            !self.q_projects.contains_key(*pair) || pair.iter().any(|path| checked_files.contains(path))
+        };
+        let open: Vec<[Utf8PathBuf; 2]> = pairs.iter().filter(is_open).cloned().collect();
         let files: Vec<Pair> = open.iter().map(|pair| [db.file(&pair[0]), db.file(&pair[1])]).collect();
         let found = self.session.with_stable_files(|session| session.compare_q_projects(&files));
         for (pair, found) in open.into_iter().zip(found) {
@@ -422,8 +426,8 @@ impl<'a> Library<'a> {
 
     /// Finds the drawings that have a Q-project. Among ten thousand drawings, this takes as long as processing an edit.
     fn find_pairs(&mut self, update: &mut Update) {
-        let pairs = q_project_pairs(self.drawings.keys()).into_iter();
-        let pairs: BTreeSet<[Utf8PathBuf; 2]> = pairs.map(|pair| pair.map(Utf8PathBuf::clone)).collect();
+        let pairs = q_project_pairs(self.session.db().system(), self.drawings.keys()).into_iter();
+        let pairs: BTreeSet<[Utf8PathBuf; 2]> = pairs.collect();
         let gone: Vec<_> = self.q_projects.extract_if(.., |pair, _| !pairs.contains(pair)).collect();
         update.before.extend(gone.into_iter().flat_map(|(_, found)| found));
         self.pairs = Some(pairs);
