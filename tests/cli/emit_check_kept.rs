@@ -217,6 +217,18 @@ fn measured_values_are_current_as_long_as_the_probes_are_the_same() {
     );
 }
 
+/// The program of a drawing that cannot be read is named like that of a drawing with errors, and is not removed.
+#[test]
+fn the_program_of_an_unreadable_drawing_is_out_of_date() {
+    let place = emitted().file("projects/8001.dxf", "");
+    let run = consistent_output(&place, "");
+    assert!(run.status == Some(1) && run.stderr.contains("error[PB522]"), "{run}");
+    assert_eq!(run.stdout, "projects/8001_Milling.gcode: not current\n", "{run}");
+    let run = place.run("emit --remove-stale --lang de");
+    assert!(run.stderr.contains("8001_Milling.gcode wurde für 8001.dxf geschrieben"), "{run}");
+    assert!(place.path().join("projects/8001_Milling.gcode").exists(), "{run}");
+}
+
 #[test]
 fn a_program_that_nothing_would_write_is_noticed_and_its_removal_too() {
     let place = emitted();

@@ -152,6 +152,13 @@ messages! {
         help_en: "do not mill with {name} until the path's errors are fixed and the file is written again",
         help_de: "nicht mit {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
     }
+    /// An output file whose drawing cannot be read any more.
+    OUTPUT_OF_UNREAD: OlderOutput {
+        en: "{name} was written for {drawing}, which cannot be read now",
+        de: "{name} wurde für {drawing} geschrieben, die jetzt nicht lesbar ist",
+        help_en: "do not mill with {name} until the drawing can be read and the file is written again",
+        help_de: "nicht mit {name} fräsen, bevor die Zeichnung lesbar und die Datei neu geschrieben ist",
+    }
     /// A file that `emit` would write, but that is not on disk.
     MISSING_OUTPUT: NotCurrent {
         en: "{name} is missing",

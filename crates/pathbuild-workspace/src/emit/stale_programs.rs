@@ -6,7 +6,7 @@
 //! are always searched for.
 
 use std::cell::LazyCell;
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Names, join};
@@ -38,6 +38,8 @@ enum Reason {
     Left,
     /// No path yields the program any more, and `emit` would give it another name, so a person may have copied it.
     Copied,
+    /// The program's drawing cannot be read, so nobody knows whether its path still yields the program.
+    Unread { drawing: String },
     /// The program's drawing is not in this library, but may be in another library that shares the output directory.
     OfOthers,
     /// The program was adjusted from the program `clean`, which has changed since.
@@ -56,6 +58,9 @@ impl StaleProgram {
         let problem = match &self.reason {
             Reason::Left => Diagnostic::new(&messages::STALE),
             Reason::Copied => Diagnostic::new(&messages::STALE_COPY),
+            Reason::Unread { drawing } => {
+                Diagnostic::new(&messages::OUTPUT_OF_UNREAD).quoting("drawing", drawing.as_str())
+            }
             Reason::OfOthers => Diagnostic::new(&messages::STALE_OR_OF_OTHERS),
             Reason::Adjusted { clean } => {
                 Diagnostic::new(&messages::STALE_ADJUSTED).quoting("clean", name(clean))
@@ -123,8 +128,12 @@ impl<'a> EarlierPrograms<'a> {
     ) -> StaleOutcome {
         let mut dealt = StaleOutcome::default();
         for stale in stale {
-            // Keep a program that may belong to another library, and one that was copied or edited, because that work would be lost.
-            let is_kept = matches!(stale.reason, Reason::Copied | Reason::OfOthers | Reason::Edited { .. });
+            // Keep a program that may belong to another library, one that was copied or edited, because that work would be lost, and one whose drawing
+            // may become readable again.
+            let is_kept = matches!(
+                stale.reason,
+                Reason::Copied | Reason::OfOthers | Reason::Edited { .. } | Reason::Unread { .. }
+            );
             if !is_removed || is_kept {
                 let finding = self.judge(&stale);
                 if self.session.workspace().has_error([&finding]) {
@@ -447,6 +456,8 @@ struct KnownTitles {
     idle: BTreeSet<Title>,
     /// Drawings whose paths are all known to the run.
     covered: BTreeSet<Title>,
+    /// Drawings that cannot be read, with their file names.
+    unread: BTreeMap<Title, String>,
     /// Existing drawings whose paths the run does not know.
     others: BTreeSet<Title>,
     /// Names of the drawings in the search directories, which `emit` finds although they may not be in the library.
@@ -487,6 +498,10 @@ impl KnownTitles {
         let is_broken =
             |drawing: &&Answer<DrawingResult>| drawing.value.diagnostics.iter().any(Diagnostic::is_error);
         let (broken, sound): (Vec<_>, Vec<_>) = all_covered.iter().partition(is_broken);
+        let unread =
+            broken.iter().filter(|drawing| drawing.value.is_unread() && drawing.value.names.is_empty());
+        let unread =
+            unread.map(|drawing| (written(drawing.drawing()), file_name(drawing.drawing()).to_owned()));
         let covered: HashSet<&Utf8Path> = sound.iter().map(|drawing| drawing.drawing()).collect();
         let has_library = session.has_library();
         let (library, problems) = if has_library { session.library() } else { Default::default() };
@@ -495,6 +510,7 @@ impl KnownTitles {
         Self {
             idle: of_covered.filter(|title| !generated.contains(title)).collect(),
             covered: covered.iter().map(|drawing| written(drawing)).collect(),
+            unread: unread.collect(),
             others: others.map(written).collect(),
             searched: searched_drawings(session),
             knows_all: if has_library {
@@ -518,6 +534,9 @@ impl KnownTitles {
         let drawing = native::drawing_of_title(&title)?;
         let named = |text: &str| (directory.to_owned(), text.to_owned());
         let drawing = named(drawing);
+        if let Some(drawing) = self.unread.get(&drawing) {
+            return Some(Reason::Unread { drawing: drawing.clone() });
+        }
         let is_beside = beside.any(|name| plain_title(name) == drawing.1);
         if self.idle.contains(&named(&title)) || self.others.contains(&drawing) {
             return None;
