@@ -46,6 +46,17 @@ fn comments_are_of_the_language_of_the_configuration_or_its_own_key() {
 }
 
 #[test]
+fn the_language_of_comments_is_shown_as_it_applies() {
+    let shown = |keys: &str| {
+        let run = Place::new().file("pathbuild.toml", keys).run("config show --origin");
+        run.stdout.lines().find(|line| line.starts_with("comment-lang")).unwrap().to_owned()
+    };
+    assert_eq!(shown(""), "comment-lang = \"en\"  # default");
+    assert_eq!(shown("lang = \"de\""), "comment-lang = \"de\"  # default");
+    assert_eq!(shown("lang = \"de\"\ncomment-lang = \"en\""), "comment-lang = \"en\"  # line 2");
+}
+
+#[test]
 fn the_environment_comes_between_the_option_and_the_configurations() {
     let said = |variable: &str, option: &str| {
         let place = Place::of(PATH).users("lang = \"en\"\n");

@@ -45,7 +45,11 @@ pub fn load(
     let not_used = if file.is_none() { discovery.of_working_directory() } else { None };
     let is_unexpected =
         given.config.is_none() && file.as_deref().is_some_and(|file| discovery.is_unexpected(file));
-    (Settings { file, not_used, is_unexpected, confined, date: given.date, ..options.resolve() }, diagnostics)
+    let mut settings =
+        Settings { file, not_used, is_unexpected, confined, date: given.date, ..options.resolve() };
+    // `config show` prints the value that applies.
+    settings.general.comment_lang.value = settings.comment_lang();
+    (settings, diagnostics)
 }
 
 /// Returns the repositories that an untrusted run must not leave: those of the configuration and of each argument. `None` if all of them are trusted.
