@@ -26,6 +26,34 @@ fn level(level: usize, degrees: f64) -> String {
 }
 
 /// At these angles, rounding may make half circles slightly larger or smaller than half.
+/// A rapid move into raised material is reported where it is drawn.
+#[test]
+fn a_sweep_into_raised_material_names_its_element() {
+    let place = |height: &str| {
+        Place::of(&format!(
+            "== pathbuild.toml ==\nfeed = 150\nrapid = 1000\n== 8001.dxf ==\nlayer 8001.1P\nstart 500,500 \"O2 T2 Mx S20\"\n\
+             sweep 500,500 500,510\nsubpath 500,510 560,510 \">2101.1P\"\nsweep 560,510 530,510.5\n\
+             subpath 530,510.5 530,530.5 \">2001.1P H{height}\"\nsweep 530,530.5 490,490\nend 490,490\n\
+             == 2101.dxf ==\nlayer 2101.1P\nstart 0,0 \"O2 T2 Mx I1\"\nmill 0,0 10,0 \"B0.5\"\nsweep 10,0 50,0\n\
+             mill 50,0 60,0 \"B0.5\"\nend 60,0\n== 2001.dxf ==\nlayer 2001.1P\nstart 0,0 \"O2 T2 Mx I1\"\n\
+             mill 0,0 20,0 \"B0.5\"\nend 20,0\n"
+        ))
+    };
+    let run = place("12").run("emit 8001.1P --format json");
+    assert_eq!(run.status, Some(1), "{run}");
+    let found: serde_json::Value = run
+        .stdout
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .find(|found: &serde_json::Value| found["code"] == "PB740")
+        .unwrap();
+    assert_eq!((&found["file"], &found["path"]), (&"2101.dxf".into(), &"2101.1P".into()), "{found}");
+    assert_eq!((&found["x"], &found["y"]), (&10.0.into(), &0.0.into()), "{found}");
+    assert_eq!(found["trace"][0]["path"], "8001.1P", "{found}");
+    assert!(found["help"].as_str().unwrap().contains("an S above 14"), "{found}");
+    assert_eq!(place("1.9").run("emit 8001.1P").status, Some(0));
+}
+
 #[test]
 fn half_circles_are_milled_however_they_are_turned() {
     let place = Place::new().file("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\n");

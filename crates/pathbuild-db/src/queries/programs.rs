@@ -3,10 +3,11 @@
 
 use std::sync::Arc;
 
-use pathbuild_diagnostic::{Diagnostic, TraceStep};
+use pathbuild_diagnostic::messages::gcode as messages;
+use pathbuild_diagnostic::{Code, Diagnostic, Point, TraceStep, Value};
 use pathbuild_dxf::Drawing;
 use pathbuild_path::{
-    Bindings, ElementParameters, Origin, Path, PathName, PathRole, RawPath, SourceMap, WalkedPath,
+    Bindings, ElementParameters, Origin, Path, PathName, PathRole, RawPath, SourceMap, WalkedPath, Xy,
     element_parameters,
 };
 use pathbuild_toolpath::{FoldPaths, Occurrence, Program, StepOrigin, Trace, fold_traced};
@@ -145,6 +146,33 @@ impl<'db> FoldPaths for ClosurePaths<'db> {
 
     fn checkpoint(&self) {
         self.db.unwind_if_revision_cancelled();
+    }
+}
+
+impl TracedProgram {
+    /// Places a finding about a step of the program, by its number from 1, at the element to which the step belongs. The point and the heights of
+    /// PB740 become those of that element's drawing.
+    pub fn at_element_of_step(&self, db: &dyn Db, step: u32, mut found: Diagnostic) -> Diagnostic {
+        let last = self.trace.steps.len().saturating_sub(1);
+        let Some(origin) = self.trace.steps.get((step as usize).saturating_sub(1).min(last)) else {
+            return found;
+        };
+        let around = &self.trace.occurrences[origin.occurrence as usize];
+        if found.message == &messages::RAPID_IN_MATERIAL && origin.element.is_some() {
+            found.message = &messages::SWEEP_IN_MATERIAL;
+        }
+        let has_places = found.code() == Code::RapidInMaterial;
+        for (name, value) in found.arguments.iter_mut().filter(|_| has_places) {
+            match (*name, &*value) {
+                ("z" | "height", Value::Number(height)) => *value = (height.0 - around.raised).into(),
+                ("point", Value::Point(point)) => {
+                    let drawn = around.placement.unplace(Xy::new(point.x.0, point.y.0));
+                    *value = Point::new(drawn.x, drawn.y).into();
+                }
+                _ => {}
+            }
+        }
+        Occurrences { db, traced: self }.at_element(origin.occurrence, origin.element, found)
     }
 }
 

@@ -407,6 +407,13 @@ messages! {
         help_en: "raise the cutter first, or mill there beforehand (stock known to within {resolution} mm)",
         help_de: "den Fräser vorher anheben oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
     }
+    /// A rapid move of a drawn path through material.
+    SWEEP_IN_MATERIAL: RapidInMaterial {
+        en: "the rapid move at Z {z} along this element goes through material that still reaches up to Z {height}, near {point}",
+        de: "der Eilgang auf Z {z} entlang dieses Elements führt durch Material, das noch bis Z {height} steht, bei {point}",
+        help_en: "give this path an S above {height}, lead the sweep around, or mill there beforehand (stock known to within {resolution} mm)",
+        help_de: "diesem Pfad ein S über {height} geben, die Leerfahrt außen herum führen oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
+    }
     /// A rapid move in the plane at cutting depth, where the surface of the material is unknown.
     RAPID_AT_DEPTH: RapidAtDepth {
         en: "a rapid move at Z {z} passes {point}, where nothing was cut to that depth; the program cuts as deep just before or after it, so there is probably material",

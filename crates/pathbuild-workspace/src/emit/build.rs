@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
-    Collision, Database, PlacedKeepOut, Target, check_joined_parts, closure, placed_keep_outs, program,
-    summary,
+    Collision, Database, PlacedKeepOut, Target, check_joined_parts, closure, locate, placed_keep_outs,
+    program, summary, traced_program,
 };
 use pathbuild_diagnostic::limits::{exceeded, moves_after_splitting};
 use pathbuild_diagnostic::messages::gcode::FEED_TOO_HIGH;
@@ -76,8 +76,10 @@ fn unsafe_moves(
     settings: &OutputSettings<'_>,
     problems: &mut Vec<Diagnostic>,
 ) -> Vec<Diagnostic> {
-    let of_programs =
-        programs.iter().map(|program| move_problems(db, job, program, settings.machine.as_ref()));
+    let of_programs = programs
+        .iter()
+        .zip(&job.targets)
+        .map(|(program, target)| move_problems(db, *target, program, settings.machine.as_ref()));
     let found = of_programs.chain([problems_of_joining(db, job, programs)]);
     let mut unsafe_moves = Vec::new();
     for (errors, warnings) in found {
@@ -126,20 +128,24 @@ fn file_too_large(db: &Database, job: &Job, output: &Output, writing: &WriteSett
 /// warnings about feeds beyond the rates of an axis. A feed above `maximum-feed` is a warning about the element that gives it (PB211).
 fn move_problems(
     db: &Database,
-    job: &Job,
+    target: Target,
     program: &Program,
     machine: Option<&Machine>,
 ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let mut problems = rapids_into_material(program);
     problems.extend(machine.into_iter().flat_map(|machine| beyond_machine(program, machine)));
     problems.retain(|problem| problem.is_error() || problem.message.key == FEED_TOO_HIGH.key);
-    for problem in &mut problems {
-        // `line` is the number of a step here, which means nothing to the user.
-        problem.place.line = None;
-        problem.file = Some(job.drawing(db).path(db).clone());
-        problem.path = Some(job.path.clone());
+    let located = problems.into_iter().map(|problem| at_element_of_step(db, target, problem));
+    located.partition(Diagnostic::is_error)
+}
+
+/// Places a finding about a step of a target's program, the number of which is in `line`, at the drawn element.
+fn at_element_of_step(db: &Database, target: Target, mut problem: Diagnostic) -> Diagnostic {
+    let step = problem.place.line.take();
+    match step.zip(traced_program(db, target).as_deref()) {
+        Some((step, traced)) => locate(db, traced.at_element_of_step(db, step, problem)),
+        None => problem.in_file(target.file(db).path(db)).in_path(&**target.name(db)),
     }
-    problems.into_iter().partition(Diagnostic::is_error)
 }
 
 /// Returns the errors and warnings that arise only from joining programs.
