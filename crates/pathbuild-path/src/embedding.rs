@@ -85,6 +85,11 @@ pub struct SubpathCall {
 /// The letters of a subpath segment that are compared with the embedding path and with the embedded path.
 const COMPARED_LETTERS: [Letter; 5] = [Letter::Embed, Letter::T, Letter::O, Letter::M, Letter::H];
 
+/// Whether a character is drawn over the letter before it: a with U+0308 looks like ä.
+fn is_combining_mark(character: char) -> bool {
+    ('\u{300}'..='\u{36f}').contains(&character)
+}
+
 impl PathHeader {
     /// Creates the header of a path.
     pub fn of(raw: &RawPath) -> Self {
@@ -586,8 +591,12 @@ impl<'a> SubpathChecker<'a> {
         }
         let place = match (&call.subpath.material, &inner.material) {
             (Some(here), Some(there)) => {
-                let differs =
-                    || self.mismatch(call, Letter::M, &Value::quoted(here), &Value::quoted(there), inner);
+                let differs = || {
+                    let problem =
+                        self.mismatch(call, Letter::M, &Value::quoted(here), &Value::quoted(there), inner);
+                    let is_combined = [here, there].into_iter().any(|text| text.contains(is_combining_mark));
+                    if is_combined { problem.note(&messages::COMBINED_LETTERS, Vec::new()) } else { problem }
+                };
                 return (here != there).then(differs);
             }
             (None, None) => format!("{} / {}", self.outer.name, inner.name),

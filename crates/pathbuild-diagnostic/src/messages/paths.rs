@@ -305,6 +305,11 @@ messages! {
         help_en: "if the value of the path is right, write its {letter} on the segment; otherwise embed another component",
         help_de: "ist der Wert des Pfads richtig, sein {letter} an das Segment schreiben; sonst ein anderes Bauteil einbetten",
     }
+    /// A note: two texts may look the same although they differ.
+    COMBINED_LETTERS: SubpathParameterDiffers {
+        en: "one of them has a letter and its accent as two characters, which look like one: type the text anew there",
+        de: "in einem der Texte besteht ein Buchstabe aus zwei Zeichen, etwa a und ¨, die wie eines aussehen: dort den Text neu eintippen",
+    }
     /// An embedding that the parameter E or the option --restrict forbids.
     FORBIDDEN: SubpathForbidden {
         en: "path {name} may not be embedded here: it does not match {rule}",

@@ -257,6 +257,20 @@ fn a_name_that_goes_on_is_another() {
     assert_eq!(named(">1111.1P Mx", false), (None, vec![]));
 }
 
+/// An umlaut may be one character or two, which look the same.
+#[test]
+fn materials_that_only_look_the_same_are_told_apart() {
+    let notes = |here: &str, there: &str| {
+        let outer = project(&format!("T5 O3 {here}"), ">1111.1P");
+        let inner = component(&format!("T5 O3 I1 B0 {there}"));
+        let found = judged(&outer, &[], |judge, call| judge.mismatches(call, &inner));
+        found.iter().map(|found| found.notes.len()).collect::<Vec<_>>()
+    };
+    assert_eq!(notes("Mbl\u{e4}ch", "Mbl\u{e4}ch"), [0; 0]);
+    assert_eq!(notes("Mbl\u{e4}ch", "Mbla\u{308}ch"), [1]);
+    assert_eq!(notes("Mbl\u{e4}ch", "Mblech"), [0]);
+}
+
 #[test]
 fn values_fit_the_definitions_of_the_path() {
     let inner = PathHeader::of(&raw(&path("T5 O3 I1 Mx :B0~1", "mill 0,0 20,0 \"B=B\"\nend 20,0")));
