@@ -142,6 +142,22 @@ fn slopes_are_cut_as_deep_as_they_are() {
     assert_eq!(on_stock(&format!("{slope}G0 X5\nG0 Z2.4\nG0 Z10")), ["7 rapid-plunge"]);
 }
 
+/// An arc in G18 or G19 may dip into the material between two ends above it.
+#[test]
+fn arcs_across_the_plane_cut_as_deep_as_their_lowest_point() {
+    for (arc, axis) in [("G18 G2 X20 I10 K0", "X"), ("G19 G3 Y20 J10 K0", "Y")] {
+        let groove = |then: &str| {
+            on_stock(&format!("G0 X0 Y0 Z5\n{arc}\nG17\nG0 Z10\nG0 {axis}10\n{then}\nG0 Z10"))
+        };
+        assert_eq!(groove("G0 Z-4.9"), FINE, "{arc}");
+        assert_eq!(groove("G0 Z-5.1"), ["7 rapid-plunge"], "{arc}");
+    }
+    let dip = |k: &str| on_stock(&format!("M3 S9000\nG0 X0 Y0 Z6\nM5\nG18 G2 X20 I10 K{k}\nG17\nG0 Z10"));
+    // The centre is 10 mm from either end, so the lowest point is at Z 4.99, and then at 5.01.
+    assert_eq!(dip("49"), ["5 spindle-off"]);
+    assert_eq!(dip("50"), FINE);
+}
+
 #[test]
 fn circles_are_cut_all_round() {
     let circle = "G0 X10 Y0 Z10\nG0 Z5\nG1 Z1\nG2 X10 Y0 I-10\nG0 Z10\n";
@@ -415,7 +431,12 @@ fn a_stop_without_a_tool_change_leaves_the_height_known() {
 fn a_stop_before_a_new_zero_or_length_is_a_tool_change() {
     let after = |words: &str| after_cut(LinuxCnc, words);
     assert_eq!(after("M0\nG92 X0 Y0\nG0 X5 Y5"), ["11 start-not-raised"]);
-    assert_eq!(after("M0\nG92 Z0\nG0 X5 Y5"), FINE, "the zero states the height");
+    for zero in ["G92 Z0", "G10 L20 P1 Z0"] {
+        let moved = |words: &str| after(&format!("M0\n{zero}\n{words}"));
+        assert_eq!(moved("G0 X5 Y5"), ["11 start-not-raised"], "the tip stands on the stock");
+        assert_eq!(moved("G0 Z5\nG0 X5 Y5"), FINE);
+    }
+    assert_eq!(after("G92 Z0\nG0 X5 Y5"), FINE, "without a stop the height is known");
     assert_eq!(after("G43 H1\nM0\nG43 H1\nG0 X5 Y5"), FINE, "the same length");
     assert_eq!(after("G43 H1\nM0\nG43 H2\nG0 X5 Y5"), ["12 start-not-raised"]);
     assert_eq!(after("G43 H1\nM0\nG49\nG0 X5 Y5"), FINE);
@@ -496,6 +517,38 @@ fn what_is_cut_in_one_coordinate_system_is_not_cut_in_another() {
     assert_eq!(again("G54", "G55\nG54"), FINE);
     // The program places both systems at the same point.
     assert_eq!(again("G10 L2 P1 X0 Y0 Z0\nG10 L2 P2 X0 Y0 Z0", "G55"), FINE);
+}
+
+/// The operator lowers the new tool onto the stock, so that the new zero is where the old one was, although the program has left the tool at Z 20.
+#[test]
+fn where_the_operator_touches_off_the_zero_is_on_the_stock() {
+    let second = |change: &str, end: &str| {
+        let first = "M3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1\nG1 X10\nG0 Z20";
+        from_unknown(&format!("{first}\n{change}\nG0 Z5\nG0 X20\nG1 Z-3\nG1 X40\n{end}\nG0 Z5\nM5")).0
+    };
+    for zero in ["G92 Z0", "G10 L20 P1 Z0"] {
+        let left = if zero == "G92 Z0" { "G92.1\n" } else { "" };
+        let stopped = |end: &str| second(&format!("{left}M0\n{zero}"), &format!("{end}\n{left}"));
+        assert_eq!(stopped("G0 Y50"), ["14 rapid-in-material"], "{zero}");
+        assert_eq!(stopped("G0 X20"), FINE, "{zero}");
+    }
+    let off = |words: &str| second(&format!("M5\nM0\nG10 L20 P1 Z0\n{words}"), "");
+    assert_eq!(off(""), ["14 spindle-off"]);
+    assert_eq!(off("M3 S9000"), FINE);
+    assert_eq!(second("G10 L20 P1 Z0", "G0 Y50"), FINE, "without a stop, the new zero is 20 mm above the stock");
+}
+
+#[test]
+fn what_is_cut_before_the_operator_sets_a_zero_in_the_plane_is_not_cut_after_it() {
+    let again = |zero: &str| {
+        let slot = "G0 Z5\nG0 X0 Y0\nG1 Z-3\nG1 X40\nG0 Z5\nG0 X0 Y0";
+        from_unknown(&format!("{slot}\n{zero}\nG0 Z-3\nG0 X40\nG0 Z5")).0
+    };
+    assert_eq!(again("M0\nG10 L20 P1 X0 Y0 Z5"), ["10 rapid-plunge"], "the next part");
+    assert_eq!(again("M0\nG10 L20 P1 Z5"), FINE, "the next tool");
+    assert_eq!(again("G10 L20 P1 X0 Y0 Z5"), FINE, "the same place");
+    assert_eq!(again("M0\nG10 L20 P2 X0 Y0 Z5\nG55"), ["11 rapid-plunge"], "another system");
+    assert_eq!(again("G10 L20 P2 X0 Y0 Z5\nG55"), FINE, "another system at the same place");
 }
 
 #[test]

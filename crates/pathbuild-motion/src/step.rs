@@ -57,9 +57,8 @@ pub enum Action {
     System {
         /// The system.
         system: WorkSystem,
-        /// The first system of the program whose place relative to this one is known: usually the system itself, and the program's first one if
-        /// G10 has stated both places. Positions in systems of different frames cannot be compared.
-        frame: WorkSystem,
+        /// Positions in different frames cannot be compared.
+        frame: Frame,
     },
     /// A G or M word other than a motion, regardless of its effect.
     Word(StatedWord),
@@ -260,6 +259,16 @@ impl WorkSystem {
     }
 }
 
+/// Coordinate systems whose places relative to each other are known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Frame {
+    /// The first system of the program whose place relative to the selected one is known: usually the selected one itself, and the program's first one if
+    /// G10 has stated both places.
+    pub system: WorkSystem,
+    /// Number of times that the operator has moved the zero in X or Y during the program.
+    pub zero: u32,
+}
+
 /// A group of G words. A line may contain only one word of each group. (NIST RS274/NGC, table 4)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -433,6 +442,16 @@ impl Move {
             arc.widen(&self.from, &self.to, &mut extent);
         }
         extent
+    }
+
+    /// Returns the lowest height of the tip in mm. An arc in G18 or G19 may dip below its ends.
+    pub fn lowest(&self) -> f64 {
+        match self.shape {
+            MoveShape::Arc(arc) if arc.plane != Plane::Xy => {
+                self.extent()[2].map_or(f64::NEG_INFINITY, |(low, _)| low)
+            }
+            _ => self.from.z().min(self.to.z()),
+        }
     }
 
     /// Returns the maximum share of each axis in the speed of the move, from 0 to 1.

@@ -174,7 +174,7 @@ impl<'j> Checker<'j> {
     fn check_cut(&mut self, line: u32, movement: &Move, number: u32) {
         let index = usize::try_from(number).unwrap_or(usize::MAX).wrapping_sub(1);
         let Some(operation) = self.operations.get(index).copied() else { return };
-        let is_low = movement.from.z().min(movement.to.z()) < self.surface;
+        let is_low = movement.lowest() < self.surface;
         if !matches!(movement.pace, Pace::Feed(_)) || movement.is_standstill() || !is_low {
             return;
         }

@@ -308,10 +308,9 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Whether the position of the tool is known along the axes in the block: the program has moved there since the last stop, at which the
-    /// operator may have moved the axes, and no probe has made contact since.
+    /// Whether the position of the tool is known along the axes in the block.
     fn knows_place(&self) -> bool {
-        let known = self.state.position.known.and(self.state.stated_since_stop);
+        let known = self.state.followed_axes();
         let given = |axis: &usize| self.words.values.has(Values::AXES[*axis]);
         self.state.offsets.is_fixed() && (0..3).filter(given).all(|axis| known.has(Axes::of(axis)))
     }
@@ -347,14 +346,13 @@ impl Interpreter<'_> {
             let Some(coordinate) = slot.map(|slot| self.millimetres(slot)) else { continue };
             if kind == 2 {
                 is_followed &= self.state.offsets.place(system, axis, coordinate);
-            } else if system.is_none_or(|system| system == self.state.offsets.active)
-                && !self.state.position.known.has(Axes::of(axis))
-            {
-                // After a probe, only the machine knows where the tool is. From here on, coordinates are relative to that position.
-                self.set_origin(axis, coordinate);
-            } else {
+            } else if self.state.followed_axes().has(Axes::of(axis)) {
                 let here = self.state.position.at[axis];
                 self.state.offsets.place_here(system, axis, coordinate, here);
+            } else if let Some(system) = system.filter(|system| *system != self.state.offsets.active) {
+                self.state.offsets.displace(system);
+            } else {
+                self.set_origin(block, axis, coordinate);
             }
         }
         if !is_followed {
@@ -452,20 +450,27 @@ impl Interpreter<'_> {
         for (axis, slot) in self.words.values.take_coordinates().into_iter().enumerate() {
             if let Some(slot) = slot {
                 let coordinate = self.millimetres(slot);
-                self.set_origin(axis, coordinate);
+                self.set_origin(block, axis, coordinate);
             }
         }
     }
 
-    /// Sets the coordinate of the current position. A position that was unknown becomes known, because coordinates are relative to it from here on.
-    fn set_origin(&mut self, axis: usize, coordinate: f64) {
-        self.mark_axis_stated(axis);
+    /// Sets the coordinate of the current position. Where only the machine knows that position, after a probe, or after a stop at which the operator may
+    /// have touched off, coordinates are relative to it from here on.
+    fn set_origin(&mut self, block: &Block<'_>, axis: usize, coordinate: f64) {
+        let is_followed = self.state.followed_axes().has(Axes::of(axis));
+        let is_moved_by_hand = self.state.position.known.has(Axes::of(axis)) && !is_followed;
+        self.state.stated_axes = self.state.stated_axes.with(Axes::of(axis));
+        self.state.zeroed_since_stop = self.state.zeroed_since_stop.with(Axes::of(axis));
         let position = &mut self.state.position;
-        if position.known.has(Axes::of(axis)) {
-            self.state.offsets.set_origin(axis, coordinate, position.at[axis]);
-        } else {
-            position.at[axis] = coordinate + self.state.offsets.shift(axis);
-            position.known = position.known.with(Axes::of(axis));
+        if is_followed {
+            return self.state.offsets.set_origin(axis, coordinate, position.at[axis]);
+        }
+        position.at[axis] = coordinate + self.state.offsets.shift(axis);
+        position.known = position.known.with(Axes::of(axis));
+        if is_moved_by_hand && Axes::XY.has(Axes::of(axis)) {
+            let frame = self.state.offsets.begin_frame();
+            self.step(block, Action::System { system: self.state.offsets.active, frame });
         }
     }
 

@@ -1,6 +1,6 @@
 //! The modal state of a control, and the options for interpreting a file.
 
-use pathbuild_motion::{Axes, Coolant, Plane, Position, Spindle, WorkSystem};
+use pathbuild_motion::{Axes, Coolant, Frame, Plane, Position, Spindle, WorkSystem};
 
 use super::codes::{FeedUnit, Motion};
 use crate::dialect::{Rules, StartMotion};
@@ -14,8 +14,10 @@ pub(super) struct State {
     pub(super) position: Position,
     /// The axes whose position has been specified since the last tool change; all axes before the first tool change.
     pub(super) stated_axes: Axes,
-    /// The axes whose position has been specified since the last tool change or stop for the operator.
+    /// The axes to a position of which the program has moved since the last tool change or stop for the operator.
     pub(super) stated_since_stop: Axes,
+    /// The axes whose position G92 or G10 L20 has stated since the last tool change or stop for the operator.
+    pub(super) zeroed_since_stop: Axes,
     /// Line and code (times ten) of a move to a machine position that is unknown in the program's coordinates.
     pub(super) lost: Option<(u32, u16)>,
     /// Whether a move at feed has been made.
@@ -103,6 +105,7 @@ impl State {
             position: Position::default(),
             stated_axes: Axes::ALL,
             stated_since_stop: Axes::ALL,
+            zeroed_since_stop: Axes::NONE,
             lost: None,
             has_cut: false,
             is_lifted: true,
@@ -143,6 +146,18 @@ impl State {
         let is_known = self.position.known.and(self.stated_axes).has(Axes::of(axis));
         is_known.then(|| (self.position.at[axis] - self.offsets.shift(axis)) / self.unit)
     }
+
+    /// Forgets which positions are stated, because the operator may move the axes or change the tool.
+    pub(super) fn begin_stop(&mut self) {
+        self.stated_since_stop = Axes::NONE;
+        self.zeroed_since_stop = Axes::NONE;
+        self.offsets.clear_reference_length();
+    }
+
+    /// Returns the axes on which the program knows where the tool is: it has stated the position since the last stop, and no probe has made contact since.
+    pub(super) fn followed_axes(&self) -> Axes {
+        self.position.known.and(self.stated_since_stop.with(self.zeroed_since_stop))
+    }
 }
 
 /// The active and the stored offsets, in mm.
@@ -161,6 +176,8 @@ pub(super) struct Offsets {
     base: Option<[f64; 3]>,
     /// The system that was active at the first move.
     first: Option<WorkSystem>,
+    /// Number of times that the operator has moved the zero in the plane.
+    zero: u32,
     /// Whether `base` is known in machine coordinates.
     is_base_known: bool,
     home: [Option<[f64; 3]>; 2],
@@ -201,6 +218,7 @@ impl Offsets {
             length: AppliedLength::default(),
             base: None,
             first: None,
+            zero: 0,
             is_base_known: false,
             home: [0, 1].map(|index| configured.map(|offsets| offsets.home[index])),
             is_configured: configured.is_some(),
@@ -284,9 +302,21 @@ impl Offsets {
         }
     }
 
-    /// Returns the program's first system if the position of this system relative to the first is known, otherwise this system.
-    pub(super) fn frame(&self, system: WorkSystem) -> WorkSystem {
-        self.first.filter(|_| self.is_placed(system)).unwrap_or(system)
+    /// Returns the frame of a system: that of the program's first system if the position relative to it is known.
+    pub(super) fn frame(&self, system: WorkSystem) -> Frame {
+        let system = self.first.filter(|_| self.is_placed(system)).unwrap_or(system);
+        Frame { system, zero: self.zero }
+    }
+
+    /// Begins another frame in the active system, because the operator has set its zero in the plane. Positions before cannot be compared with those after.
+    pub(super) fn begin_frame(&mut self) -> Frame {
+        self.zero += 1;
+        self.frame(self.active)
+    }
+
+    /// Marks the position of a system as unknown, because the operator has moved the tool to the place whose coordinate G10 L20 sets.
+    pub(super) fn displace(&mut self, system: WorkSystem) {
+        self.systems[system.index()].origin = SystemOrigin::Unknown;
     }
 
     /// Executes G10 L2: sets the origin of a system in machine coordinates. Returns false if the system is active and the preceding positions are not

@@ -48,8 +48,7 @@ impl Interpreter<'_> {
             self.enter_layer(block, self.state.tool.unwrap_or(0));
         } else {
             self.state.stated_axes = Axes::NONE;
-            self.state.stated_since_stop = Axes::NONE;
-            self.state.offsets.clear_reference_length();
+            self.state.begin_stop();
         }
         let is_turning = self.state.spindle.turning.is_on();
         if is_turning && !self.rules.layers {
@@ -314,8 +313,7 @@ impl Interpreter<'_> {
                 if self.rules.stop_is_complete {
                     self.switch_off(block);
                 }
-                self.state.stated_since_stop = Axes::NONE;
-                self.state.offsets.clear_reference_length();
+                self.state.begin_stop();
                 self.step(block, Action::Stop { optional: code == 10 });
             }
             None => {}

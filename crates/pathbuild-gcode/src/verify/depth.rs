@@ -122,7 +122,7 @@ impl Depths {
     }
 
     fn add_feed_move(&mut self, movement: &Move) {
-        let low = movement.from.z().min(movement.to.z());
+        let low = movement.lowest();
         let pending = self.pending.drain(..);
         if self.top.is_some_and(|top| low < top - RESIDUE_HEIGHT) {
             self.found.extend(

@@ -1,11 +1,12 @@
 //! Looks for rapid moves that hit material, separately in each coordinate system whose position relative to the others is not known. (book:
 //! program/reading)
 //!
-//! Two vises have two systems, G54 and G55. What has been cut in one is not cut in the other, although both have the same coordinates.
+//! Two vises have two systems, G54 and G55. What has been cut in one is not cut in the other, although both have the same coordinates. The same holds
+//! after a stop at which the operator sets the zero for the next part.
 
 use std::collections::BTreeSet;
 
-use pathbuild_motion::{Action, Axes, Move, Pace, Step, WorkSystem};
+use pathbuild_motion::{Action, Axes, Frame, Move, Pace, Step};
 
 use super::material::{self, Stock};
 use crate::interpret::Program;
@@ -15,12 +16,17 @@ use crate::read::Problems;
 /// [`step`](Self::step).
 #[derive(Debug, Default)]
 pub(super) struct Frames {
-    current: WorkSystem,
+    current: Frame,
     /// The frames with moves, in the order of use.
-    used: Vec<WorkSystem>,
+    used: Vec<Frame>,
 }
 
 impl Frames {
+    /// The frame of the next move.
+    pub(super) fn current(&self) -> Frame {
+        self.current
+    }
+
     /// Processes the next step of the program. Returns whether it begins another frame.
     pub(super) fn step(&mut self, step: &Step) -> bool {
         match step.action {
@@ -99,12 +105,12 @@ impl<P: Program + ?Sized> Program for CutsAndRapids<'_, P> {
 /// The moves of a program in one frame. The first move after those in another frame has an unknown start.
 struct InFrame<'p, P: ?Sized> {
     program: &'p P,
-    frame: WorkSystem,
+    frame: Frame,
 }
 
 impl<P: Program + ?Sized> Program for InFrame<'_, P> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
-        let mut current = WorkSystem::default();
+        let mut current = Frame::default();
         let mut is_entered = true;
         self.program.each(&mut |step| match &step.action {
             Action::System { frame, .. } => is_entered |= std::mem::replace(&mut current, *frame) != *frame,

@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::{Action, Axes, Move, MoveShape, NamedPosition, Step, Turning, WorkSystem};
+use pathbuild_motion::{Action, Axes, Frame, Move, MoveShape, NamedPosition, Step, Turning};
 
 use crate::read::Problems;
 
@@ -126,11 +126,11 @@ impl<'m> MachineRules<'m> {
 /// The extents of the moves so far, and the ends of axes that have been reported as exceeded.
 #[derive(Debug, Default)]
 struct Reach {
-    current: WorkSystem,
+    current: Frame,
     /// Whether the next move begins in another frame.
     is_entering: bool,
     /// The extents in the frames with moves, in the order of use. Positions in different frames cannot be compared.
-    frames: Vec<(WorkSystem, Extent)>,
+    frames: Vec<(Frame, Extent)>,
     /// The extent of positions in machine coordinates. It includes machine zero, because that is within the travel of every machine.
     machine: Extent,
     said: [[bool; 2]; 3],
@@ -150,7 +150,7 @@ fn widen(extent: &mut Option<(f64, f64)>, (low, high): (f64, f64)) -> (f64, f64)
 }
 
 impl Reach {
-    fn enter(&mut self, frame: WorkSystem) {
+    fn enter(&mut self, frame: Frame) {
         self.is_entering |= std::mem::replace(&mut self.current, frame) != frame;
     }
 

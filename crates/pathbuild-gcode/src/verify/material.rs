@@ -5,7 +5,7 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};
-use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position, widest_chord};
+use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Plane, Position, widest_chord};
 use pathbuild_toolpath as toolpath;
 use pathbuild_toolpath::{Comment, ProgramStep as Emitted};
 
@@ -311,7 +311,7 @@ fn capsule(part: &MovePiece, radius: f64) -> Capsule {
 pub(super) fn cutting_piece(line: u32, movement: &Move, stock: &Stock) -> Option<StockSpan> {
     let is_known = movement.is_known();
     let piece = stock.at(line).filter(|_| is_known && matches!(movement.pace, Pace::Feed(_)))?;
-    (movement.from.z().min(movement.to.z()) < piece.surface).then_some(*piece)
+    (movement.lowest() < piece.surface).then_some(*piece)
 }
 
 /// Whether a rapid move may hit known material: it neither stays above all material nor goes straight up.
@@ -353,7 +353,10 @@ impl MovePiece {
 /// Returns the number of parts required because a move is not level, at least 1.
 pub(super) fn slope_parts(movement: &Move) -> f64 {
     let is_plunge = movement.keeps_xy() && matches!(movement.shape, MoveShape::Line);
-    let rise = libm::fabs(movement.to.z() - movement.from.z());
+    let rise = match movement.shape {
+        MoveShape::Arc(arc) if arc.plane != Plane::Xy => movement.length(),
+        _ => libm::fabs(movement.to.z() - movement.from.z()),
+    };
     if is_plunge { 1.0 } else { (rise / MAX_PART_HEIGHT).ceil().clamp(1.0, MAX_PARTS_PER_MOVE) }
 }
 

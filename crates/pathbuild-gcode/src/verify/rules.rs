@@ -101,7 +101,9 @@ impl<'c> Rules<'c> {
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let line = step.line;
-        self.changes_frame |= self.frames.step(step);
+        let zero = self.frames.current().zero;
+        // Where the operator has set the zero, the program has stated the height.
+        self.changes_frame |= self.frames.step(step) && self.frames.current().zero == zero;
         if let Some((line, message)) = self.tip_height.step(step) {
             self.problems.add_at_line(message, line, |d| d);
         }
@@ -421,7 +423,7 @@ fn is_cut(movement: &Move) -> bool {
 /// Whether a move stays above the material; false if that is unknown.
 fn is_above_stock(line: u32, movement: &Move, stock: Option<&Stock>) -> bool {
     let surface = stock.and_then(|stock| stock.at(line)).map(|piece| piece.surface);
-    movement.is_known() && surface.is_some_and(|surface| movement.from.z().min(movement.to.z()) >= surface)
+    movement.is_known() && surface.is_some_and(|surface| movement.lowest() >= surface)
 }
 
 /// Whether a move sets the height at the beginning of a program, as Easel does with `G1 Z0.15` before it starts the spindle.
