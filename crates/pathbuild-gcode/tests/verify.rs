@@ -62,9 +62,34 @@ fn a_rapid_move_through_material_is_an_error() {
 fn a_rapid_move_where_all_is_cut_is_none() {
     assert_eq!(behind_slot("G0 X0\nG0 Z10"), FINE);
     assert_eq!(behind_slot("G0 X10\nG0 X5\nG0 Z10"), FINE);
-    // There is material 0.1 mm beside the slot, but the grid represents the width of the slot only to twice its resolution.
-    assert_eq!(behind_slot("G0 X10 Y0.15\nG0 Z10"), FINE);
-    assert_eq!(behind_slot("G0 X10 Y0.5\nG0 Z10"), ["6 rapid-in-material"]);
+    for [x, y] in [[10.0, 1.0], [10.0, -1.0], [20.0, 1.0], [20.0, -1.0]] {
+        let beside = |width: f64| behind_slot(&format!("G0 X{x} Y{}\nG0 Z10", y * width));
+        assert_eq!(beside(0.03), FINE, "{x} {y}: rounding");
+        assert_eq!(beside(0.05), ["6 rapid-in-material"], "{x} {y}");
+    }
+}
+
+#[test]
+fn a_rapid_move_takes_no_more_than_some_hundredths_whatever_the_cutter() {
+    for cutter in [1.0, 3.0, 12.0] {
+        let plunge = |beside: &str| {
+            let program = format!("G0 X0 Y0 Z10\nG1 Z-20\nG0 Z10\nG0 {beside}\nG0 Z-20\nG0 Z10");
+            wrong(&program, Some(&Stock::uniform(5.0, cutter)))
+        };
+        for direction in ["X", "Y-"] {
+            assert_eq!(plunge(&format!("{direction}0.03")), FINE, "{cutter} {direction}");
+            assert_eq!(plunge(&format!("{direction}0.06")), ["6 rapid-plunge"], "{cutter} {direction}");
+        }
+    }
+    // Around an arc as well, although its chords keep away from it.
+    let circle = |x: &str| {
+        let program = format!("G0 X10 Y0 Z10\nG1 Z1\nG2 I-10\nG0 Z10\nG0 X{x}\nG0 Z1\nG0 Z10");
+        wrong(&program, Some(&Stock::uniform(5.0, 12.0)))
+    };
+    for [inside, outside] in [["10.03", "10.06"], ["9.97", "9.94"]] {
+        assert_eq!(circle(inside), FINE);
+        assert_eq!(circle(outside), ["7 rapid-plunge"]);
+    }
 }
 
 #[test]
@@ -207,9 +232,9 @@ fn a_large_program_is_checked_more_coarsely_not_never() {
     let stock = Stock::uniform(5.0, 2.0).with_resolution(0.02);
     let problems = verify(&steps, Some(&stock));
     let plunge = problems.iter().find(|problem| problem.code().name() == "rapid-plunge").expect("a plunge");
-    // The resolution is that of 20240 mm² divided into 16 million cells.
+    // The side of a cell is that of 20240 mm² divided into 16 million cells, 0.036 mm.
     let help = plunge.help(Lang::En).expect("help");
-    assert!(help.contains("stock known to within 0.036"), "{help}");
+    assert!(help.contains("stock known to within 0.073"), "{help}");
 }
 
 #[test]

@@ -23,8 +23,17 @@ const MIN_CELLS_ACROSS_CUTTER: f64 = 4.0;
 /// Ratio of the side of a cell to the greatest distance of chords from their arc.
 const CELL_PER_SAGITTA: f64 = 4.0;
 
-/// Half the width of a centre line, as a share of the side of a cell: more than half the diagonal of a cell.
+/// Half the width of a centre line that hits material, as a share of the side of a cell: more than half the diagonal of a cell.
 const CENTRE_LINE_HALF_WIDTH: f64 = 0.75;
+
+/// Width in mm beside a cut up to which material is attributed to rounding.
+const RESIDUE_WIDTH: f64 = 0.01;
+
+/// The side of a cell in mm for flat cutters, as long as a program is not too large: a rapid move that takes off more than some hundredths is a crash.
+const FINE_RESOLUTION: f64 = 0.02;
+
+/// Upper bound on the cells visited at a resolution finer than that of the stock, so that the check takes a fraction of a second.
+const FINE_VISITED_CELLS: f64 = 1e8;
 
 /// Upper bound on the visits per cell within O of a cut: one to add the material, half a visit on average to cut it, because a cut is only half as
 /// wide, and the cost of the rows.
@@ -153,6 +162,8 @@ struct MaterialEstimate {
     passes: f64,
     /// Upper bound of the number of parts into which cutting arcs and slopes are divided.
     pieces: u64,
+    /// Upper bound of the area in mm² by which the parts of cutting arcs overlap at the fine resolution.
+    overlap: f64,
     /// Bounding box of all cuts in X and Y.
     sides: Option<[(f64, f64); 2]>,
     /// The last line with a cut.
@@ -169,6 +180,8 @@ impl MaterialEstimate {
         self.line = line;
         self.area += covered_area(movement, piece.cutter.diameter);
         self.pieces += u64::from(part_count(movement, stock.resolution() / CELL_PER_SAGITTA)) - 1;
+        let parts = f64::from(part_count(movement, FINE_RESOLUTION / CELL_PER_SAGITTA));
+        self.overlap += parts * piece.cutter.diameter * piece.cutter.diameter;
         let sides = self.sides.get_or_insert([(f64::INFINITY, f64::NEG_INFINITY); 2]);
         for (side, extent) in sides.iter_mut().zip(movement.extent()) {
             let Some((low, high)) = extent else { continue };
@@ -183,8 +196,12 @@ impl MaterialEstimate {
         let visited = VISITS_PER_CELL * self.area + self.passed.min(self.passes * in_box);
         #[expect(clippy::cast_precision_loss, reason = "a limit")]
         let cells = stock.cells() as f64;
-        let resolution =
-            stock.resolution().max(libm::sqrt(visited / cells)).max(libm::sqrt(kept / MAX_CELLS_IN_MEMORY));
+        let least = |visited: f64, cells: f64| {
+            libm::sqrt(visited / cells).max(libm::sqrt(kept / MAX_CELLS_IN_MEMORY))
+        };
+        let coarse = stock.resolution().max(least(visited, cells));
+        let fine = FINE_RESOLUTION.max(least(visited + self.overlap, FINE_VISITED_CELLS.min(cells)));
+        let resolution = if stock.is_flat() && self.passes > 0.0 { coarse.min(fine) } else { coarse };
         let is_of_use = stock.narrowest().is_none_or(|cutter| resolution * MIN_CELLS_ACROSS_CUTTER <= cutter);
         (is_of_use && resolution.is_finite()).then_some(resolution)
     }
@@ -192,6 +209,7 @@ impl MaterialEstimate {
 
 struct KnownMaterial<'s> {
     stock: &'s Stock,
+    is_flat: bool,
     resolution: f64,
     map: HeightMap,
     excursions: Excursions,
@@ -199,7 +217,8 @@ struct KnownMaterial<'s> {
 
 impl<'s> KnownMaterial<'s> {
     fn new(stock: &'s Stock, resolution: f64, cells: u64) -> Self {
-        Self { stock, resolution, map: HeightMap::new(resolution, cells), excursions: Excursions::default() }
+        let map = HeightMap::new(resolution, cells);
+        Self { stock, is_flat: stock.is_flat(), resolution, map, excursions: Excursions::default() }
     }
 
     /// Adds the material within O of a cutting move. Where the surface is unknown, material is only added along the rapid moves to be checked.
@@ -208,7 +227,7 @@ impl<'s> KnownMaterial<'s> {
         if self.stock.at(line).is_some_and(is_unknown) {
             if movement.pace == Pace::Rapid && movement.is_known() {
                 for part in self.parts(movement) {
-                    self.map.add(&capsule(&part, self.slack()), f64::INFINITY);
+                    self.map.add(&capsule(&part, self.resolution), f64::INFINITY);
                 }
             }
             return;
@@ -237,19 +256,20 @@ impl<'s> KnownMaterial<'s> {
         }
     }
 
-    /// Removes the material along a cutting move. Cells that are only touched are treated as removed, so that the grid never causes a false
-    /// report.
+    /// Removes the material along a cutting move. Along a centre line, the cells that it touches are removed.
     fn remove_material(&mut self, line: u32, movement: &Move) {
         let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
         let highest = self.stock.highest().unwrap_or(piece.surface);
         for part in self.parts(movement).filter(|part| part.lowest() < highest) {
-            self.map.cut(&capsule(&part, piece.cutter.removed / 2.0 + self.slack()), part.lowest());
+            let radius = (piece.cutter.removed / 2.0 + self.slack()).max(self.resolution);
+            self.map.cut(&capsule(&part, radius), part.lowest());
         }
     }
 
     fn check_rapid(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
         let Some(Hit { message, z, height, at: [x, y] }) = self.first_hit(line, movement) else { return };
-        let resolution = self.resolution;
+        // A strip of material of this width contains the centres of cells, wherever it is.
+        let resolution = self.resolution + 2.0 * self.slack();
         problems.add_at_line(message, line, |diagnostic| {
             diagnostic
                 .with("z", z)
@@ -260,7 +280,7 @@ impl<'s> KnownMaterial<'s> {
         });
     }
 
-    /// Returns the first material that a rapid move hits. Cells that are only touched are ignored.
+    /// Returns the first material that a rapid move hits.
     fn first_hit(&mut self, line: u32, movement: &Move) -> Option<Hit> {
         let piece = self.stock.at(line).filter(|_| is_low_rapid(movement, self.stock))?;
         let is_plunge = movement.keeps_xy();
@@ -272,7 +292,7 @@ impl<'s> KnownMaterial<'s> {
         self.parts(movement).find_map(|part| {
             let z = if is_plunge { part.lowest() } else { part.highest() };
             // The capsule of a centre line contains at least one cell centre, and is narrower than the area that a cut along it clears.
-            let least = CENTRE_LINE_HALF_WIDTH * self.slack();
+            let least = CENTRE_LINE_HALF_WIDTH * self.resolution;
             let cutter = capsule(&part, (piece.cutter.colliding / 2.0 - self.slack()).max(least));
             self.map.highest_above(&cutter, z + RESIDUE_HEIGHT).map(|(height, at)| Hit {
                 message,
@@ -283,9 +303,10 @@ impl<'s> KnownMaterial<'s> {
         })
     }
 
-    /// Returns the error of the map in mm: an upper bound of half the diagonal of a cell plus the distance of chords from their arc.
+    /// Returns the width in mm that is not counted as material beside a cut. The centre of a cell is exact, but coordinates are rounded and the chords
+    /// of an arc keep away from it. Of a cutter that is not flat, the width is not known either.
     fn slack(&self) -> f64 {
-        self.resolution
+        if self.is_flat { RESIDUE_WIDTH + self.resolution / CELL_PER_SAGITTA } else { self.resolution }
     }
 
     fn parts(&self, movement: &Move) -> impl Iterator<Item = MovePiece> + use<> {
@@ -565,6 +586,11 @@ impl Stock {
     /// Sets the maximum number of parts into which arcs and slopes are divided. (`[limits] verify-pieces`)
     pub fn with_pieces(self, most: u64) -> Self {
         Self { most_pieces: most, ..self }
+    }
+
+    /// Whether every cutter removes material over the width over which it collides. Of any other the exact width is not known.
+    fn is_flat(&self) -> bool {
+        self.pieces.iter().all(|piece| piece.cutter.removed == piece.cutter.colliding && piece.cutter.removed > 0.0)
     }
 
     pub(super) fn cells(&self) -> u64 {
