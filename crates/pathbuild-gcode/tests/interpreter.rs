@@ -686,6 +686,25 @@ fn g99_stays_at_the_cycles_own_height() {
     );
 }
 
+/// LinuxCNC rises on the way to the hole. Fanuc's operation 1 moves in the plane alone, and G98 returns to the initial height after the hole.
+#[test]
+fn the_first_hole_with_g98_after_g99_is_approached_at_the_present_height() {
+    let ways = |dialect: Dialect| {
+        let steps = run(dialect, "G0 X0. Y0. Z5.\nG99 G81 X1. Z-3. R-2. F100.\nG98 X9. R-1.\nX12.\nG80");
+        steps.into_iter().filter(|step| step.starts_with("4 rapid") || step.starts_with("5 rapid")).collect::<Vec<_>>()
+    };
+    let then = ["4 rapid to 9 0 -1", "4 rapid to 9 0 5", "5 rapid to 12 0 5", "5 rapid to 12 0 -1", "5 rapid to 12 0 5"];
+    for dialect in [Fanuc, Haas] {
+        assert_eq!(ways(dialect)[0], "4 rapid to 9 0 -2", "{dialect:?}");
+        assert_eq!(ways(dialect)[1..], then, "{dialect:?}");
+    }
+    assert_eq!(ways(LinuxCnc)[0], "4 rapid to 9 0 5");
+    assert_eq!(ways(LinuxCnc)[1..], then);
+    // Mach3 first rises to R, as every interpreter of RS274/NGC.
+    assert_eq!(ways(Mach3)[0], "4 rapid to 1 0 -1");
+    assert_eq!(ways(Mach3)[1..], then);
+}
+
 #[test]
 fn pecking_lifts_out_and_chip_breaking_lifts_a_little() {
     assert_eq!(

@@ -76,6 +76,9 @@ pub struct Rules {
     pub refuses_idle_words: bool,
     /// Whether a drilling cycle that begins below R first rises to it and then goes to the hole, as in RS274/NGC, 3.5.16.1.
     pub rises_before_holes: bool,
+    /// Whether a hole with G98 is approached at the initial height even after holes with G99, so that the tool rises on a slant. Other controls move in
+    /// the plane at the present height.
+    pub rises_on_way_to_holes: bool,
     /// Whether drilling cycles return to their initial height (G98) by default.
     pub lifts_to_start: bool,
     /// Whether G80 is allowed on a line with a motion word, which then applies.
@@ -320,6 +323,8 @@ const BASE: Rules = Rules {
     numbers_references: false,
     refuses_idle_words: false,
     rises_before_holes: true,
+    // interp_cycles.cc of LinuxCNC traverses to X and Y at `old_cc`, which with G98 is the height before the series.
+    rises_on_way_to_holes: true,
     lifts_to_start: false,
     ends_cycles_beside_motion: false,
     cycles_are_apart: false,
@@ -469,6 +474,8 @@ pub(super) static MACH3: Rules = Rules {
     dwell: DwellRules { p: DwellUnit::BySetting, seconds: b"", counts_turns: false },
     program_numbers: true,
     keeps_offsets: true,
+    // From memory of "Using Mach3Mill", as in RS274/NGC: "a straight traverse parallel to the XY-plane to the given XY-position".
+    rises_on_way_to_holes: false,
     lifts_to_start: true,
     // From memory of "Using Mach3Mill": G59 P1 to P253 select a system; P1 to P6 are G54 to G59.
     systems: Some(SystemNumbers { code: 590, regular: 6, most: 253 }),
@@ -485,8 +492,10 @@ const ISO: Rules = Rules {
     program_numbers: true,
     least_increments: true,
     keeps_offsets: true,
-    // From memory of the operator's manual: operation 1 of a canned cycle is the positioning of X and Y, operation 2 the rapid move to R.
+    // From memory of the operator's manual: operation 1 of a canned cycle is the positioning of X and Y, operation 2 the rapid move to R, and the
+    // return to the initial height (G98) comes after the hole.
     rises_before_holes: false,
+    rises_on_way_to_holes: false,
     lifts_to_start: true,
     // G80 is in a modal group of its own (09), so its line may contain another motion word.
     ends_cycles_beside_motion: true,

@@ -50,13 +50,15 @@ impl Interpreter<'_> {
         self.check_unit_of_cycle(block, coordinates[axis].is_some());
         self.store_cycle_words(block, coordinates[axis]);
         let Some(hole) = self.hole(block, cycle) else { return };
-        let mut old = self.retract_height();
+        let retracted = self.retract_height();
+        let mut old = self.approach_height();
         self.mark_axis_stated(axis);
         if old < hole.r && self.rules.rises_before_holes {
             self.lift_to(block, hole.r);
             old = hole.r;
         }
-        let hole = Hole { clear: if self.state.retract_to_r { hole.r } else { old }, ..hole };
+        let initial = if self.rules.rises_before_holes { retracted.max(hole.r) } else { retracted };
+        let hole = Hole { clear: if self.state.retract_to_r { hole.r } else { initial }, ..hole };
         if f64::from(repeats) * moves_of(&hole) > MAX_MOVES_PER_LINE {
             let count = f64::from(repeats) * moves_of(&hole);
             return self.report(block, &say::TOO_MANY_STROKES, Span::new(0, block.text.len()), |d| {
@@ -83,7 +85,7 @@ impl Interpreter<'_> {
     /// Stores the values of the cycle, and moves to the position in the line without drilling there.
     fn pass_over_hole(&mut self, block: &Block<'_>, coordinates: [Option<Slot>; 3]) {
         self.words.values.take(self.rules.repeats);
-        let height = self.retract_height();
+        let height = self.approach_height();
         self.store_cycle_words(block, coordinates[self.state.plane.third()]);
         if self.state.plane.axes().iter().any(|axis| coordinates[*axis].is_some()) {
             let over = self.place_over_hole(coordinates, height);
@@ -212,11 +214,19 @@ impl Interpreter<'_> {
         Some(Hole { cycle, r, bottom, clear: r, step, dwell })
     }
 
-    /// Returns the height of the tool before the hole: with G98, its height at the start of the series, to which it retracts afterwards; with G99,
-    /// its current height.
+    /// Returns the height of the tool after the hole before: with G98, its height at the start of the series; with G99, its current height.
     fn retract_height(&self) -> f64 {
         let axis = self.state.plane.third();
         if self.state.retract_to_r { self.state.position.at[axis] } else { self.state.cycle.initial[axis] }
+    }
+
+    /// Returns the height at which the tool moves to the next hole.
+    fn approach_height(&self) -> f64 {
+        if self.rules.rises_on_way_to_holes {
+            self.retract_height()
+        } else {
+            self.state.position.at[self.state.plane.third()]
+        }
     }
 
     fn drill(&mut self, block: &Block<'_>, hole: &Hole) {
