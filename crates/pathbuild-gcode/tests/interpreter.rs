@@ -691,9 +691,18 @@ fn g99_stays_at_the_cycles_own_height() {
 fn the_first_hole_with_g98_after_g99_is_approached_at_the_present_height() {
     let ways = |dialect: Dialect| {
         let steps = run(dialect, "G0 X0. Y0. Z5.\nG99 G81 X1. Z-3. R-2. F100.\nG98 X9. R-1.\nX12.\nG80");
-        steps.into_iter().filter(|step| step.starts_with("4 rapid") || step.starts_with("5 rapid")).collect::<Vec<_>>()
+        steps
+            .into_iter()
+            .filter(|step| step.starts_with("4 rapid") || step.starts_with("5 rapid"))
+            .collect::<Vec<_>>()
     };
-    let then = ["4 rapid to 9 0 -1", "4 rapid to 9 0 5", "5 rapid to 12 0 5", "5 rapid to 12 0 -1", "5 rapid to 12 0 5"];
+    let then = [
+        "4 rapid to 9 0 -1",
+        "4 rapid to 9 0 5",
+        "5 rapid to 12 0 5",
+        "5 rapid to 12 0 -1",
+        "5 rapid to 12 0 5",
+    ];
     for dialect in [Fanuc, Haas] {
         assert_eq!(ways(dialect)[0], "4 rapid to 9 0 -2", "{dialect:?}");
         assert_eq!(ways(dialect)[1..], then, "{dialect:?}");

@@ -78,7 +78,9 @@ fn a_length_stays_on() {
     assert_eq!(wrong_everywhere(&program("G49")), ["7 wrong-tool-length"]);
     assert_eq!(wrong(Fanuc, &program("G43 H0")), ["7 wrong-tool-length"]);
     // The length is switched off after the last cut and above the material.
-    assert_eq!(wrong_everywhere(&format!("T1 M6\nG0 G43 H1 Z5.0\n{}G49\nG0 Z9.0\nG1 X5.0\n", cut(0))), FINE);
+    let end = |words: &str| wrong_everywhere(&format!("T1 M6\nG0 G43 H1 Z5.0\n{}{words}\n", cut(0)));
+    assert_eq!(end("G0 Z9.0\nG49\nG1 X5.0"), FINE);
+    assert_eq!(end("G49\nG0 Z9.0\nG1 X5.0"), ["8 wrong-tool-length?"], "the spindle nose goes to Z 9");
     assert_eq!(
         wrong_everywhere(&format!("T1 M6\nG0 G43 H1 Z5.0\n{}G49\nG1 Z-0.5\n", cut(0))),
         ["8 wrong-tool-length"]

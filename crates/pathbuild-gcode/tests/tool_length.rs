@@ -35,9 +35,27 @@ fn a_new_tool_needs_its_length() {
 
 #[test]
 fn a_cut_without_the_length_is_reported() {
-    assert_eq!(found("G49\nT1 M6\nG43 H1\ncut\nG49\nG0 Z5"), NOTHING);
+    assert_eq!(found("G49\nT1 M6\nG43 H1\ncut\nG49"), NOTHING);
     assert_eq!(found("T1 M6\nG43 H1\ncut\nG49\ncut\ncut"), [7]);
     assert_eq!(found("T1 M6\nG43 H1\nG49\nG43 H1\ncut"), NOTHING);
+}
+
+/// M6 and G49 leave the tool where it is, so that only a move that states Z goes to an unknown height.
+#[test]
+fn a_rapid_move_that_states_z_has_the_length_of_its_tool() {
+    let second = |words: &str| found(&format!("T1 M6\nG43 H1\ncut\nT2 M6\n{words}\nG43 H2 Z5\ncut"));
+    assert_eq!(second("G0 X0 Y0"), NOTHING);
+    assert_eq!(second("G53 G0 Z0"), NOTHING);
+    assert_eq!(second("G0 X0 Y0\nG0 Z5\nG0 Z2"), [8], "once");
+    let end = |words: &str| found(&format!("T1 M6\nG43 H1 G0 Z5\ncut\nG0 Z5\n{words}"));
+    assert_eq!(end("G49\nG0 X50"), NOTHING);
+    assert_eq!(end("G49 G0 Z5"), [7], "the same number, but for the spindle nose");
+    assert_eq!(end("G43 H0 G0 Z5"), [7]);
+    assert_eq!(end("G49\nG53 G0 Z0"), NOTHING);
+    let first = |words: &str| found(&format!("G49\nG0 Z50\nT1 M6\n{words}\ncut"));
+    assert_eq!(first("G0 X0 Y0\nG43 H1 G0 Z5"), NOTHING, "the first Z is that of the tool before");
+    assert_eq!(first("G0 X0 Y0\nG0 Z5\nG43 H1"), [6]);
+    assert_eq!(first("G0 X0 Y0\nG0 Z5"), NOTHING, "a program without lengths");
 }
 
 #[test]

@@ -171,9 +171,8 @@ fn slopes_are_cut_as_deep_as_they_are() {
 #[test]
 fn arcs_across_the_plane_cut_as_deep_as_their_lowest_point() {
     for (arc, axis) in [("G18 G2 X20 I10 K0", "X"), ("G19 G3 Y20 J10 K0", "Y")] {
-        let groove = |then: &str| {
-            on_stock(&format!("G0 X0 Y0 Z5\n{arc}\nG17\nG0 Z10\nG0 {axis}10\n{then}\nG0 Z10"))
-        };
+        let groove =
+            |then: &str| on_stock(&format!("G0 X0 Y0 Z5\n{arc}\nG17\nG0 Z10\nG0 {axis}10\n{then}\nG0 Z10"));
         assert_eq!(groove("G0 Z-4.9"), FINE, "{arc}");
         assert_eq!(groove("G0 Z-5.1"), ["7 rapid-plunge"], "{arc}");
     }
@@ -552,15 +551,19 @@ fn where_the_operator_touches_off_the_zero_is_on_the_stock() {
         from_unknown(&format!("{first}\n{change}\nG0 Z5\nG0 X20\nG1 Z-3\nG1 X40\n{end}\nG0 Z5\nM5")).0
     };
     for zero in ["G92 Z0", "G10 L20 P1 Z0"] {
-        let left = if zero == "G92 Z0" { "G92.1\n" } else { "" };
-        let stopped = |end: &str| second(&format!("{left}M0\n{zero}"), &format!("{end}\n{left}"));
+        let clear = if zero == "G92 Z0" { "G92.1" } else { "" };
+        let stopped = |end: &str| second(&format!("M0\n{zero}"), &format!("{end}\n{clear}"));
         assert_eq!(stopped("G0 Y50"), ["14 rapid-in-material"], "{zero}");
         assert_eq!(stopped("G0 X20"), FINE, "{zero}");
     }
     let off = |words: &str| second(&format!("M5\nM0\nG10 L20 P1 Z0\n{words}"), "");
     assert_eq!(off(""), ["14 spindle-off"]);
     assert_eq!(off("M3 S9000"), FINE);
-    assert_eq!(second("G10 L20 P1 Z0", "G0 Y50"), FINE, "without a stop, the new zero is 20 mm above the stock");
+    assert_eq!(
+        second("G10 L20 P1 Z0", "G0 Y50"),
+        FINE,
+        "without a stop, the new zero is 20 mm above the stock"
+    );
 }
 
 #[test]

@@ -12,6 +12,6 @@ pub use chip_load::ChipLoad;
 pub use cutting_length::check_cutting_length;
 pub use geometry::{Arc, Axes, Course, Plane, Position, WrittenArc, is_full_turn, turn_angle, widest_chord};
 pub use step::{
-    Action, Change, Coolant, Corners, Frame, Group, Move, MoveShape, NamedPosition, Pace, Spindle, StatedWord, Step,
-    ToolLength, Turning, WordEffect, WorkSystem,
+    Action, Change, Coolant, Corners, Frame, Group, Move, MoveShape, NamedPosition, Pace, Spindle,
+    StatedWord, Step, ToolLength, Turning, WordEffect, WorkSystem,
 };

@@ -16,7 +16,8 @@ pub struct Step {
     pub action: Action,
     /// The axes for which the program has stated a position since the last tool change. The machine may have moved the other axes during the change.
     pub stated: Axes,
-    /// The axes for which the program has stated a position since the last tool change or stop, at which the operator may have moved the axes.
+    /// The axes for which a move has stated a position since the last tool change or stop, at which the operator may have moved the axes, and for Z since
+    /// the last change of the tool length.
     pub stated_since_stop: Axes,
 }
 

@@ -638,6 +638,27 @@ messages! {
         help_en: "set the length of T{tool} after M6, such as `G43 H{tool}`; if all lengths are measured from T{tool}, accept this warning with `--accept`",
         help_de: "nach M6 die Länge von T{tool} setzen, etwa `G43 H{tool}`; werden alle Längen von T{tool} aus gemessen, die Warnung mit `--accept` hinnehmen",
     }
+    /// A rapid move that states Z with a tool length that was set before the last M6.
+    RAPID_WITH_OLD_LENGTH: WrongToolLength {
+        en: "for the Z of this rapid move, the tool length still applies that line {set} set before {change} changed the tool: only the controller knows how high the tip is",
+        de: "für das Z dieses Eilgangs gilt noch die Werkzeuglänge, die Zeile {set} vor dem Werkzeugwechsel {change} gesetzt hat: nur die Steuerung weiß, wie hoch die Spitze ist",
+        help_en: "set the length of the new tool before or in the first line with Z, such as `G43 H2 Z5` for T2",
+        help_de: "die Länge des neuen Werkzeugs vor oder in der ersten Zeile mit Z setzen, etwa `G43 H2 Z5` für T2",
+    }
+    /// A rapid move that states Z after G49 or G43 H0.
+    RAPID_WITHOUT_LENGTH: WrongToolLength {
+        en: "the Z of this rapid move is without a tool length, which line {set} switched off: on most controllers, the spindle nose goes there",
+        de: "das Z dieses Eilgangs gilt ohne Werkzeuglänge, die Zeile {set} ausgeschaltet hat: auf den meisten Steuerungen fährt die Spindelnase dorthin",
+        help_en: "raise the tool before the length is switched off, or go to a position of the machine, such as `G53 G0 Z0`",
+        help_de: "anheben, bevor die Länge ausgeschaltet wird, oder zu einer Stelle der Maschine fahren, etwa `G53 G0 Z0`",
+    }
+    /// A rapid move that states Z after M6 and before the first G43 of the program.
+    RAPID_BEFORE_LENGTH: WrongToolLength {
+        en: "T{tool} goes to this Z before line {first} sets a tool length: only the controller knows how high the tip is",
+        de: "T{tool} fährt auf dieses Z, bevor Zeile {first} eine Werkzeuglänge setzt: nur die Steuerung weiß, wie hoch die Spitze ist",
+        help_en: "set the length before or in the first line with Z, such as `G43 H{tool} Z5`",
+        help_de: "die Länge vor oder in der ersten Zeile mit Z setzen, etwa `G43 H{tool} Z5`",
+    }
     /// A cut with the length of another tool of the program: `G43 H2` for T1 where T2 exists as well.
     LENGTH_OF_OTHER_TOOL: WrongToolLength {
         en: "T{tool} cuts with the length H{entry}, which is that of T{entry} in this program",

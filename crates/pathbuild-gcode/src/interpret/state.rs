@@ -14,7 +14,7 @@ pub(super) struct State {
     pub(super) position: Position,
     /// The axes whose position has been specified since the last tool change; all axes before the first tool change.
     pub(super) stated_axes: Axes,
-    /// The axes to a position of which the program has moved since the last tool change or stop for the operator.
+    /// The axes to a position of which the program has moved since the last tool change, stop for the operator or, for Z, change of the tool length.
     pub(super) stated_since_stop: Axes,
     /// The axes whose position G92 or G10 L20 has stated since the last tool change or stop for the operator.
     pub(super) zeroed_since_stop: Axes,

@@ -273,6 +273,10 @@ impl Interpreter<'_> {
             (430, Some(Some(number))) => ToolLength::OfTool(Some(number)),
             _ => ToolLength::Other(code),
         };
+        if !is_across && matches!(length, ToolLength::Off | ToolLength::OfTool(_)) {
+            // The tip is at another Z from here on, although the tool does not move.
+            self.state.stated_since_stop = self.state.stated_since_stop.without(Axes::Z);
+        }
         if code != 431 {
             self.state.offsets.set_length((code == 490).then_some(0.0));
         }

@@ -1,4 +1,4 @@
-//! Finds cuts with the length of another tool, cuts without any length, and cuts with a tool that was not replaced by the one that T had selected.
+//! Finds cuts and rapid moves with the length of another tool or without any length, and cuts with a tool that was not replaced by the one that T had selected.
 //! (book: program/reading, "Tool lengths")
 //!
 //! On every control with G43 the length in effect survives M6, so a program must set the length of each tool. A program that never uses G43 works
@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Severity};
-use pathbuild_motion::{Action, Change, Move, Step, ToolLength};
+use pathbuild_motion::{Action, Axes, Change, Move, Pace, Step, ToolLength};
 
 use super::material::Stock;
 use super::rules::is_cut_in_stock;
@@ -27,8 +27,14 @@ pub struct LengthRules<'c> {
     bare: Option<(u32, u32)>,
     of_entries: Vec<OtherEntry>,
     tools_with_own_length: BTreeSet<u32>,
-    /// Whether the current combination of tool and length has been checked.
+    /// The line and the tool of the first rapid move that states Z with a known tool before any length was applied.
+    bare_rapid: Option<(u32, u32)>,
+    /// Whether the current combination of tool and length has been checked at a cut.
     is_judged: bool,
+    /// Whether it has been checked at a rapid move that states Z.
+    is_rapid_judged: bool,
+    /// A rapid move with a wrong length, until a cut with the same length is reported instead.
+    wrong_rapid: Problems,
     /// Whether M6 has inserted a tool.
     has_changed: bool,
     waiting: Option<WaitingTool>,
@@ -62,9 +68,12 @@ impl<'c> LengthRules<'c> {
             tools: ToolState::new(dialect),
             first: None,
             bare: None,
+            bare_rapid: None,
             of_entries: Vec::new(),
             tools_with_own_length: BTreeSet::new(),
             is_judged: false,
+            is_rapid_judged: false,
+            wrong_rapid: Problems::default(),
             has_changed: false,
             waiting: None,
             problems: Problems::default(),
@@ -77,19 +86,32 @@ impl<'c> LengthRules<'c> {
         match &step.action {
             Action::SelectTool(number) => self.check_selected_tool(step.line, *number),
             Action::ChangeTool(number) => {
-                self.is_judged = false;
+                self.begin_length();
                 self.has_changed = true;
                 self.leave_waiting(*number);
             }
             Action::Change(Change::ToolLength(length)) => {
-                self.is_judged = false;
+                self.begin_length();
                 if !matches!(length, ToolLength::Off | ToolLength::OfTool(Some(0))) {
                     self.first.get_or_insert(step.line);
                 }
             }
-            Action::Move(movement) => self.check_move(step.line, movement),
+            Action::Move(movement) => {
+                self.check_move(step.line, movement);
+                let states_z = step.stated_since_stop.has(Axes::Z) && movement.to.known.has(Axes::Z);
+                if states_z && movement.pace == Pace::Rapid && movement.named.is_none() {
+                    self.check_rapid(step.line);
+                }
+            }
             _ => {}
         }
+    }
+
+    /// Begins another combination of tool and length.
+    fn begin_length(&mut self) {
+        self.is_judged = false;
+        self.is_rapid_judged = false;
+        self.problems.append(std::mem::take(&mut self.wrong_rapid));
     }
 
     fn check_move(&mut self, line: u32, movement: &Move) {
@@ -119,6 +141,38 @@ impl<'c> LengthRules<'c> {
         });
     }
 
+    /// Checks the first rapid move that states Z with the current tool and length. Whether it hits anything depends on lengths that only the machine knows.
+    fn check_rapid(&mut self, line: u32) {
+        if std::mem::replace(&mut self.is_rapid_judged, true) {
+            return;
+        }
+        let set = u64::from(self.tools.length_line().unwrap_or(line));
+        match (self.tools.length_fit(), self.tools.inserted(), self.first) {
+            (LengthFit::Outdated, tool, _) => {
+                self.wrong_rapid.add_at_line(&say::RAPID_WITH_OLD_LENGTH, line, |d| {
+                    let d = d.quoting("change", change_word(tool)).with("set", set);
+                    Diagnostic { severity: Severity::Warning, ..d }
+                });
+            }
+            (LengthFit::Off, _, Some(_)) => {
+                self.wrong_rapid.add_at_line(&say::RAPID_WITHOUT_LENGTH, line, |d| Diagnostic {
+                    severity: Severity::Warning,
+                    ..d.with("set", set)
+                });
+            }
+            (LengthFit::Off | LengthFit::Unstated, Some(tool), None) => {
+                self.bare_rapid.get_or_insert((line, tool));
+            }
+            _ => {}
+        }
+    }
+
+    /// Reports no rapid move with the current tool and length, because a cut is reported.
+    fn forgive_rapid(&mut self) {
+        self.wrong_rapid = Problems::default();
+        self.is_rapid_judged = true;
+    }
+
     fn check_cut(&mut self, line: u32, movement: &Move) {
         let rises = movement.keeps_xy() && movement.to.z() > movement.from.z();
         if movement.named.is_some() || rises || !is_cut_in_stock(line, movement, self.stock) {
@@ -128,12 +182,14 @@ impl<'c> LengthRules<'c> {
         let (tool, set) = (self.tools.inserted(), self.tools.length_line().unwrap_or(line));
         match (self.tools.length_fit(), tool, self.first) {
             (LengthFit::Outdated, ..) => {
-                let change = tool.map_or("M6".to_owned(), |tool| format!("T{tool} M6"));
+                self.forgive_rapid();
+                let change = change_word(tool);
                 self.problems.add_at_line(&say::LENGTH_BEFORE_CHANGE, line, |d| {
                     d.quoting("change", change).with("set", u64::from(set))
                 });
             }
             (LengthFit::Off, _, Some(first)) => {
+                self.forgive_rapid();
                 self.problems.add_at_line(&say::LENGTH_SWITCHED_OFF, line, |d| {
                     d.with("set", u64::from(set)).with("first", u64::from(first))
                 });
@@ -155,6 +211,13 @@ impl<'c> LengthRules<'c> {
     /// Returns all problems, ordered by line.
     pub fn finish(mut self) -> Vec<Diagnostic> {
         self.leave_waiting(None);
+        self.begin_length();
+        if let Some(((line, tool), first)) = self.bare_rapid.filter(|_| self.bare.is_none()).zip(self.first) {
+            self.problems.add_at_line(&say::RAPID_BEFORE_LENGTH, line, |d| {
+                let d = d.with("tool", u64::from(tool)).with("first", u64::from(first));
+                Diagnostic { severity: Severity::Warning, ..d }
+            });
+        }
         if let Some(((line, tool), first)) = self.bare.zip(self.first) {
             self.problems.add_at_line(&say::LENGTH_OF_FIRST_TOOL, line, |d| {
                 let d = d.with("tool", u64::from(tool)).with("first", u64::from(first));
@@ -176,4 +239,9 @@ impl<'c> LengthRules<'c> {
         }
         self.problems.into_diagnostics()
     }
+}
+
+/// Returns the words that inserted a tool, for messages.
+fn change_word(tool: Option<u32>) -> String {
+    tool.map_or("M6".to_owned(), |tool| format!("T{tool} M6"))
 }

@@ -590,7 +590,9 @@ impl Stock {
 
     /// Whether every cutter removes material over the width over which it collides. Of any other the exact width is not known.
     fn is_flat(&self) -> bool {
-        self.pieces.iter().all(|piece| piece.cutter.removed == piece.cutter.colliding && piece.cutter.removed > 0.0)
+        self.pieces
+            .iter()
+            .all(|piece| piece.cutter.removed == piece.cutter.colliding && piece.cutter.removed > 0.0)
     }
 
     pub(super) fn cells(&self) -> u64 {

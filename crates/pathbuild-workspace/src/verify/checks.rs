@@ -99,6 +99,8 @@ pub enum Reason {
     NoPosition,
     /// A limit of `[limits]` is exceeded.
     TooLarge,
+    /// Rapid moves have the length of another tool, or none.
+    WrongLength,
 }
 
 /// The references that a program can be compared with.
@@ -245,6 +247,9 @@ impl CheckRecord {
                 en: "X, Y and Z in G90 before other moves",
                 de: "X, Y und Z in G90 vor anderen Bewegungen",
             },
+            (Reason::WrongLength, _) => {
+                &Text { en: "G43 before Z is stated (PB785)", de: "G43, bevor Z genannt wird (PB785)" }
+            }
             (Reason::SeveralZeros, _) => &Text {
                 en: "one work offset, or G10 L2 for each",
                 de: "ein einziger Nullpunkt, oder G10 L2 für jeden",
@@ -382,6 +387,10 @@ impl Reason {
             Self::NoPosition => &Text {
                 en: "the program moves an axis without ever stating a position in G90",
                 de: "das Programm bewegt eine Achse, ohne je eine Position in G90 zu nennen",
+            },
+            Self::WrongLength => &Text {
+                en: "rapid moves have the length of another tool, or none",
+                de: "Eilgänge haben die Länge eines anderen Werkzeugs oder keine",
             },
             Self::SeveralZeros => &Text {
                 en: "only the machine knows where the work offsets of the program lie",

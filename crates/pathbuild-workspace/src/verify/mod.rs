@@ -571,7 +571,7 @@ impl<'v> Examination<'v> {
             !speeds.has_cut || speeds.has_started || self.program.dialect == Dialect::Xpertmill;
         let machine = verifier.machine.as_ref();
         let rapids =
-            self.sources.rapids(is_limit_reached, blind.and_then(BlindRapidRules::finish), lowest_cut);
+            self.sources.rapids(is_limit_reached, blind.and_then(BlindRapidRules::finish), lowest_cut, found);
         found.extend(self.sources.cuts_above(lowest_cut));
         let mut records = checks::records(rapids, machine, references, states_speed);
         // Only LinuxCNC has a word that limits the rounding of corners.

@@ -1,7 +1,7 @@
 //! Determines the cutter and the material of a program. (book: program/reading: the stock's extent is in no drawing)
 
 use pathbuild_diagnostic::messages::{gcode as say, posts};
-use pathbuild_diagnostic::{Code, Diagnostic, Severity, Text};
+use pathbuild_diagnostic::{Code, Diagnostic, Message, Severity, Text};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
 use pathbuild_gcode::native::path_of_title;
@@ -14,6 +14,10 @@ use super::checks::{Assumption, Origin, Outcome, RapidValues, Reason};
 use super::{Verifier, VerifyOptions};
 use crate::config::types::Tool;
 use crate::program::Program;
+
+/// The findings about rapid moves at heights that only the controller knows.
+static RAPIDS_OF_WRONG_LENGTH: [&Message; 3] =
+    [&say::RAPID_WITH_OLD_LENGTH, &say::RAPID_WITHOUT_LENGTH, &say::RAPID_BEFORE_LENGTH];
 
 /// All sources for the cutters of a program and for the height of its material.
 pub(super) struct Sources<'s> {
@@ -151,12 +155,14 @@ impl<'s> Sources<'s> {
         Some(Diagnostic::new(&say::CUTS_ABOVE_SURFACE).with("found", lowest).with("given", given))
     }
 
-    /// Returns the outcome of the check of rapid moves. `blind` counts the rapid moves that start at an unknown position.
+    /// Returns the outcome of the check of rapid moves. `blind` counts the rapid moves that start at an unknown position, `found` are the findings of all
+    /// rules.
     pub(super) fn rapids(
         &self,
         is_limit_reached: bool,
         blind: Option<BlindRapids>,
         lowest_cut: Option<f64>,
+        found: &[Diagnostic],
     ) -> Outcome {
         if is_limit_reached {
             return Outcome::NotMade(Reason::TooLarge);
@@ -173,6 +179,12 @@ impl<'s> Sources<'s> {
         }
         if self.cuts_above(lowest_cut).is_some() {
             return Outcome::NotMade(Reason::NoCutBelow);
+        }
+        if found
+            .iter()
+            .any(|problem| RAPIDS_OF_WRONG_LENGTH.iter().any(|message| message.key == problem.message.key))
+        {
+            return Outcome::NotMade(Reason::WrongLength);
         }
         let cutters = match self.options().cutter.or(self.drawn_cutter()) {
             Some(given) => vec![given],
