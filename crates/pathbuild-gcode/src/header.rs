@@ -9,6 +9,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
 use pathbuild_motion::{Action, Group, Pace, StatedWord, Step, WordEffect};
 
+use crate::interpret::INCH;
 use crate::provenance::{Provenance, head_remarks};
 use crate::read::Problems;
 use crate::verify::Cutter;
@@ -18,9 +19,6 @@ const ROUNDING_TOLERANCE: f64 = 0.01;
 
 /// Maximum difference in mm at which two lengths that are not rounded are considered equal.
 const EXACT_TOLERANCE: f64 = 1e-6;
-
-/// One inch in mm.
-const INCH: f64 = 25.4;
 
 /// The unit of a length in a comment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position};
 use super::codes::{self, Cycle, Motion};
 use super::execute::{Interpreter, Slot, limits, whole_number};
 use super::state::{CycleState, StatedLength};
-use crate::read::{Block, Span};
+use crate::read::Block;
 
 /// Distance above the last depth at which a pecking cycle stops its rapid descent, and by which a chip-breaking cycle retracts: 0.010
 /// inches.
@@ -61,7 +61,7 @@ impl Interpreter<'_> {
         let hole = Hole { clear: if self.state.retract_to_r { hole.r } else { initial }, ..hole };
         if f64::from(repeats) * moves_of(&hole) > MAX_MOVES_PER_LINE {
             let count = f64::from(repeats) * moves_of(&hole);
-            return self.report(block, &say::TOO_MANY_STROKES, Span::new(0, block.text.len()), |d| {
+            return self.report(block, &say::TOO_MANY_STROKES, block.span(), |d| {
                 d.with("count", count).with("most", MAX_MOVES_PER_LINE)
             });
         }
@@ -107,7 +107,7 @@ impl Interpreter<'_> {
     fn check_change_within_cycle(&mut self, block: &Block<'_>) {
         let Some(line) = self.state.change_within_cycle.take() else { return };
         let word = codes::name('G', self.state.motion_code);
-        self.report(block, &say::CYCLE_LEFT_ON, Span::new(0, block.text.len()), |d| {
+        self.report(block, &say::CYCLE_LEFT_ON, block.span(), |d| {
             d.quoting("word", word).with("line", u64::from(line))
         });
     }
@@ -186,7 +186,7 @@ impl Interpreter<'_> {
         ];
         if let Some((letter, _)) = missing.into_iter().find(|(_, is_missing)| *is_missing) {
             let word = codes::name('G', self.state.motion_code);
-            self.report(block, &say::NEEDS, Span::new(0, block.text.len()), |d| {
+            self.report(block, &say::NEEDS, block.span(), |d| {
                 d.quoting("word", word).quoting("missing", letter)
             });
             return None;
@@ -199,14 +199,14 @@ impl Interpreter<'_> {
             } else {
                 ("P", dwell, &limits::NOT_NEGATIVE)
             };
-            self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
+            self.report(block, &say::OUT_OF_RANGE, block.span(), |d| {
                 d.quoting("word", word).with("value", value).with("limits", limits)
             });
             return None;
         }
         let (r, bottom) = (r?, z?);
         if bottom > r {
-            self.report(block, &say::OUT_OF_RANGE, Span::new(0, block.text.len()), |d| {
+            self.report(block, &say::OUT_OF_RANGE, block.span(), |d| {
                 d.quoting("word", "R").with("value", r).with("limits", &limits::NOT_BELOW_Z)
             });
             return None;

@@ -28,6 +28,7 @@ pub use self::state::{Heights, MachineOffsets, Options, UnitCodes};
 pub use codes::name as code_name;
 pub use guess::{Evidence, EvidenceKind, Guess, guess};
 pub(crate) use motion::LOWEST_RETRACT;
+pub(crate) use state::INCH;
 
 use crate::dialect::Dialect;
 use crate::read::BlockReader;

@@ -121,7 +121,7 @@ impl Interpreter<'_> {
 
     pub(super) fn coordinates_span(&self, block: &Block<'_>) -> Span {
         let span = Values::AXES.iter().find_map(|axis| self.words.values.peek(*axis)).map(|slot| slot.span);
-        span.unwrap_or(Span::new(0, block.text.len()))
+        span.unwrap_or_else(|| block.span())
     }
 
     /// Reports settings that the program should have specified before a move.
@@ -546,12 +546,12 @@ impl Interpreter<'_> {
         let coordinates = self.words.values.take_coordinates();
         if self.rules.arcs.axis_word && coordinates[first].is_none() && coordinates[second].is_none() {
             let axes = plane_words(plane, ["X", "Y", "Z"]);
-            self.report(block, &say::ARC_WITHOUT_END, whole_line(block), |d| d.quoting("axes", axes));
+            self.report(block, &say::ARC_WITHOUT_END, block.span(), |d| d.quoting("axes", axes));
         }
         let from = self.state.position;
         let to = self.target(coordinates);
         if !self.rules.arcs.helix && from.at[plane.third()] != to.at[plane.third()] {
-            self.report(block, &say::HELIX_DOUBTFUL, whole_line(block), |d| d);
+            self.report(block, &say::HELIX_DOUBTFUL, block.span(), |d| d);
         }
         let extra_turns = self.extra_turns(block);
         let Some(centre) = self.centre(block, plane, clockwise, &from, &to) else {
@@ -560,7 +560,7 @@ impl Interpreter<'_> {
         let arc = Arc { plane, centre, clockwise, extra_turns };
         if arc.radius(&from) == 0.0 {
             let words = plane_words(plane, ["I", "J", "K"]);
-            self.report(block, &say::RADIUS_ZERO, whole_line(block), |d| d.quoting("centre", words));
+            self.report(block, &say::RADIUS_ZERO, block.span(), |d| d.quoting("centre", words));
             return self.omit_arc(to);
         }
         let mut movement = Move { from, to, shape: MoveShape::Arc(arc), pace: Pace::Feed(0.0), named: None };
@@ -611,9 +611,7 @@ impl Interpreter<'_> {
         let radius = self.words.values.take_slot(b'R');
         match (offsets, radius) {
             ([None, None], None) => {
-                self.report(block, &say::ARC_WITHOUT_CENTRE, whole_line(block), |d| {
-                    d.quoting("centre", words)
-                });
+                self.report(block, &say::ARC_WITHOUT_CENTRE, block.span(), |d| d.quoting("centre", words));
                 None
             }
             ([None, None], Some(radius)) => self.centre_by_radius(block, plane, clockwise, from, to, radius),
@@ -625,7 +623,7 @@ impl Interpreter<'_> {
             }
             ([None, _] | [_, None], None) if !self.state.incremental_centres => {
                 let word = "G90.1";
-                self.report(block, &say::NEEDS, whole_line(block), |d| {
+                self.report(block, &say::NEEDS, block.span(), |d| {
                     d.quoting("word", word).quoting("missing", words)
                 });
                 None
@@ -700,7 +698,7 @@ impl Interpreter<'_> {
             RadiusTolerance::Relative { most, least, share } => most.min(least.max(share * start.max(end))),
         };
         if difference > most {
-            self.report(block, &say::RADII_DIFFER, whole_line(block), |d| {
+            self.report(block, &say::RADII_DIFFER, block.span(), |d| {
                 d.with("start", start).with("end", end).with("difference", difference - most)
             });
         }
@@ -714,7 +712,7 @@ impl Interpreter<'_> {
             && arc.sweep(&movement.from, &movement.to) > std::f64::consts::PI
         {
             let degrees = libm::round(arc.sweep(&movement.from, &movement.to).to_degrees());
-            self.report(block, &say::NEAR_FULL_CIRCLE, whole_line(block), |d| {
+            self.report(block, &say::NEAR_FULL_CIRCLE, block.span(), |d| {
                 d.with("gap", gap).with("degrees", degrees)
             });
         }
@@ -724,8 +722,4 @@ impl Interpreter<'_> {
 fn plane_words(plane: Plane, letters: [&str; 3]) -> String {
     let [first, second] = plane.axes();
     format!("{}, {}", letters[first.min(second)], letters[first.max(second)])
-}
-
-fn whole_line(block: &Block<'_>) -> Span {
-    Span::new(0, block.text.len())
 }

@@ -6,7 +6,7 @@ use super::codes::{FeedUnit, Motion};
 use crate::dialect::{Rules, StartMotion};
 
 /// Length of an inch in mm.
-pub(super) const INCH: f64 = 25.4;
+pub(crate) const INCH: f64 = 25.4;
 
 #[derive(Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent modes")]

@@ -496,7 +496,7 @@ impl Interpreter<'_> {
     ) {
         let [unit, other] =
             [stated.unit, self.state.unit].map(|unit| if unit == INCH { &INCHES } else { &MILLIMETRES });
-        self.report(block, message, Span::new(0, block.text.len()), |d| {
+        self.report(block, message, block.span(), |d| {
             values(d.with("line", u64::from(stated.line)).with("unit", unit).with("other", other))
         });
     }
@@ -506,7 +506,7 @@ impl Interpreter<'_> {
         if std::mem::replace(&mut self.state.stated.feed_missing, true) {
             return;
         }
-        let whole = Span::new(0, block.text.len());
+        let whole = block.span();
         match (self.state.feed_unit, self.state.feed_cleared) {
             (FeedUnit::InverseTime, _) => self.report(block, &say::INVERSE_TIME_WITHOUT_FEED, whole, |d| d),
             (FeedUnit::PerTurn, _) if self.state.feed > 0.0 => {

@@ -9,7 +9,7 @@ use super::evaluate::{Scope, name_of, parameter_number};
 use super::execute::{AssignedParameter, Interpreter, Slot, ValueFault, Values, limits};
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
 use crate::dialect::MCodeLimit;
-use crate::read::{Block, SourcePosition, Span, Target, Value, Word};
+use crate::read::{Block, Span, Target, Value, Word};
 
 /// Number of decimals of a calculated value.
 const OF_EXPRESSION: u8 = u8::MAX;
@@ -253,8 +253,7 @@ impl Interpreter<'_> {
             match target {
                 AssignedParameter::Numbered(number) => {
                     if MACHINE_PLACES.contains(&number) {
-                        let span = Span::new(0, block.text.len());
-                        self.report(block, &say::NOT_FOLLOWED, span, |d| {
+                        self.report(block, &say::NOT_FOLLOWED, block.span(), |d| {
                             d.quoting("word", format!("#{number}="))
                         });
                     }
@@ -293,13 +292,7 @@ impl Interpreter<'_> {
             let earlier =
                 self.words.commands[..index].iter().find(|(other, ..)| other.group() == command.group());
             if let Some(&(_, first, _)) = earlier {
-                self.report_conflict(
-                    block,
-                    &say::SAME_GROUP,
-                    codes::name('G', first),
-                    codes::name('G', code),
-                    span,
-                );
+                self.report_conflict(block, &say::SAME_GROUP, 'G', [first, code], span);
                 break;
             }
         }
@@ -308,13 +301,7 @@ impl Interpreter<'_> {
                 |other: u16| M_GROUPS.iter().any(|group| group.contains(&other) && group.contains(&code));
             if let Some(&(first, _)) = self.words.m_codes[..index].iter().find(|(other, _)| excludes(*other))
             {
-                self.report_conflict(
-                    block,
-                    &say::SAME_GROUP,
-                    codes::name('M', first),
-                    codes::name('M', code),
-                    span,
-                );
+                self.report_conflict(block, &say::SAME_GROUP, 'M', [first, code], span);
                 break;
             }
         }
@@ -331,13 +318,7 @@ impl Interpreter<'_> {
             && first_command.group() != second_command.group()
             && uses_axes(first_command, second_command)
         {
-            self.report_conflict(
-                block,
-                &say::AXES_WANTED_TWICE,
-                codes::name('G', first),
-                codes::name('G', second),
-                span,
-            );
+            self.report_conflict(block, &say::AXES_WANTED_TWICE, 'G', [first, second], span);
         }
     }
 
@@ -352,23 +333,19 @@ impl Interpreter<'_> {
         if M_GROUPS.iter().any(|group| group.contains(&first) && group.contains(&second)) {
             return;
         }
-        self.report(block, message, span, |d| {
-            d.quoting("first", codes::name('M', first)).quoting("second", codes::name('M', second))
-        });
+        self.report_conflict(block, message, 'M', [first, second], span);
     }
 
     fn report_conflict(
         &mut self,
         block: &Block<'_>,
         message: &'static Message,
-        first: String,
-        second: String,
+        letter: char,
+        words: [u16; 2],
         span: Span,
     ) {
-        let dialect = self.rules.dialect.name();
-        self.problems.add(message, SourcePosition::block(block, span), |d| {
-            d.quoting("first", first).quoting("second", second).quoting("dialect", dialect)
-        });
+        let [first, second] = words.map(|code| codes::name(letter, code));
+        self.report(block, message, span, |d| d.quoting("first", first).quoting("second", second));
     }
 
     /// Marks the values of inert words as used. Reports missing values, and values that are not known to be harmless.

@@ -204,6 +204,11 @@ impl Deref for Block<'_> {
 }
 
 impl<'a> Block<'a> {
+    /// Returns the range of the whole block.
+    pub(crate) fn span(&self) -> Span {
+        Span::new(0, self.text.len())
+    }
+
     /// Returns the operations of an expression in this block, with operands first.
     pub fn code(&self, code: Code) -> &'a [Op] {
         &self.parts.code[code.range()]

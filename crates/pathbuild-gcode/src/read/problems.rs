@@ -29,7 +29,7 @@ impl<'a> SourcePosition<'a> {
 
     /// Returns the position of an entire block.
     pub fn line(block: &Block<'a>) -> Self {
-        Self::block(block, Span::new(0, block.text.len()))
+        Self::block(block, block.span())
     }
 
     fn place(&self, diagnostic: Diagnostic) -> Diagnostic {
