@@ -46,9 +46,7 @@ impl Job {
         let drawing = programs.first().map_or("", |program| &program.borrow().drawing);
         (Self { name: name.into(), drawing: drawing.into(), operations, ..Self::default() }, fitter.warnings)
     }
-}
 
-impl Job {
     /// Assigns the cutter of a path with diameter O to all operations, as in a job that is made from the path's program. Native programs
     /// always say T1, whatever the cutter. Returns warnings about the tool.
     pub fn set_cutter(&mut self, path: &str, diameter: f64, tools: &ToolTable) -> Vec<Diagnostic> {

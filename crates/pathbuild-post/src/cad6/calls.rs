@@ -4,8 +4,8 @@
 //! retract to safety height. The rapids of a job are combined into such moves. Rapids that cannot be expressed in this way are an error;
 //! they are never dropped.
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Diagnostic, Message};
 use pathbuild_motion::{Course, Move, Pace, Plane, Position};
 use pathbuild_path::approx::at_least;
 
@@ -141,25 +141,19 @@ impl<'a> Builder<'a> {
 
     fn step(&mut self, step: &'a JobStep) -> CallResult {
         match step {
-            JobStep::Move(movement) => self.move_along(movement),
-            JobStep::Comment(text) => {
-                self.add_aside(CallContent::Comment(text));
-                Ok(())
-            }
-            JobStep::Hole(hole) => self.hole(hole),
-            JobStep::Dwell { seconds } => {
-                self.add_aside(CallContent::Dwell(*seconds));
-                Ok(())
-            }
-            JobStep::SpindleOff { .. } => {
-                let diagnostic = Diagnostic::new(&posts::JOB_SPINDLE_OFF);
-                Err(Box::new(diagnostic.quoting("operation", &*self.current_operation().name)))
-            }
-            JobStep::Stop => {
-                self.add_aside(CallContent::Stop);
-                Ok(())
-            }
+            JobStep::Move(movement) => return self.move_along(movement),
+            JobStep::Hole(hole) => return self.hole(hole),
+            JobStep::SpindleOff { .. } => return Err(Box::new(self.refusal(&posts::JOB_SPINDLE_OFF))),
+            JobStep::Comment(text) => self.add_aside(CallContent::Comment(text)),
+            JobStep::Dwell { seconds } => self.add_aside(CallContent::Dwell(*seconds)),
+            JobStep::Stop => self.add_aside(CallContent::Stop),
         }
+        Ok(())
+    }
+
+    /// Returns an error of the current operation.
+    fn refusal(&self, message: &'static Message) -> Diagnostic {
+        Diagnostic::new(message).quoting("operation", &*self.current_operation().name)
     }
 
     fn move_along(&mut self, movement: &Move) -> CallResult {
@@ -171,9 +165,7 @@ impl<'a> Builder<'a> {
             }
             (None, Pace::Feed(_)) => self.feed(self.resolve(movement.to), movement.pace.stated_feed()),
             (None, Pace::Probe { .. }) => {
-                let diagnostic = Diagnostic::new(&posts::NO_TEXT_FOR)
-                    .quoting("operation", &*self.current_operation().name);
-                Err(Box::new(diagnostic.quoting("text", "probe")))
+                Err(Box::new(self.refusal(&posts::NO_TEXT_FOR).quoting("text", "probe")))
             }
         }
     }
@@ -252,9 +244,8 @@ impl<'a> Builder<'a> {
     }
 
     fn missing_z_error(&self, to: Point, kind: ControlTextKind) -> Box<Diagnostic> {
-        let diagnostic =
-            Diagnostic::new(&posts::NO_Z_IN_TEXT).quoting("operation", &*self.current_operation().name);
-        Box::new(diagnostic.with("from", self.at[2]).with("to", to[2]).quoting("text", kind.name()))
+        let diagnostic = self.refusal(&posts::NO_Z_IN_TEXT).with("from", self.at[2]).with("to", to[2]);
+        Box::new(diagnostic.quoting("text", kind.name()))
     }
 
     fn contour_position(&mut self, feed: Option<f64>) -> ContourPosition {
@@ -282,8 +273,7 @@ impl<'a> Builder<'a> {
             return Ok(());
         }
         if self.abilities.arc && !is_level && !self.abilities.line_z {
-            let diagnostic =
-                Diagnostic::new(&posts::NO_Z_IN_ARC).quoting("operation", &*self.current_operation().name);
+            let diagnostic = self.refusal(&posts::NO_Z_IN_ARC);
             return Err(Box::new(diagnostic.with("from", movement.from.z()).with("to", movement.to.z())));
         }
         let Some(count) = chords(course, self.abilities.arc_tolerance) else {

@@ -183,7 +183,7 @@ impl Parser<'_> {
             return Ok(std::f64::consts::PI);
         }
         let arguments = self.arguments()?;
-        call(name, &arguments).map_err(|wrong| wrong.at(span).quoting("name", name))
+        call(name, &arguments).map_err(|message| Fault::new(message, span).quoting("name", name))
     }
 
     fn arguments(&mut self) -> Evaluated<Vec<f64>> {
@@ -230,22 +230,6 @@ fn apply(operator: &str, a: f64, b: f64) -> Option<f64> {
 
 fn from_bits(bits: i64) -> f64 {
     bits as f64
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FunctionError {
-    Name,
-    Arguments,
-}
-
-impl FunctionError {
-    /// Converts the reason to a fault at the name of the function.
-    pub(super) fn at(self, span: Range<usize>) -> Box<Fault> {
-        match self {
-            Self::Name => Fault::new(&posts::TERM_FUNCTION, span),
-            Self::Arguments => Fault::new(&posts::TERM_ARGUMENTS, span),
-        }
-    }
 }
 
 /// The number of arguments that a function takes, and its implementation.
@@ -298,13 +282,13 @@ functions! {
     "max" Any |all| all.iter().copied().fold(f64::NEG_INFINITY, f64::max), "the largest", "das Größte";
 }
 
-pub(super) fn call(name: &str, arguments: &[f64]) -> Result<f64, FunctionError> {
-    let function = FUNCTIONS.iter().find(|function| function.name == name).ok_or(FunctionError::Name)?;
+fn call(name: &str, arguments: &[f64]) -> Result<f64, &'static Message> {
+    let function = FUNCTIONS.iter().find(|function| function.name == name).ok_or(&posts::TERM_FUNCTION)?;
     match (function.rule, arguments) {
         (Rule::One(value), &[x]) => Ok(value(x)),
         (Rule::Two(value), &[x, y]) => Ok(value(x, y)),
         (Rule::Any(value), [_, ..]) => Ok(value(arguments)),
-        _ => Err(FunctionError::Arguments),
+        _ => Err(&posts::TERM_ARGUMENTS),
     }
 }
 

@@ -68,7 +68,8 @@ pub(super) struct Writer<'a> {
 impl<'a> Writer<'a> {
     /// Creates a writer at the start of a program, which must contain operations.
     pub(super) fn new(plan: &'a Plan<'a>) -> Self {
-        let mut writer = Self {
+        let marks = plan.definition.comment_marks();
+        Self {
             plan,
             machine: Machine::default(),
             move_values: MoveValues::default(),
@@ -80,8 +81,8 @@ impl<'a> Writer<'a> {
             warnings: Vec::new(),
             line: Line::default(),
             lines: Lines::new(&plan.definition.options),
-            marks: CommentMarks::default(),
-            guard: TextInserter::new(plan.target, CommentMarks::default(), plan.options.charset),
+            guard: TextInserter::new(plan.target, marks.clone(), plan.options.charset),
+            marks,
             shadow: Rs274Translation::new(plan.job.units, plan.definition.options.absolute_centres),
             turned: [None; 3],
             own: [None, None, None],
@@ -92,10 +93,7 @@ impl<'a> Writer<'a> {
             depth: [0; 2],
             open: Vec::new(),
             fuel: output_limit(plan),
-        };
-        writer.marks = plan.definition.comment_marks();
-        writer.guard = TextInserter::new(plan.target, writer.marks.clone(), plan.options.charset);
-        writer
+        }
     }
 
     /// Writes the whole program. Returns its text, its translation to RS274, and warnings about doubtful constructs.
