@@ -401,15 +401,13 @@ fn check_regex(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> b
         return false;
     }
     let Some(reason) = regex_fault(text) else { return true };
-    let fault = reader.fault(&messages::BROKEN_REGEX, span).with("reason", reason);
-    reader.report(fault);
+    reader.report(reader.fault(&messages::BROKEN_REGEX, span).with("reason", reason));
     false
 }
 
 fn restriction(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Option<Restriction> {
     let Some(rule) = split_restriction(text) else {
-        let fault = reader.fault(&messages::RESTRICT_WITHOUT_COLON, span);
-        reader.report(fault);
+        reader.report(reader.fault(&messages::RESTRICT_WITHOUT_COLON, span));
         return None;
     };
     let parent = check_regex(&rule.parent, span.clone(), reader);
@@ -424,8 +422,7 @@ fn pattern(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Optio
     match Pattern::new(text) {
         Ok(pattern) => Some(pattern),
         Err(reason) => {
-            let fault = reader.fault(&messages::BROKEN_GLOB, span).with("reason", reason);
-            reader.report(fault);
+            reader.report(reader.fault(&messages::BROKEN_GLOB, span).with("reason", reason));
             None
         }
     }

@@ -84,13 +84,18 @@ fn read(
     confined: Option<&ConfinedSystem>,
 ) -> (Options, Vec<Diagnostic>) {
     let system = confined.map_or(system, |confined| confined);
-    match files::read(system, file, MAX_CONFIGURATION_BYTES) {
+    match text(system, file) {
         Ok(text) => parse(file, &text, confined),
-        Err(reason) => {
-            let fault = Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file);
-            (Options::default(), vec![fault.with("reason", reason)])
-        }
+        Err(fault) => (Options::default(), vec![*fault]),
     }
+}
+
+/// Returns the text of a configuration file.
+fn text(system: &dyn System, file: &Utf8Path) -> Result<String, Box<Diagnostic>> {
+    files::read(system, file, MAX_CONFIGURATION_BYTES).map_err(|reason| {
+        let fault = Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file);
+        Box::new(fault.with("reason", reason))
+    })
 }
 
 /// Parses a configuration. A syntax error yields diagnostics only, since tables may be incomplete.
@@ -279,12 +284,9 @@ impl UserSettings {
         if !files::is_named(file) {
             return (Self::default(), Vec::new());
         }
-        match files::read(system, file, MAX_CONFIGURATION_BYTES) {
+        match text(system, file) {
             Ok(text) => read_table(file, &text, None, Self::read),
-            Err(reason) => {
-                let fault = Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file);
-                (Self::default(), vec![fault.with("reason", reason)])
-            }
+            Err(fault) => (Self::default(), vec![*fault]),
         }
     }
 

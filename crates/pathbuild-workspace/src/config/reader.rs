@@ -89,8 +89,7 @@ impl<'a> TomlReader<'a> {
     pub(super) fn path(&mut self, name: &str, value: &Spanned<DeValue<'_>>) -> Option<Utf8PathBuf> {
         // In double quotes, the \t of C:\temp is a tab.
         if name.contains(char::is_control) {
-            let fault = self.fault(&messages::CONTROL_CHARACTER, value.span());
-            self.report(fault);
+            self.report(self.fault(&messages::CONTROL_CHARACTER, value.span()));
             return None;
         }
         let path: Utf8PathBuf = with_forward_slashes(self.directory.join(name).components().collect());
@@ -124,8 +123,7 @@ impl<'a> TomlReader<'a> {
 
     /// Reports that the table being read lacks a key.
     pub(super) fn missing(&mut self, name: &'static str, span: Range<usize>) {
-        let fault = self.fault(&messages::MISSING_KEY, span).quoting("missing", name);
-        self.report(fault);
+        self.report(self.fault(&messages::MISSING_KEY, span).quoting("missing", name));
     }
 
     /// Returns the line of a span, counted from 1.
@@ -145,8 +143,7 @@ impl<'a> TomlReader<'a> {
         *count += 1;
         let beyond = count.saturating_sub(most);
         if beyond == 1 {
-            let fault = self.fault(&messages::TOO_MANY_PATTERNS, span).with("what", word).with("most", most);
-            self.report(fault);
+            self.report(self.fault(&messages::TOO_MANY_PATTERNS, span).with("what", word).with("most", most));
         }
         beyond == 0
     }
@@ -257,8 +254,7 @@ impl<'a> Table<'_, '_, 'a> {
             // Unless it is there, the key must not be suggested for another one.
             self.known.push(name);
             self.reader.key = format!("{}{name}", self.prefix);
-            let fault = self.reader.fault(&messages::NOT_BUILT, key.span());
-            self.reader.report(fault);
+            self.reader.report(self.reader.fault(&messages::NOT_BUILT, key.span()));
         }
     }
 
@@ -266,12 +262,10 @@ impl<'a> Table<'_, '_, 'a> {
         for key in self.content.keys().filter(|key| !self.known.contains(&&**key.get_ref())) {
             self.reader.key = format!("{}{}", self.prefix, shortened(key.get_ref()));
             let replaced = REPLACED_KEYS.iter().find(|(old, _)| old == key.get_ref());
-            if let Some((_, new)) = replaced.filter(|(_, new)| self.known.contains(new)) {
-                let fault = self.reader.fault(&messages::REPLACED_KEY, key.span()).quoting("new", *new);
-                self.reader.report(fault);
-                continue;
-            }
-            let fault = self.unknown_key(key.get_ref(), key.span());
+            let fault = match replaced.filter(|(_, new)| self.known.contains(new)) {
+                Some((_, new)) => self.reader.fault(&messages::REPLACED_KEY, key.span()).quoting("new", *new),
+                None => self.unknown_key(key.get_ref(), key.span()),
+            };
             self.reader.report(fault);
         }
     }

@@ -45,7 +45,7 @@ pub(in crate::config) const SEVERITY: ValueType<Vec<(Code, Level)>> = ValueType 
         let entries = entries(value, reader)?;
         Some(entries.into_iter().filter_map(|entry| severity(entry, reader)).collect())
     },
-    show: |levels| inline_levels(levels),
+    show: |levels| inline(shown_levels(levels)),
     schema: || json!({ "type": "object", "propertyNames": code_schema(), "additionalProperties": choice_schema::<Level>() }),
 };
 
@@ -61,20 +61,11 @@ pub(in crate::config) const SEVERITY_IN: ValueType<Vec<FileSeverities>> = ValueT
     },
     show: |parts| {
         let shown = parts.iter().filter_map(|part| {
-            let files = (PATTERNS.show)(&part.files).map(|files| ("files", files));
-            let levels = part
-                .levels
-                .iter()
-                .filter_map(|(code, level)| Some((code.to_string(), quoted(name_of(*level)?))));
+            let files = ("files".to_owned(), (PATTERNS.show)(&part.files));
             let Waiver { reason, until, .. } = &part.waiver;
-            let waiver = [
-                ("reason", reason.as_deref().map(quoted)),
-                ("until", until.map(|date| quoted(&date.to_string()))),
-            ];
-            let waiver = waiver.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?)));
-            let files = files.into_iter().map(|(name, files)| (name.to_owned(), files));
-            let all = files.chain(levels).chain(waiver);
-            inline(all.collect::<Vec<_>>().iter().map(|(name, value)| (name.as_str(), Some(value.clone()))))
+            let reason = ("reason".to_owned(), reason.as_deref().map(quoted));
+            let until = ("until".to_owned(), until.map(|date| quoted(&date.to_string())));
+            inline(std::iter::once(files).chain(shown_levels(&part.levels)).chain([reason, until]))
         });
         let shown: Vec<_> = shown.collect();
         (!shown.is_empty()).then(|| format!("[{}]", shown.join(", ")))
@@ -111,8 +102,7 @@ const UNCHECKED: ValueType<bool> = ValueType {
     read: |value, reader| {
         let is_unchecked = (SWITCH.read)(value, reader)?;
         if is_unchecked && reader.is_untrusted() {
-            let fault = reader.fault(&messages::UNCHECKED_BY_STRANGER, value.span());
-            reader.report(fault);
+            reader.report(reader.fault(&messages::UNCHECKED_BY_STRANGER, value.span()));
         }
         Some(is_unchecked)
     },
@@ -387,15 +377,15 @@ fn inline_tool(tool: &Tool) -> Option<String> {
     ])
 }
 
-fn inline_levels(levels: &[(Code, Level)]) -> Option<String> {
-    let names: Vec<_> =
-        levels.iter().map(|(code, level)| (code.to_string(), name_of(*level).map(quoted))).collect();
-    inline(names.iter().map(|(code, level)| (code.as_str(), level.clone())))
+fn shown_levels(levels: &[(Code, Level)]) -> impl Iterator<Item = (String, Option<String>)> {
+    levels.iter().map(|(code, level)| (code.to_string(), name_of(*level).map(quoted)))
 }
 
 /// Formats the entries that have values as an inline table; `None` if there are none.
-fn inline<'a>(entries: impl IntoIterator<Item = (&'a str, Option<String>)>) -> Option<String> {
-    let entries = entries.into_iter().filter_map(|(name, value)| Some(format!("{} = {}", key(name), value?)));
+fn inline(entries: impl IntoIterator<Item = (impl AsRef<str>, Option<String>)>) -> Option<String> {
+    let entry =
+        |(name, value): (_, Option<String>)| Some(format!("{} = {}", key(AsRef::as_ref(&name)), value?));
+    let entries = entries.into_iter().filter_map(entry);
     let entries: Vec<_> = entries.collect();
     (!entries.is_empty()).then(|| format!("{{ {} }}", entries.join(", ")))
 }
