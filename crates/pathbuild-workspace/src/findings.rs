@@ -15,7 +15,7 @@ use pathbuild_diagnostic::{Code, Diagnostic};
 use crate::check::CheckedFile;
 use crate::config::types::{FileSeverities, Level, Pattern, level_in};
 use crate::config::{Settings, clean};
-use crate::waivers::{Coverage, WaivedFinding, Waiver};
+use crate::waivers::{Coverage, WaivedFinding};
 use crate::workspace::Workspace;
 
 /// The diagnostics of a run, with the drawings that were checked.
@@ -65,20 +65,19 @@ impl Workspace {
     /// Applies the configured severities and their waivers to diagnostics, sorts them, and drops duplicates.
     pub fn findings(&self, diagnostics: Vec<Diagnostic>) -> Findings {
         let severities = self.severities();
-        let mut waived: Vec<(Diagnostic, Waiver)> = Vec::new();
+        let mut waived: Vec<WaivedFinding> = Vec::new();
         let judge = |diagnostic: Diagnostic| match severities.apply_severity(diagnostic) {
             Verdict::Reported(diagnostic) => Some(diagnostic),
             Verdict::Ignored => None,
-            Verdict::Waived(diagnostic, waiver) => {
-                waived.push((diagnostic, waiver));
+            Verdict::Waived(finding) => {
+                waived.push(finding);
                 None
             }
         };
         let findings = Findings::new(diagnostics.into_iter().filter_map(judge).collect());
-        waived.sort_by(|(a, _), (b, _)| a.sort_key().cmp(&b.sort_key()));
-        waived.dedup_by(|(later, _), (earlier, _)| is_same(earlier, later));
-        let waived = waived.into_iter().map(|(diagnostic, waiver)| WaivedFinding { diagnostic, waiver });
-        Findings { waived: waived.collect(), ..findings }
+        waived.sort_by(|a, b| a.diagnostic.sort_key().cmp(&b.diagnostic.sort_key()));
+        waived.dedup_by(|later, earlier| is_same(&earlier.diagnostic, &later.diagnostic));
+        Findings { waived, ..findings }
     }
 
     /// Whether the configuration contains waivers.
@@ -143,7 +142,7 @@ pub(crate) enum Verdict {
     /// The diagnostic is dropped.
     Ignored,
     /// The diagnostic is accepted for a stated reason.
-    Waived(Diagnostic, Waiver),
+    Waived(WaivedFinding),
 }
 
 impl Workspace {
@@ -214,7 +213,7 @@ impl Severities<'_> {
             }
             (None, Some(waiver)) => {
                 self.is_date_decisive.fetch_or(waiver.until.is_some(), Ordering::Relaxed);
-                Verdict::Waived(diagnostic, waiver.clone())
+                Verdict::Waived(WaivedFinding { diagnostic, waiver: waiver.clone() })
             }
             (None, None) => Verdict::Ignored,
         }

@@ -125,21 +125,19 @@ impl Waiver {
                 None => diagnostic.note(&messages::WAIVER_WITHOUT_DATE, vec![place, until]),
             };
         }
-        match &self.reason {
-            Some(reason) => {
-                diagnostic.note(&messages::WAIVER_REASON, vec![("reason", Value::quoted(reason))])
-            }
-            None => diagnostic,
-        }
+        self.with_reason(diagnostic)
+    }
+
+    /// Adds a note with the reason of the waiver, if it states one.
+    fn with_reason(&self, diagnostic: Diagnostic) -> Diagnostic {
+        let Some(reason) = &self.reason else { return diagnostic };
+        diagnostic.note(&messages::WAIVER_REASON, vec![("reason", Value::quoted(reason))])
     }
 
     /// Returns PB610, the warning that the waiver, which is in `file`, matches no finding.
     pub fn unused_warning(&self, file: &Utf8Path) -> Diagnostic {
-        let unused = Diagnostic::new(&messages::UNUSED_WAIVER).in_file(file).at_line(self.line, Some(1));
-        match &self.reason {
-            Some(reason) => unused.note(&messages::WAIVER_REASON, vec![("reason", Value::quoted(reason))]),
-            None => unused,
-        }
+        let unused = Diagnostic::new(&messages::UNUSED_WAIVER).in_file(file);
+        self.with_reason(unused.at_line(self.line, Some(1)))
     }
 }
 
