@@ -148,7 +148,8 @@ fn list_paths(
     paths: &[(SourceFile, PathName)],
     post_processor: Option<&PostProcessor>,
 ) -> (Vec<ListedPath>, Vec<Diagnostic>) {
-    let mut listed = session.in_batches_of_programs(paths, list_without_programs);
+    let size = session.programs_per_batch(paths.len());
+    let mut listed = session.in_batches(paths, size, list_without_programs);
     let unmade = compare_programs_on_disk(session, post_processor, paths, &mut listed);
     (listed, unmade)
 }

@@ -210,7 +210,8 @@ impl Tree<'_, '_> {
         let mut problems = selection.problems;
         let root = self.session.normal(self.root);
         let mut unreadable = BTreeMap::new();
-        let paths = self.session.in_batches_of_programs(&files, |session, files| {
+        let size = self.session.programs_per_batch(files.len());
+        let paths = self.session.in_batches(&files, size, |session, files| {
             session.parse_ahead(files);
             let db = session.db();
             for file in files {

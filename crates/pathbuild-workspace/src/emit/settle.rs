@@ -56,8 +56,9 @@ pub(super) fn build_and_settle<'j>(
             }
             delivered
         };
+        let size = session.programs_per_batch(numbered.len());
         let generated =
-            session.in_batches_of_programs(&numbered, |session, jobs| session.map_guarded(jobs, generated));
+            session.in_batches(&numbered, size, |session, jobs| session.map_guarded(jobs, generated));
         drop(sender);
         let written = writer.map(|writer| writer.join().unwrap_or_else(|panic| resume_unwind(panic)));
         (generated, written.unwrap_or_default())

@@ -333,7 +333,10 @@ fn missing_path(diagnostic: &Diagnostic) -> Option<PathName> {
 impl Session<'_> {
     /// Adds suggestions to diagnostics about missing files and paths: another location, or a similar name.
     pub fn with_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
-        let known = LazyCell::new(|| self.collect_known_names());
+        let known = LazyCell::new(|| KnownNames {
+            paths: self.paths_of_library(MAX_READ_FOR_NAMES),
+            entries: self.entries(Utf8Path::new(""), is_drawing),
+        });
         let with_near = |mut diagnostic: Diagnostic| {
             let is_dangling = |file: &Utf8PathBuf| crate::files::is_named(file);
             if *diagnostic.message == files::MISSING && diagnostic.file.as_ref().is_some_and(is_dangling) {
@@ -371,13 +374,6 @@ impl Session<'_> {
         let paths = known.paths.iter().map(|(name, _)| name.as_str());
         let others = paths.chain(known.entries.iter().map(String::as_str)).filter(|other| *other != name);
         nearest(name, others).map(|near| (&outputs::NEAR_PATH, near.to_owned()))
-    }
-
-    fn collect_known_names(&self) -> KnownNames {
-        KnownNames {
-            paths: self.paths_of_library(MAX_READ_FOR_NAMES),
-            entries: self.entries(Utf8Path::new(""), is_drawing),
-        }
     }
 
     /// Returns the existing drawing or directory with the most similar name, if the first missing component of the path is misspelled.

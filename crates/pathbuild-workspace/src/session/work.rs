@@ -101,17 +101,12 @@ impl Session<'_> {
         results
     }
 
-    /// Like [`in_batches`](Self::in_batches), for building programs: only a few per thread at a time, since each may have hundreds of
-    /// thousands of steps.
-    pub fn in_batches_of_programs<T, R>(
-        &mut self,
-        all: &[T],
-        work: impl FnMut(&Self, &[T]) -> Vec<R>,
-    ) -> Vec<R> {
+    /// Returns the size of a batch for building `count` programs: only a few per thread at a time, since each may have hundreds of thousands of
+    /// steps.
+    pub fn programs_per_batch(&self, count: usize) -> usize {
         const PROGRAMS: usize = 6;
         // For a few programs, starting threads costs more than it saves.
-        let threads = if all.len() > PROGRAMS { self.threads() } else { 1 };
-        self.in_batches(all, PROGRAMS * threads, work)
+        PROGRAMS * if count > PROGRAMS { self.threads() } else { 1 }
     }
 
     /// Checks targets, and returns the results in the order of the targets.
