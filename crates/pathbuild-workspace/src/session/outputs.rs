@@ -82,7 +82,7 @@ impl OutputKind {
     }
 
     /// Returns the ending of the file name, which follows the name of the drawing or path and the value of R.
-    pub fn suffix(self) -> &'static str {
+    pub const fn suffix(self) -> &'static str {
         match self {
             Self::Milling => "_Milling.gcode",
             Self::Clean => "_Clean.gcode",

@@ -20,7 +20,7 @@ use pathbuild_workspace::config::{positive, regex};
 use pathbuild_workspace::emit::{DrawingComparison, compare_with_drawing};
 use pathbuild_workspace::files::write_error;
 use pathbuild_workspace::findings::Findings;
-use pathbuild_workspace::session::Session;
+use pathbuild_workspace::session::{OutputKind, Session};
 
 /// Runs the command. If there are several programs, an error in one does not prevent writing the others.
 pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
@@ -76,8 +76,8 @@ struct Job {
     milling: Utf8PathBuf,
 }
 
-pub(super) const CLEAN_SUFFIX: &str = "_Clean.gcode";
-pub(super) const VALUES_SUFFIX: &str = "_Z.txt";
+const CLEAN_SUFFIX: &str = OutputKind::Clean.suffix();
+const VALUES_SUFFIX: &str = OutputKind::Values.suffix();
 
 impl Job {
     /// Returns the programs that an argument refers to. The argument names a file of a program, or a drawing. The programs of a drawing are
@@ -121,17 +121,16 @@ impl Job {
         let name = argument.file_name().unwrap_or_default();
         let beside = argument.parent().unwrap_or(Utf8Path::new(""));
         let written = out_dir.unwrap_or(beside);
-        let (stem, from) =
-            match [CLEAN_SUFFIX, VALUES_SUFFIX].iter().find_map(|suffix| without_suffix(name, suffix)) {
-                Some(stem) => (stem, beside),
-                None => (without_suffix(name, ".dxf").unwrap_or(name), written),
-            };
+        let (stem, from) = match stem_of_program(name) {
+            Some(stem) => (stem, beside),
+            None => (without_suffix(name, ".dxf").unwrap_or(name), written),
+        };
         let is_drawing = without_suffix(name, ".dxf").is_some();
         Self {
             drawing: is_drawing.then(|| argument.to_owned()),
             clean: join(from, format!("{stem}{CLEAN_SUFFIX}")),
             values: join(from, format!("{stem}{VALUES_SUFFIX}")),
-            milling: join(written, format!("{stem}_Milling.gcode")),
+            milling: join(written, format!("{stem}{}", OutputKind::Milling.suffix())),
         }
     }
 }
@@ -139,9 +138,14 @@ impl Job {
 /// Returns the file name of the drawing that an argument names, with or without extension; `None` if the argument is a file of a program.
 fn drawing_of(argument: &Utf8Path) -> Option<String> {
     let name = argument.file_name()?;
-    let is_file = [CLEAN_SUFFIX, VALUES_SUFFIX].iter().any(|suffix| without_suffix(name, suffix).is_some());
     let stem = without_suffix(name, ".dxf").unwrap_or(name);
-    (!is_file).then(|| format!("{stem}.dxf"))
+    stem_of_program(name).is_none().then(|| format!("{stem}.dxf"))
+}
+
+/// Returns the part of a file name that the files of a program have in common; `None` if the name is neither that of a program nor that of its
+/// measured values.
+pub(super) fn stem_of_program(name: &str) -> Option<&str> {
+    [CLEAN_SUFFIX, VALUES_SUFFIX].iter().find_map(|suffix| without_suffix(name, suffix))
 }
 
 /// Whether the header of a program names this drawing.
@@ -151,7 +155,7 @@ fn is_of(context: &Context, program: &Utf8Path, drawing: &str) -> bool {
 }
 
 /// Strips a suffix from a name, ignoring case.
-pub(super) fn without_suffix<'n>(name: &'n str, suffix: &str) -> Option<&'n str> {
+fn without_suffix<'n>(name: &'n str, suffix: &str) -> Option<&'n str> {
     let (stem, end) = name.split_at_checked(name.len().checked_sub(suffix.len())?)?;
     end.eq_ignore_ascii_case(suffix).then_some(stem)
 }
@@ -216,23 +220,23 @@ impl<'a> Adjustment<'a> {
         if is_other && let Some(problem) = self.other_mode_problem(job, clean) {
             return Err(vec![problem]);
         }
+        let outdated = |message, drawing: &Utf8Path| {
+            Diagnostic::new(message)
+                .quoting("name", job.clean.file_name().unwrap_or_default())
+                .quoting("drawing", drawing.as_str())
+                .in_file(&job.clean)
+        };
         match comparison {
             DrawingComparison::Same => return Ok(true),
             DrawingComparison::Unknown => {}
             DrawingComparison::Wrong(problems) => return Err(problems),
             DrawingComparison::Other { drawing } => {
-                let problem = Diagnostic::new(&probes::OLD_PROGRAM)
-                    .quoting("name", job.clean.file_name().unwrap_or_default())
-                    .quoting("drawing", drawing.as_str());
-                return Err(vec![problem.in_file(&job.clean)]);
+                return Err(vec![outdated(&probes::OLD_PROGRAM, &drawing)]);
             }
             DrawingComparison::Edited { drawing, other } => {
-                let problem = Diagnostic::new(&probes::EDITED_PROGRAM)
-                    .quoting("name", job.clean.file_name().unwrap_or_default())
-                    .quoting("drawing", drawing.as_str());
-                let mut problem = problem.at_line(other.line, None);
+                let mut problem = outdated(&probes::EDITED_PROGRAM, &drawing).at_line(other.line, None);
                 quote([&mut problem], clean);
-                return Err(vec![problem.in_file(&job.clean)]);
+                return Err(vec![problem]);
             }
             DrawingComparison::NoDrawing { drawing } => {
                 let is_missing = context.choose("was not found", "wurde nicht gefunden");

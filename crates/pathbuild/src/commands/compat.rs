@@ -212,11 +212,7 @@ impl CompatArguments {
 
     /// Whether the command line adjusts programs, judging by its options and file names.
     fn adjusts(&self) -> bool {
-        let is_adjusted = |file: &String| {
-            [adjust::CLEAN_SUFFIX, adjust::VALUES_SUFFIX]
-                .iter()
-                .any(|suffix| adjust::without_suffix(file, suffix).is_some())
-        };
+        let is_adjusted = |file: &String| adjust::stem_of_program(file).is_some();
         self.max_correction.is_some() || self.files.iter().any(is_adjusted)
     }
 
