@@ -74,29 +74,21 @@ fn report(context: &Context, removed: Result<usize, RemoveError>) -> ExitStatus 
 fn verify(context: &Context, entries: &[Entry]) -> ExitStatus {
     let mut is_whole = true;
     for Entry { path, size, fault } in entries {
-        let state = match fault {
-            None => context.choose("intact", "unversehrt"),
+        let (key, en, de) = match fault {
+            None => ("whole", "intact", "unversehrt"),
             Some(CacheFault::Foreign) => {
-                context.choose("written by another build", "von einer anderen Programmfassung")
+                ("foreign", "written by another build", "von einer anderen Programmfassung")
             }
-            Some(CacheFault::Damaged) => {
-                is_whole = false;
-                context.choose("damaged", "beschädigt")
-            }
+            Some(CacheFault::Damaged) => ("damaged", "damaged", "beschädigt"),
         };
+        is_whole &= !matches!(fault, Some(CacheFault::Damaged));
         let name = path.file_name().unwrap_or_default();
         if context.format == Format::Json {
-            let state = match fault {
-                None => "whole",
-                Some(CacheFault::Foreign) => "foreign",
-                Some(CacheFault::Damaged) => "damaged",
-            };
-            context.row("cache_file", json!({ "name": name, "state": state, "bytes": size }));
+            context.row("cache_file", json!({ "name": name, "state": key, "bytes": size }));
             continue;
         }
-        context
-            .printer
-            .result_line(format_args!("{name}: {state}, {size} {}", context.choose("bytes", "Bytes")));
+        let (state, bytes) = (context.choose(en, de), context.choose("bytes", "Bytes"));
+        context.printer.result_line(format_args!("{name}: {state}, {size} {bytes}"));
     }
     if is_whole { ExitStatus::Success } else { ExitStatus::Errors }
 }

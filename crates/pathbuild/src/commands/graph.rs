@@ -72,7 +72,11 @@ fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph, &GraphTexts) ->
 
 /// Formats a path with the values of its variables as in the text of a subpath: `2051.1P :A0,5 :BX`.
 fn path(node: &Node) -> String {
-    with_values(node.name.as_str(), &node.bindings)
+    let mut label = shown::line(node.name.as_str()).into_owned();
+    for (variable, value) in node.bindings.iter() {
+        _ = write!(label, " :{variable}{}", shown::line(value));
+    }
+    label
 }
 
 /// Returns the file name of the drawing that contains a path, escaped for the terminal.
@@ -91,16 +95,6 @@ fn end(graph: &Graph, end: &EmbeddingEnd) -> String {
 /// Formats a missing target with the reason: `9999.1P (PB503 path-not-found)`.
 fn missing_target(name: Option<&PathName>, code: Code) -> String {
     format!("{} ({code} {})", shown::line(name.map_or("?", PathName::as_str)), code.name())
-}
-
-fn with_values(name: &str, bindings: &Bindings) -> String {
-    let mut label = shown::line(name).into_owned();
-    for (variable, value) in bindings.iter() {
-        label.push_str(" :");
-        label.push(variable);
-        label.push_str(&shown::line(value));
-    }
-    label
 }
 
 /// Formats a tree for each root.

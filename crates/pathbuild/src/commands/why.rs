@@ -50,24 +50,16 @@ struct DrawingState<'a> {
 
 impl DrawingState<'_> {
     fn text(&self, context: &Context) -> String {
-        let (lines, state) = match self.reasons.as_deref() {
-            None => (
-                &[][..],
-                context.choose(
-                    "would be compiled: there is no cached result from this build of pathbuild with these settings",
-                    "würde übersetzt: es gibt kein gespeichertes Ergebnis dieser Programmfassung mit diesen Einstellungen",
-                ),
+        let state = match self.reasons.as_deref() {
+            None => context.choose(
+                "would be compiled: there is no cached result from this build of pathbuild with these settings",
+                "würde übersetzt: es gibt kein gespeichertes Ergebnis dieser Programmfassung mit diesen Einstellungen",
             ),
-            Some([]) => (
-                &[][..],
-                context.choose(
-                    "up to date",
-                    "aktuell",
-                ),
-            ),
-            Some(reasons) => (reasons, context.choose("would be compiled again", "würde neu übersetzt")),
+            Some([]) => context.choose("up to date", "aktuell"),
+            Some(_) => context.choose("would be compiled again", "würde neu übersetzt"),
         };
-        let lines = lines.iter().map(|reason| format!("  {}\n", shown::line(&describe(context, reason))));
+        let reasons = self.reasons.iter().flatten();
+        let lines = reasons.map(|reason| format!("  {}\n", shown::line(&describe(context, reason))));
         format!("{}: {state}\n", shown::line(self.drawing.as_str())) + &lines.collect::<String>()
     }
 

@@ -34,11 +34,7 @@ fn annotation(diagnostic: &Diagnostic, view: &View) -> String {
     }
     properties
         .push(format!("title={}", property(&format!("{} {}", diagnostic.code(), diagnostic.code().name()))));
-    let element = view::element(diagnostic, view);
-    let text =
-        [Some(diagnostic.text(view.lang)), view.help(diagnostic), (!element.is_empty()).then_some(element)];
-    let text = text.into_iter().flatten().collect::<Vec<_>>().join("\n");
-    format!("::{command} {}::{}\n", properties.join(","), data(&text))
+    format!("::{command} {}::{}\n", properties.join(","), data(&view::message(diagnostic, view)))
 }
 
 /// Escapes the text after the second `::`.

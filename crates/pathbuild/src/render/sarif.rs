@@ -103,7 +103,7 @@ fn result(shown: &ShownFinding<'_>, rules: &[Code], view: &View) -> Json {
         "ruleId": diagnostic.code().to_string(),
         "ruleIndex": rules.binary_search(&diagnostic.code()).unwrap_or_default(),
         "level": diagnostic.severity.name(),
-        "message": { "text": message(diagnostic, view) },
+        "message": { "text": view::message(diagnostic, view) },
         "locations": location(diagnostic, view).map_or_else(Vec::new, |location| vec![location]),
         "relatedLocations": diagnostic.trace.iter().map(|step| json!({
             "message": { "text": view::embedding(step, view) },
@@ -127,14 +127,6 @@ fn result(shown: &ShownFinding<'_>, rules: &[Code], view: &View) -> Json {
         }]);
     }
     result
-}
-
-/// Returns the message with the help and the place, which SARIF viewers would not show otherwise.
-fn message(diagnostic: &Diagnostic, view: &View) -> String {
-    let element = view::element(diagnostic, view);
-    let parts =
-        [Some(diagnostic.text(view.lang)), view.help(diagnostic), (!element.is_empty()).then_some(element)];
-    parts.into_iter().flatten().collect::<Vec<_>>().join("\n")
 }
 
 fn location(diagnostic: &Diagnostic, view: &View) -> Option<Json> {

@@ -100,6 +100,13 @@ pub(super) fn element(diagnostic: &Diagnostic, view: &View) -> String {
     parts.join(", ")
 }
 
+/// Returns the message with the help and the element, for viewers that would show neither otherwise.
+pub(super) fn message(diagnostic: &Diagnostic, view: &View) -> String {
+    let element = Some(element(diagnostic, view)).filter(|element| !element.is_empty());
+    let parts = [Some(diagnostic.text(view.lang)), view.help(diagnostic), element];
+    parts.into_iter().flatten().collect::<Vec<_>>().join("\n")
+}
+
 /// Formats an embedding: `embedded by 8001.1P at (10, 20), projects/8001.dxf`.
 pub(super) fn embedding(step: &TraceStep, view: &View) -> String {
     let (by, at) = (view.choose("embedded by", "eingebettet von"), view.choose("at", "bei"));
