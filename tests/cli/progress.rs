@@ -32,7 +32,7 @@ impl Screen {
 #[test]
 fn work_of_less_than_half_a_second_shows_nothing() {
     let screen = Screen::default();
-    let progress = Progress::new(2, Some(Box::new(screen.clone())));
+    let progress = Progress::new(2, Box::new(screen.clone()));
     progress.advance();
     drop(progress);
     assert_eq!(screen.text(), "");
@@ -41,7 +41,7 @@ fn work_of_less_than_half_a_second_shows_nothing() {
 #[test]
 fn longer_work_shows_how_far_it_is_and_clears_the_line() {
     let screen = Screen::default();
-    let progress = Progress::new(3, Some(Box::new(screen.clone())));
+    let progress = Progress::new(3, Box::new(screen.clone()));
     progress.advance();
     sleep(Duration::from_millis(1500));
     progress.advance();
@@ -64,7 +64,7 @@ fn a_stream_that_is_closed_ends_the_bar_and_nothing_else() {
             Ok(())
         }
     }
-    let progress = Progress::new(0, Some(Box::new(Closed)));
+    let progress = Progress::new(0, Box::new(Closed));
     sleep(Duration::from_millis(700));
     progress.advance();
 }

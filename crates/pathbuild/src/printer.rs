@@ -157,11 +157,7 @@ impl Printer {
 
     /// Prints a result to stdout, byte for byte.
     pub fn result_bytes(&self, bytes: &[u8]) {
-        let failed = &mut self.failures().stdout;
-        if failed.is_none() {
-            let mut stdout = io::stdout().lock();
-            *failed = stdout.write_all(bytes).and_then(|()| stdout.flush()).err();
-        }
+        write_unless(&mut self.failures().stdout, io::stdout().lock(), bytes);
     }
 
     /// Prints rendered diagnostics. On stderr, they are suppressed with `-qq`.
@@ -227,8 +223,8 @@ impl Printer {
     fn write(&self, stream: Stream, text: &str) {
         let mut failures = self.failures();
         match stream {
-            Stream::Stdout => write_unless(&mut failures.stdout, io::stdout().lock(), text),
-            Stream::Stderr => write_unless(&mut failures.stderr, io::stderr().lock(), text),
+            Stream::Stdout => write_unless(&mut failures.stdout, io::stdout().lock(), text.as_bytes()),
+            Stream::Stderr => write_unless(&mut failures.stderr, io::stderr().lock(), text.as_bytes()),
         }
     }
 }
@@ -247,14 +243,14 @@ impl Reporter for Printer {
         if self.verbosity < Verbosity::Normal || !Stream::Stderr.is_terminal() {
             return Box::new(SilentReporter);
         }
-        Box::new(Progress::new(total, Some(Box::new(io::stderr()))))
+        Box::new(Progress::new(total, Box::new(io::stderr())))
     }
 }
 
-fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, text: &str) {
+fn write_unless(failed: &mut Option<io::Error>, mut stream: impl Write, bytes: &[u8]) {
     if failed.is_none() {
-        // Write the text in one piece, because stderr is unbuffered, and lines of concurrent processes must not mix.
-        *failed = stream.write_all(text.as_bytes()).and_then(|()| stream.flush()).err();
+        // Write the bytes in one piece, because stderr is unbuffered, and lines of concurrent processes must not mix.
+        *failed = stream.write_all(bytes).and_then(|()| stream.flush()).err();
     }
 }
 
@@ -280,24 +276,19 @@ struct Counters {
 }
 
 impl Progress {
-    /// Creates a progress bar that counts up to `total` and draws on `stream`, if there is one.
-    pub fn new(total: usize, stream: Option<Box<dyn Write + Send>>) -> Self {
+    /// Creates a progress bar that counts up to `total` and draws on `stream`.
+    pub fn new(total: usize, stream: Box<dyn Write + Send>) -> Self {
         let over = Condvar::new();
         let counters =
             Arc::new(Counters { done: AtomicUsize::new(0), total, is_over: Mutex::new(false), over });
-        let drawing = stream.map(|stream| {
-            let counters = Arc::clone(&counters);
-            thread::spawn(move || counters.draw(stream))
-        });
-        Self { counters, drawing }
+        let drawn = Arc::clone(&counters);
+        Self { counters, drawing: Some(thread::spawn(move || drawn.draw(stream))) }
     }
 }
 
 impl ProgressCounter for Progress {
     fn advance(&self) {
-        if self.drawing.is_some() {
-            self.counters.done.fetch_add(1, Ordering::Relaxed);
-        }
+        self.counters.done.fetch_add(1, Ordering::Relaxed);
     }
 }
 
