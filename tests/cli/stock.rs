@@ -191,11 +191,13 @@ impl ExactStock {
         let top = cuts().next()?.top;
         let low = cuts().map(|cut| cut.from[2].min(cut.to[2])).reduce(f64::min)?;
         let mut blank = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        for cut in cuts() {
-            let [least, most] = cut.extent;
+        let is_low = |movement: &&StockMove| movement.from[2].min(movement.to[2]) < top.min(movement.top);
+        let low_rapids = moves.iter().filter(|movement| movement.is_rapid).filter(is_low);
+        for movement in cuts().chain(low_rapids) {
+            let [least, most] = movement.extent;
             for axis in [0, 1] {
-                blank[0][axis] = blank[0][axis].min(least[axis] - 2.0 * cut.radius);
-                blank[1][axis] = blank[1][axis].max(most[axis] + 2.0 * cut.radius);
+                blank[0][axis] = blank[0][axis].min(least[axis] - 2.0 * movement.radius);
+                blank[1][axis] = blank[1][axis].max(most[axis] + 2.0 * movement.radius);
             }
         }
         let has_one_top = cuts().all(|cut| cut.top == top);
@@ -573,4 +575,38 @@ fn an_arc_in_an_upright_plane_is_as_deep_as_it_dips() {
         pieces < 8 && colors < 8,
         "the arc leaves the material at once, and only its ends cut: {pieces} {colors}"
     );
+}
+
+/// Returns whether the picture has an edge between each pass and the one before, for parallel passes of a cutter of 3 mm, 1 mm apart, each of which is
+/// deeper than the one before by one of the steps.
+fn edges_between_passes(steps: &[f64]) -> Vec<bool> {
+    let mut program = String::from("G21 G90 G17 G94\nS9000 M3\nG0 Z5\n");
+    let mut z = 0.0;
+    for (y, step) in steps.iter().enumerate() {
+        z -= step;
+        _ = writeln!(program, "G0 X0 Y{y}\nG1 Z{z:.3} F100\nG1 X20\nG0 Z5");
+    }
+    let place = Place::new().file("a.nc", program + "M5\nM30\n");
+    let run = place.run("view a.nc --stock --cutter 3 --surface 0 -o a.svg");
+    assert_eq!(run.status, Some(0), "{run}");
+    let last = (steps.len() - 1) as f64;
+    let still = Still::of(&place.read("a.svg"), [[-3.0, -3.0], [23.0, last + 3.0]]);
+    let edge = |pass: usize| [10.0, pass as f64 - 1.5 - 0.5 * EDGE_WIDTH / still.scale];
+    (1..steps.len()).map(|pass| still.color(edge(pass)) == Some(EDGE)).collect()
+}
+
+/// Where the passes of a relief follow a surface, their edges would cover it.
+#[test]
+fn only_steps_have_an_edge() {
+    let all =
+        |steps: &[f64], is_edge| assert_eq!(edges_between_passes(steps), vec![is_edge; steps.len() - 1]);
+    all(&[1.0, 0.0, 0.0, 0.0], false);
+    all(&[1.0, 0.02, 0.02], false);
+    all(&[1.0, 0.021, 0.021], true);
+    all(&[0.1; 16], true);
+    all(&[0.1; 17], false);
+    let mut steps = [0.1; 17];
+    steps[9] = 0.5;
+    let edges = edges_between_passes(&steps);
+    assert!((1..17).all(|pass| edges[pass - 1] == (pass == 9)), "{edges:?}");
 }

@@ -697,11 +697,66 @@ fn rapid_moves_through_material_are_red() {
         assert_eq!(run.status, Some(i32::from(is_through)), "{run}");
         assert_eq!(place.read(&format!("{file}.svg")).contains(RAPID_THROUGH_MATERIAL), is_through, "{file}");
     }
+    // Far from all cuts there is material as well.
+    let program = |z: &str| {
+        format!(
+            "G21 G90 G17 G94\nS9000 M3\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 Z5\nG0 X40 Y30\nG0 Z{z}\nG0 X50\nG0 Z5\nM5\nM30\n"
+        )
+    };
+    let place = Place::new().file("deep.nc", program("-0.01")).file("high.nc", program("0"));
+    for (file, is_through) in [("deep", true), ("high", false)] {
+        place.run(&format!("view {file}.nc --stock --cutter 2 --surface 0 -o {file}.svg"));
+        assert_eq!(place.read(&format!("{file}.svg")).contains(RAPID_THROUGH_MATERIAL), is_through, "{file}");
+    }
     // A rapid move back along a cut does not hit material.
     let along = "G21 G90 G17 G94\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 X0\nG0 Z5\nM30\n";
     let place = Place::new().file("a.nc", along);
     place.run("view a.nc --stock --cutter 2 --surface 0 -o a.svg");
     assert!(!place.read("a.svg").contains(RAPID_THROUGH_MATERIAL));
+}
+
+/// Returns the widths of the strokes of cuts in a picture of the stock in px, from wide to narrow.
+fn widths_of_cuts(picture: &str) -> Vec<f64> {
+    let cuts = picture.split_once("clip-path=\"url(#stock)\"").unwrap().1.split_once("</g>").unwrap().0;
+    let lines = cuts.lines().filter(|line| line.contains("stroke=\"#") && !line.contains("#4a3012"));
+    let width = |line: &str| line.split_once("stroke-width=\"")?.1.split_once('"')?.0.parse().ok();
+    let mut widths: Vec<f64> = lines.filter_map(width).collect();
+    widths.sort_by(|one, other| other.total_cmp(one));
+    widths.dedup();
+    widths
+}
+
+/// A ball and a bull nose leave a round bottom. The bottom that a cutter of unknown shape leaves is unknown, which the legend says.
+#[test]
+fn the_stock_shows_the_section_of_the_configured_cutter() {
+    let drawn = |bottom: &str| {
+        let text =
+            format!("layer 1234.1P\nstart 0,0 \"T5 O3 I9 B{bottom} S9 F100\"\nmill 0,0 40,0\nend 40,0");
+        sheet(&text).unwrap().to_dxf()
+    };
+    let widths = |tool: &str, bottom: &str, view: &str| {
+        let configuration = format!("rapid = 900\n[tool.a]\ndiameter = 3\n{tool}\n");
+        let place = Place::new().file("pathbuild.toml", configuration).file("1234.1P.dxf", drawn(bottom));
+        place.run("emit 1234.1P");
+        let run = place.run(&format!("view {view} --stock -o a.svg"));
+        assert_eq!(run.status, Some(0), "{run}");
+        let picture = place.read("a.svg");
+        (widths_of_cuts(&picture), picture.contains("cutter of unknown shape, drawn with a flat bottom"))
+    };
+    for view in ["1234.1P", "1234.1P_Milling.gcode"] {
+        let (flat, is_unknown) = widths("", "2", view);
+        assert!(flat.len() == 1 && !is_unknown, "{view}: {flat:?}");
+        let scale = flat[0] / 3.0;
+        let is_near = |width: f64, expected: f64| (width / scale - expected).abs() < 0.01;
+        // As wide as the cutter where the cut is deeper than the radius, and narrower where it is not.
+        for (bottom, expected) in [("2", 3.0), ("4.5", 2.0 * libm::sqrt(1.5 * 1.5 - 1.0))] {
+            let (round, is_unknown) = widths("corner-radius = 1.5", bottom, view);
+            assert!(round.len() >= 30 && is_near(round[0], expected) && !is_unknown, "{view}: {round:?}");
+        }
+        let (bull, _) = widths("corner-radius = 0.5", "2", view);
+        assert!(is_near(bull[0], 3.0) && is_near(bull[bull.len() - 1], 2.0), "{view}: {bull:?}");
+        assert_eq!(widths("shape = \"other\"", "2", view), (flat, true), "{view}");
+    }
 }
 
 #[test]

@@ -315,7 +315,8 @@ impl StatedCutter {
     /// removing material and for collisions, so that the tool always fits into its own cut.
     pub fn widths(&self) -> Cutter {
         let flat = self.flat.unwrap_or(0.0);
-        Cutter { diameter: self.diameter, removed: flat, colliding: flat }
+        let corner_radius = self.flat.map(|flat| (self.diameter - flat) / 2.0);
+        Cutter { diameter: self.diameter, removed: flat, colliding: flat, corner_radius }
     }
 
     fn is_same(&self, other: &Self) -> bool {

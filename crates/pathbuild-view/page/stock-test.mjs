@@ -198,6 +198,45 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
 }
 
 {
+  // Ball and bull nose leave a round bottom, also along slopes; of an unknown shape there is a flat bottom, and the legend says so.
+  const exactHeight = ([from, to], round, radius, [x, y]) => {
+    let height = Infinity;
+    for (let step = 0; step <= 20_000; step++) {
+      const at = [0, 1, 2].map((axis) => from[axis] + ((to[axis] - from[axis]) * step) / 20_000);
+      const outside = Math.hypot(x - at[0], y - at[1]) - (radius - round);
+      if (outside <= round) height = Math.min(height, at[2] + round - Math.sqrt(round * round - Math.max(outside, 0) ** 2));
+    }
+    return height;
+  };
+  let worst = 0;
+  for (const round of [1.5, 0.5]) {
+    for (const ends of [[[0, 0, 1], [20, 0, 1]], [[0, 0, 1], [20, 0, 3]], [[2, 10, 4], [8, 0, 1]], [[0, 0, 4], [2, 0, 1]]]) {
+      const scene = plain(3, 5, [move("mill", ...ends)]);
+      scene.paths[0].tip = { round };
+      const stock = stockOf(scene);
+      stock.seek(1);
+      const { columns, rows, texel, cutting } = stock.map;
+      for (let turn = 0; turn < 200; turn++) {
+        const at = [Math.floor(random() * columns), Math.floor(random() * rows)].map((index, axis) => cutting.box[axis] + (index + 0.5) * texel);
+        const expected = Math.min(5, exactHeight(ends, round, 1.5, at));
+        const differs = Math.abs(stock.map.at(...at) - expected);
+        // On the rim, walls are vertical.
+        const isRim = expected > 5 - 1e-9 || Math.abs(Math.min(...[-0.01, 0.01].flatMap((d) => [exactHeight(ends, round, 1.5, [at[0] + d, at[1]]), exactHeight(ends, round, 1.5, [at[0], at[1] + d])])) - expected) > 0.05;
+        if (!isRim) worst = Math.max(worst, differs);
+      }
+    }
+  }
+  assert.ok(worst <= 0.01, `round bottoms differ by ${worst}`);
+  const cut = plain(3, 5, [move("mill", [0, 0, 1], [20, 0, 1])]);
+  assert.equal(stockOf(cut).map.cutting.hasUnknownTip, false);
+  cut.paths[0].tip = "unknown";
+  const stock = stockOf(cut);
+  stock.seek(1);
+  assert.deepEqual([stock.map.cutting.hasUnknownTip, stock.map.at(10, 1.4)], [true, 1]);
+  console.log(`round bottoms: worst ${worst.toFixed(5)} mm`);
+}
+
+{
   // A cut goes through at the plate or below: not if Z0 is the upper face, and for a raised component where that lies.
   const cut = (z) => [move("plunge", [0, 0, 9], [0, 0, z]), move("mill", [0, 0, z], [20, 0, z])];
   const isThrough = (scene) => {

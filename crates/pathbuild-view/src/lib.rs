@@ -26,7 +26,7 @@ pub use raster::{pdf, png, sheet_pdf};
 pub use scene::{
     ArcShape, Bar, BilingualText, Element, ElementKind, EmbeddedPath, Example, Finding, FinishedPart,
     KeepOut, Label, LeftMaterial, MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark,
-    ProgramRecord, SCHEMA, Scene, SceneMove, ScenePath, Shape, ShownCheck, ToolSpan, Totals, VERSION,
+    ProgramRecord, SCHEMA, Scene, SceneMove, ScenePath, Shape, ShownCheck, Tip, ToolSpan, Totals, VERSION,
 };
 #[cfg(not(feature = "pictures"))]
 pub use svg::sheet_pdf;

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use pathbuild_diagnostic::shown;
+use pathbuild_gcode::verify::Cutter;
 use pathbuild_motion as motion;
 use pathbuild_motion::{Axes, MoveShape, Pace};
 use serde::ser::SerializeSeq;
@@ -94,6 +95,9 @@ pub struct ScenePath {
     pub zero: Point,
     /// Cutter diameter O in mm.
     pub tool: Option<f64>,
+    /// Shape of the tip of that cutter.
+    #[serde(skip_serializing_if = "Tip::is_flat")]
+    pub tip: Tip,
     /// Cutters of a program that uses several, each with the line at which it is inserted; otherwise empty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tools: Vec<ToolSpan>,
@@ -145,9 +149,42 @@ pub struct ToolSpan {
     pub line: u32,
     /// Diameter of the cutter in mm.
     pub diameter: f64,
+    /// Shape of the cutter's tip.
+    #[serde(skip_serializing_if = "Tip::is_flat")]
+    pub tip: Tip,
     /// Z in mm of the upper face of the material under this cutter; `None` if that of the path applies.
     #[serde(skip)]
     pub surface: Option<f64>,
+}
+
+/// The shape of a cutter's tip.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tip {
+    /// The cutter is flat over its whole diameter.
+    #[default]
+    Flat,
+    /// A ball or bull nose: the corners are rounded with this radius in mm.
+    Round(#[serde(serialize_with = "millimetres")] f64),
+    /// The shape is unknown, as that of a V-bit or a drill.
+    Unknown,
+}
+
+impl Tip {
+    /// Whether the cutter is flat over its whole diameter.
+    pub fn is_flat(&self) -> bool {
+        *self == Self::Flat
+    }
+}
+
+impl From<Cutter> for Tip {
+    fn from(cutter: Cutter) -> Self {
+        match cutter.corner_radius {
+            None => Self::Unknown,
+            Some(radius) if radius > 0.0 => Self::Round(radius),
+            Some(_) => Self::Flat,
+        }
+    }
 }
 
 /// The native text of a program.

@@ -16,6 +16,7 @@ use pathbuild_post::{
     BUILT_IN, Job, Operation, Output, PostDefinition, PostFiles, PostOptions, Tool, ToolEntry, ToolTable,
     TranslatedText, samples,
 };
+use pathbuild_view::Tip;
 use regex::Regex;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -421,6 +422,12 @@ fn range_ends(extent: Option<NumberRange>) -> (f64, f64) {
 /// Returns the tools of `[tool.NAME]`. Their patterns compile, because the configuration has no errors.
 pub fn tool_table(settings: &Settings) -> ToolTable {
     ToolTable { entries: settings.tables.tools.value.iter().map(entry).collect() }
+}
+
+/// Returns the shape of the tip of the configured tool for a path; flat if there is none.
+pub fn tip(settings: &Settings, path: &str, diameter: f64) -> Tip {
+    let tool = tool_table(settings).position(path, diameter);
+    tool.map(|tool| settings.tables.tools.value[tool].cutter().into()).unwrap_or_default()
 }
 
 fn entry(tool: &types::Tool) -> ToolEntry {

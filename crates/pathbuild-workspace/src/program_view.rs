@@ -132,7 +132,12 @@ fn file_name(file: &Utf8Path) -> &str {
 }
 
 fn tool_span(span: &StockSpan) -> ToolSpan {
-    ToolSpan { line: span.line, diameter: span.cutter.diameter, surface: Some(span.surface) }
+    ToolSpan {
+        line: span.line,
+        diameter: span.cutter.diameter,
+        tip: span.cutter.into(),
+        surface: Some(span.surface),
+    }
 }
 
 impl Assumptions {
@@ -166,7 +171,8 @@ fn stated_cutters_and_surface(
     }
     let header = header.finish(program.inch_word());
     let span = |tool: &pathbuild_gcode::header::CuttingTool| {
-        Some(ToolSpan { line: tool.line, diameter: tool.cutter?.diameter, surface: None })
+        let cutter = tool.cutter?.widths();
+        Some(ToolSpan { line: tool.line, diameter: cutter.diameter, tip: cutter.into(), surface: None })
     };
     let checked = rapids.filter(|values| values.is_level).map(|values| values.surface);
     let surface = checked.or(given_surface).or(header.surface);
@@ -184,7 +190,10 @@ fn set_cutters(path: &mut ScenePath, cutter: Option<f64>, stated: &[ToolSpan], r
     diameters.dedup();
     match *diameters {
         [] => {}
-        [diameter] => path.tool = Some(diameter),
+        [diameter] => {
+            path.tool = Some(diameter);
+            path.tip = stated.first().filter(|_| cutter.is_none()).map(|tool| tool.tip).unwrap_or_default();
+        }
         _ => path.tools = stated.to_vec(),
     }
 }

@@ -451,12 +451,14 @@ pub struct Cutter {
     pub removed: f64,
     /// Width that collides with material at the height of the tip. 0 stands for the centre line only.
     pub colliding: f64,
+    /// Radius of the corners, which is 0 for a flat tip; `None` if the shape is unknown. For pictures.
+    pub corner_radius: Option<f64>,
 }
 
 impl Cutter {
     /// Creates a cutter that is flat over its whole diameter.
     pub fn flat(diameter: f64) -> Self {
-        Self { diameter, removed: diameter, colliding: diameter }
+        Self { diameter, removed: diameter, colliding: diameter, corner_radius: Some(0.0) }
     }
 
     /// Returns the width in mm that the map of the material must resolve.
@@ -478,6 +480,7 @@ impl Cutter {
             diameter: self.diameter.max(diameter),
             removed: self.removed.min(diameter),
             colliding: self.colliding.max(diameter),
+            corner_radius: self.corner_radius,
         }
     }
 }
@@ -509,7 +512,7 @@ impl Stock {
         let piece = |(line, cutter): &(u32, Cutter)| StockSpan {
             line: *line,
             surface: f64::INFINITY,
-            cutter: Cutter { diameter: cutter.diameter, removed: cutter.diameter, colliding: 0.0 },
+            cutter: Cutter { removed: cutter.diameter, colliding: 0.0, ..*cutter },
         };
         Self::of_pieces(cutters.iter().map(piece).collect())
     }

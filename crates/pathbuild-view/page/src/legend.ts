@@ -24,6 +24,8 @@ export interface Shown {
   texel: number;
   /** Whether the stock shows rapid moves through material. */
   rapidCuts: boolean;
+  /** Whether the stock shows cuts of a cutter whose shape is unknown with a flat bottom. */
+  hasUnknownTip: boolean;
   clamps: boolean;
   parts: FinishedPart[];
 }
@@ -34,11 +36,12 @@ export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
   $("shallowest").textContent = hasCuts ? `Z${mm(model.shallowest)}` : "";
   $("deepest").textContent = hasCuts ? `Z${mm(model.deepest)}` : "";
   depths.classList.toggle("single", model.shallowest === model.deepest);
-  const all: [boolean | undefined, string, Word][] = [
+  const all: [boolean | undefined, string | null, Word][] = [
     [hasCuts, "ahead", "legendAhead"],
     [shown.rapids, "rapid", "rapids"],
     [shown.stock, "uncut", "legendUncut"],
     [shown.stock, "plate", "legendThrough"],
+    [shown.stock && shown.hasUnknownTip, null, "legendUnknownTip"],
     [shown.stock && shown.rapidCuts, "wrong", "legendRapid"],
     [shown.stock && shown.parts.some(({ gouges, lost_bars }) => gouges?.length || lost_bars?.length), "wrong", "legendGouge"],
     [shown.parts.length > 0, "outline", "legendOutline"],
@@ -49,10 +52,13 @@ export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
   items.replaceChildren(
     ...all.filter(([isShown]) => isShown).map(([, name, word]) => {
       const item = document.createElement("li");
-      const patch = document.createElement("i");
-      patch.style.background = `var(--${name})`;
       const isCoarse = word === "legendUncut" && shown.texel >= COARSE;
-      item.append(patch, say(word, lang) + (isCoarse ? `, ${say("legendSquares", lang)} ${mm(Number(shown.texel.toFixed(2)))} mm` : ""));
+      if (name) {
+        const patch = document.createElement("i");
+        patch.style.background = `var(--${name})`;
+        item.append(patch);
+      }
+      item.append(say(word, lang) + (isCoarse ? `, ${say("legendSquares", lang)} ${mm(Number(shown.texel.toFixed(2)))} mm` : ""));
       return item;
     }),
   );

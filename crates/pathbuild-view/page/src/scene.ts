@@ -71,13 +71,17 @@ export interface Embedded {
   sweep_height: number;
 }
 
+/** The shape of a cutter's tip, if it is not flat: the radius of its corners in mm, or unknown. */
+export type Tip = { round: number } | "unknown";
+
 export interface Path {
   name: string;
   file: string;
   zero: Point;
   tool: number | null;
+  tip?: Tip;
   /** Cutters of a program that uses several, each with the line from which it is used. */
-  tools?: { line: number; diameter: number }[];
+  tools?: { line: number; diameter: number; tip?: Tip }[];
   thickness: number | null;
   material: string | null;
   /** Speed of rapid moves in mm/min. */
@@ -114,8 +118,17 @@ export interface KeepOut {
 
 /** Returns the cutter diameter of a move in mm. */
 export function toolOf(path: Path, move: Move): number | null {
-  const own = path.tools?.filter(({ line }) => line <= (move.line ?? 0)).at(-1);
-  return own?.diameter ?? path.tool;
+  return spanOf(path, move)?.diameter ?? path.tool;
+}
+
+/** Returns the shape of the tip of a move's cutter; `undefined` if it is flat. */
+export function tipOf(path: Path, move: Move): Tip | undefined {
+  const own = spanOf(path, move);
+  return own ? own.tip : path.tip;
+}
+
+function spanOf({ tools }: Path, move: Move) {
+  return tools?.filter(({ line }) => line <= (move.line ?? 0)).at(-1);
 }
 
 export interface Scene {

@@ -61,6 +61,7 @@ const words = {
   legendAhead: ["cuts ahead", "noch zu fräsen"],
   legendUncut: ["uncut stock", "ungefrästes Rohteil"],
   legendSquares: ["in squares of", "in Quadraten von"],
+  legendUnknownTip: ["cutter of unknown shape: flat bottom drawn", "Fräser unbekannter Form: mit flachem Grund"],
   legendThrough: ["cut through", "durchgefräst"],
   legendRapid: ["rapid in material", "Eilgang im Material"],
   legendGouge: ["cut into a part or bar", "Schnitt in Teil oder Steg"],

@@ -16,12 +16,12 @@ use super::frame::{Frame, PageTransform, VisibleParts, widen};
 use super::legend::LINE_HEIGHT;
 use super::moves::path_data;
 use super::symbols;
-use crate::scene::{FinishedPart, Point, Scene, ScenePath};
+use crate::scene::{FinishedPart, Point, Scene, ScenePath, Tip};
 use hits::hits;
 use parts::{draw_corners, draw_defects, draw_leftovers};
 use strokes::{
     Cut, MovePiece, SLOPE_STEPS, Stroke, StrokeBuilder, StrokeKind, SweptArea, cuts, cutting_conditions,
-    is_known, number, sort, swept_area,
+    is_known, low_rapids, number, raise_edges, sort, swept_area,
 };
 
 const UNTOUCHED_COLOUR: &str = "#dbbd85";
@@ -39,6 +39,12 @@ const DEPTH_COLOURS: [[f64; 3]; 2] = [[189.0, 148.0, 92.0], [115.0, 77.0, 41.0]]
 
 /// Width in px of the line along the edges of cuts.
 const EDGE_WIDTH: f64 = 0.7;
+
+/// Width in px of a colour of the legend, with the gap before its meaning.
+const SWATCH_WIDTH: f64 = 17.0;
+
+/// Approximate maximum number of strokes of the level round cuts of a picture. Cuts of a program with more have coarser steps.
+const MAX_ROUND_STROKES: f64 = 200_000.0;
 
 /// Maximum number of strokes that are combined to one SVG path. The time for rendering a path grows with the square of its strokes, and
 /// the memory with their number.
@@ -68,36 +74,34 @@ impl<'s> MilledStock<'s> {
     pub(super) fn of(scene: &'s Scene) -> Self {
         let mut blanks: Vec<Blank> = Vec::new();
         let (mut low, mut count) = (f64::INFINITY, 0);
-        for Cut { path, movement, setting, .. } in cuts(scene) {
-            let Some([from, to]) = movement.extent() else { continue };
-            let zero = path.zero;
-            let extent = [
-                [0, 1].map(|axis| from[axis] + zero[axis] - setting.diameter),
-                [0, 1].map(|axis| to[axis] + zero[axis] + setting.diameter),
-            ];
-            match blanks.iter_mut().find(|(_, top)| *top == setting.top) {
-                Some((blank, _)) => {
-                    let mut corners = Some(*blank);
-                    widen(&mut corners, extent);
-                    *blank = corners.unwrap_or(*blank);
-                }
-                None => blanks.push((extent, setting.top)),
+        for cut in cuts(scene) {
+            let Some(extent) = cut.extent() else { continue };
+            match blanks.iter_mut().find(|(_, top)| *top == cut.setting.top) {
+                Some((blank, _)) => *blank = joined(*blank, extent),
+                None => blanks.push((extent, cut.setting.top)),
             }
-            low = movement.depth().map_or(low, |z| low.min(z));
+            low = cut.movement.depth().map_or(low, |z| low.min(z));
             count += 1;
         }
         blanks.sort_by(|one, other| one.1.total_cmp(&other.1));
+        // A rapid move below every upper face runs through material wherever the stock reaches that far.
+        if let Some((blank, top)) = blanks.first_mut() {
+            for extent in low_rapids(scene, *top).filter_map(|rapid| rapid.extent()) {
+                *blank = joined(*blank, extent);
+            }
+        }
         let low = if count > 0 { low } else { 0.0 };
         let top = blanks.last().map_or(low, |(_, top)| *top);
         let step = ((top - low) / SLOPE_STEPS).max(1e-3);
-        let blank = if let [blank] = blanks[..] { Some(blank) } else { None };
         let hits =
-            (0..).zip(&scene.paths).flat_map(|(index, path)| hits(scene, path, index, blank)).collect();
-        let mut painter = StrokeBuilder { strokes: Vec::with_capacity(2 * count) };
+            (0..).zip(&scene.paths).flat_map(|(index, path)| hits(scene, path, index, &blanks)).collect();
+        let band = step.max((top - low) * count as f64 / MAX_ROUND_STROKES);
+        let mut painter = StrokeBuilder { strokes: Vec::with_capacity(2 * count), step, band };
         for Cut { at, movement, setting, .. } in cuts(scene) {
-            painter.cut(at, &movement.way, &setting, step);
+            painter.cut(at, &movement.way, &setting);
         }
         let mut strokes = painter.strokes;
+        raise_edges(&mut strokes, top - low);
         sort(&mut strokes);
         let unreachable = Code::UnreachableCorner.to_string();
         let has_corners = scene.findings.iter().any(|finding| finding.code == unreachable);
@@ -110,13 +114,12 @@ impl<'s> MilledStock<'s> {
     fn compare_with(mut self, other: Self, mark: &'static str) -> Option<Self> {
         let mut heights: BTreeMap<_, f64> = BTreeMap::new();
         for stroke in &other.strokes {
-            let height = heights.entry(other.area(stroke.at).key()).or_insert(f64::INFINITY);
+            let height = heights.entry(stroke.area(&other.paths).key()).or_insert(f64::INFINITY);
             *height = height.min(stroke.height());
         }
         let paths = self.paths.as_slice();
-        let is_deeper = |stroke: &Stroke| {
-            heights.get(&swept_area(paths, stroke.at).key()).is_none_or(|z| stroke.height() < *z)
-        };
+        let is_deeper =
+            |stroke: &Stroke| heights.get(&stroke.area(paths).key()).is_none_or(|z| stroke.height() < *z);
         self.strokes.retain(|stroke| matches!(stroke.kind, StrokeKind::Cut | StrokeKind::Through));
         self.strokes.retain(is_deeper);
         if self.strokes.is_empty() {
@@ -217,14 +220,14 @@ impl<'s> MilledStock<'s> {
         let mut all = String::new();
         let mut count = 0;
         for (index, next) in strokes.iter().enumerate() {
-            let SweptArea { way, diameter } = self.area(next.at);
+            let SweptArea { way, diameter } = next.area(&self.paths);
             all.push_str(&path_data(&way, place));
             count += 1;
             let is_alike = |other: &Stroke| {
                 other.kind == next.kind
                     && other.z == next.z
                     && other.is_marked == next.is_marked
-                    && self.area(other.at).diameter == diameter
+                    && other.diameter == diameter
             };
             if count < MAX_COMBINED_STROKES && strokes.get(index + 1).is_some_and(is_alike) {
                 continue;
@@ -250,6 +253,11 @@ impl<'s> MilledStock<'s> {
         swept_area(&self.paths, at)
     }
 
+    /// Whether the shape of a cutter, and so the section of its cuts, is unknown.
+    fn has_unknown_tip(&self) -> bool {
+        cuts(self.scene).any(|cut| cut.setting.tip == Tip::Unknown)
+    }
+
     fn color(&self, z: f64) -> String {
         let [top, low] = self.range;
         depth_color(((top - z) / (top - low).max(1e-6)).clamp(0.0, 1.0))
@@ -265,9 +273,13 @@ impl<'s> MilledStock<'s> {
     /// Draws the meaning of the colours, from `left` to `right` and continuing on further lines.
     pub(super) fn legend(&self, canvas: &mut Canvas, shown: VisibleParts, at: Point, right: f64) {
         for LegendEntry { at: [x, y], color, name } in self.legend_entries(shown, at, right) {
-            let style = format!("fill=\"{color}\" stroke=\"{EDGE_COLOUR}\" stroke-width=\"0.5\"");
-            canvas.path(&format!("M{} {}h12v10h-12Z", svg_number(x), svg_number(y - 9.0)), &style);
-            canvas.text([x + 17.0, y], 10.5, Anchor::Start, &format!("fill=\"{INK_COLOUR}\""), &name);
+            let mut left = x;
+            if !color.is_empty() {
+                let style = format!("fill=\"{color}\" stroke=\"{EDGE_COLOUR}\" stroke-width=\"0.5\"");
+                canvas.path(&format!("M{} {}h12v10h-12Z", svg_number(x), svg_number(y - 9.0)), &style);
+                left += SWATCH_WIDTH;
+            }
+            canvas.text([left, y], 10.5, Anchor::Start, &format!("fill=\"{INK_COLOUR}\""), &name);
         }
     }
 
@@ -290,6 +302,14 @@ impl<'s> MilledStock<'s> {
                 has(StrokeKind::Cut),
                 depth_color(1.0),
                 shown.choose("the darker, the deeper", "je dunkler, desto tiefer"),
+            ),
+            (
+                self.has_unknown_tip(),
+                String::new(),
+                shown.choose(
+                    "cutter of unknown shape, drawn with a flat bottom",
+                    "Fräser unbekannter Form, mit flachem Grund gezeichnet",
+                ),
             ),
             (
                 has(StrokeKind::Through),
@@ -352,10 +372,11 @@ impl<'s> MilledStock<'s> {
     }
 }
 
-/// A colour of the legend, with its meaning.
+/// A colour of the legend, with its meaning, or a remark.
 struct LegendEntry {
     /// Start of the baseline, in px.
     at: Point,
+    /// Empty for a remark.
     color: String,
     name: String,
 }
@@ -372,10 +393,11 @@ pub enum StockChange {
 /// Draws the material that a change additionally removes from the stock, or additionally leaves. Returns `None` if there is none, or if
 /// the stock is unknown.
 pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, lang: Lang) -> Option<String> {
-    // Programs are compared in their own coordinates, wherever the path is in the drawing.
-    let [old, new] = [old, new].map(|path| Scene {
-        paths: vec![ScenePath { zero: [0.0; 2], parts: Vec::new(), ..path.clone() }],
-        ..Scene::new("")
+    // Programs are compared in their own coordinates, wherever the path is in the drawing, and by the areas that their cutters sweep.
+    let [old, new] = [old, new].map(|path| {
+        let mut path = ScenePath { zero: [0.0; 2], parts: Vec::new(), tip: Tip::Flat, ..path.clone() };
+        path.tools.iter_mut().for_each(|tool| tool.tip = Tip::Flat);
+        Scene { paths: vec![path], ..Scene::new("") }
     });
     let [old, new] = [&old, &new].map(MilledStock::of);
     if old.blanks.is_empty() || new.blanks.is_empty() {
@@ -423,6 +445,12 @@ fn rectangle(place: &PageTransform, corners: [Point; 2]) -> String {
     let [[left, bottom], [right, top]] =
         corners.map(|corner| place.to_page(corner)).map(|corner| corner.map(svg_number));
     format!("M{left} {top}H{right}V{bottom}H{left}Z")
+}
+
+fn joined(blank: [Point; 2], extent: [Point; 2]) -> [Point; 2] {
+    let mut corners = Some(blank);
+    widen(&mut corners, extent);
+    corners.unwrap_or(blank)
 }
 
 fn depth_color(share: f64) -> String {

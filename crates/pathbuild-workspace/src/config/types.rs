@@ -290,11 +290,9 @@ impl Tool {
     /// Returns the widths for the check of rapid moves. A tool without a flat tip fits into its own cut, so only the centre line of its moves is
     /// considered, both for removing material and for hitting it.
     pub fn cutter(&self) -> Cutter {
-        let flat = match self.shape {
-            CutterShape::Other => 0.0,
-            CutterShape::EndMill | CutterShape::Slot => (self.diameter - 2.0 * self.corner_radius).max(0.0),
-        };
-        Cutter { diameter: self.diameter, removed: flat, colliding: flat }
+        let corner_radius = (self.shape != CutterShape::Other).then_some(self.corner_radius);
+        let flat = corner_radius.map_or(0.0, |radius| (self.diameter - 2.0 * radius).max(0.0));
+        Cutter { diameter: self.diameter, removed: flat, colliding: flat, corner_radius }
     }
 }
 

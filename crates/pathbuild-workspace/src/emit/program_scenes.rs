@@ -21,7 +21,7 @@ use super::sheet::sheet;
 use crate::config::Origin;
 use crate::config::types::SheetFormat;
 use crate::findings::Findings;
-use crate::post_processor::PostProcessor;
+use crate::post_processor::{PostProcessor, tip};
 use crate::session::{
     CheckedTarget, NamedPaths, NotOnePath, ProgramDetails, Session, drawn_source, examples, finished_parts,
     program_scene,
@@ -162,7 +162,8 @@ impl Session<'_> {
             .map_with_checker(slice::from_ref(name), |checker, name| checker.check_leniently(file, name))
             .pop();
         let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
-        let writing = &write_settings(&self.workspace().settings);
+        let settings = &self.workspace().settings;
+        let writing = &write_settings(settings);
         // Without `rapid`, or for a path that is only checked, `emit` writes nothing: the text is a preview.
         let is_written = *checked.target.role(self.db()) == Role::Emitted
             && self.workspace().settings.general.rapid.value.is_some();
@@ -196,6 +197,7 @@ impl Session<'_> {
                 scene.examples = examples(db, traced, writing);
                 scene.refusal.clone_from(&refusal);
                 scene.parts = finished_parts(db, *target);
+                scene.tip = tip(settings, &traced.program.path, traced.program.tool);
             }
             let embedded = placed_keep_outs(db, *target).into_iter().filter(|clamp| clamp.occurrence > 0);
             Ok(scene.map(|scene| (scene, embedded.map(|clamp| clamp.placed).collect::<Vec<KeepOut>>())))

@@ -57,6 +57,10 @@ pub(super) fn sheet(
     for target in &job.targets {
         let Some(traced) = traced_program(db, *target) else { return Ok(None) };
         let Some(program) = add(db, &mut scene, *target, traced, &settings.writing)? else { return Ok(None) };
+        let tool = settings.sheets.tools.position(&program.path, program.tool);
+        if let (Some(path), Some(tool)) = (scene.paths.last_mut(), tool) {
+            path.tip = settings.sheets.shapes[tool].cutter().into();
+        }
         programs.push(program);
     }
     let provenance = settings.provenances.of(&programs);

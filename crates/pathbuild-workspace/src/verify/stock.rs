@@ -240,7 +240,13 @@ impl<'s> Sources<'s> {
 
     fn known_cutters(&self) -> Option<Vec<(u32, Cutter)>> {
         let given = self.options().cutter.or(self.drawn_cutter());
-        let widths = |tool: &CuttingTool| Some((tool.line, self.diameters(tool).cutter()?));
+        let native = self.native_entry().filter(|_| self.program.dialect == Dialect::Native);
+        let widths = |tool: &CuttingTool| {
+            let cutter = self.diameters(tool).cutter()?;
+            // The header of a native program states no shape.
+            let corner_radius = native.map_or(cutter.corner_radius, |tool| tool.cutter().corner_radius);
+            Some((tool.line, Cutter { corner_radius, ..cutter }))
+        };
         let mut cutters: Vec<(u32, Cutter)> = self.header.tools.iter().map(widths).collect::<Option<_>>()?;
         // In a subprogram, the tool depends on the caller.
         let is_one = cutters.iter().all(|(_, cutter)| *cutter == cutters[0].1);

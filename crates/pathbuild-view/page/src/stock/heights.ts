@@ -207,6 +207,8 @@ export class Heights {
       const [ux, uy] = isPoint ? [1, 0] : [dx / length, dy / length];
       const slope = isPoint ? 0 : (end - begin) / length;
       const low = Math.min(begin, end);
+      const round = pieces[at + 8] * scale;
+      const flat = radius - round;
       const last = Math.min(y1 - 1, Math.floor(Math.max(ay, by) + radius));
       for (let row = Math.max(y0, Math.ceil(Math.min(ay, by) - radius)); row <= last; row++) {
         // The least and greatest column of this row: those of the discs at both ends and of the two sides between them.
@@ -237,13 +239,16 @@ export class Heights {
         const final = row * columns + Math.min(x1 - 1, Math.floor(most));
         for (let cell = first; cell <= final; cell++) {
           let z = low;
-          if (slope !== 0) {
-            // The cutter covers this texel from `along - half` to `along + half`, and is lowest at one of these ends.
+          if (slope !== 0 || round > 0) {
+            // The cutter covers this texel from `along - half` to `along + half`. If it is flat, it is lowest at one of these ends.
             const across = cell - row * columns - ax;
             const along = across * ux + va * uy;
             const beside = va * ux - across * uy;
             const half = Math.sqrt(Math.max(0, square - beside * beside));
-            z = begin + slope * (slope > 0 ? Math.max(along - half, 0) : Math.min(along + half, length));
+            z =
+              round === 0
+                ? begin + slope * (slope > 0 ? Math.max(along - half, 0) : Math.min(along + half, length))
+                : begin + this.texel * roundHeight(slope * scale, along, beside, Math.max(along - half, 0), Math.min(along + half, length), flat, round);
           }
           if (heights[cell] > z) {
             heights[cell] = z;
@@ -256,4 +261,28 @@ export class Heights {
       }
     }
   }
+}
+
+/** Number of steps of the search for the lowest place of a bull nose. */
+const SEARCH_STEPS = 14;
+
+/**
+ * Returns the least height of a cutter with round corners over a texel while it moves from `first` to `last`. The texel is at `along`, and at
+ * `beside` from the line of the move. All values are in texels.
+ */
+function roundHeight(slope: number, along: number, beside: number, first: number, last: number, flat: number, round: number): number {
+  const height = (at: number): number => {
+    const outside = Math.min(Math.max(Math.hypot(beside, along - at) - flat, 0), round);
+    return slope * at + round - Math.sqrt(round * round - outside * outside);
+  };
+  const within = (at: number) => Math.min(Math.max(at, first), last);
+  if (slope === 0) return height(within(along));
+  if (flat < 1e-6) return height(within(along - slope * Math.sqrt(Math.max(0, round * round - beside * beside) / (1 + slope * slope))));
+  // The height is a convex function of the place.
+  for (let step = 0; step < SEARCH_STEPS; step++) {
+    const third = (last - first) / 3;
+    if (height(first + third) < height(last - third)) last -= third;
+    else first += third;
+  }
+  return height((first + last) / 2);
 }

@@ -1,9 +1,9 @@
 // The moves as straight pieces of the cutter's path, and the stock that they are cut from.
 
-import { Move, Path, Scene, isCut, pointsOfMove, toolOf } from "../scene.js";
+import { Move, Path, Scene, isCut, pointsOfMove, tipOf, toolOf } from "../scene.js";
 
-/** Number of values of a piece: from x y z, to x y z, the cutter's radius, and 1 for a rapid move. */
-export const WIDTH = 8;
+/** Number of values of a piece: from x y z, to x y z, the cutter's radius, 1 for a rapid move, and the radius of the cutter's corners. */
+export const WIDTH = 9;
 
 /** A rectangle in mm: left, lower, right and upper side. */
 export type Box = [number, number, number, number];
@@ -34,6 +34,8 @@ export interface Cutting {
   /** Highest upper face and deepest cut in mm. */
   top: number;
   low: number;
+  /** Whether the shape of a cutter is unknown, so that its cuts have a flat bottom. */
+  hasUnknownTip: boolean;
 }
 
 /** Maximum distance in mm between an arc and its chords. */
@@ -51,16 +53,20 @@ export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
   const until: number[] = [];
   const blanks = new Map<string, Blank>();
   let low = Infinity;
+  let hasUnknownTip = false;
   for (const path of scene.paths) {
     for (const move of path.moves) {
       const tool = toolOf(path, move) ?? assumed.tool;
       const radius = (tool ?? 0) / 2;
+      const tip = tipOf(path, move);
+      const round = typeof tip === "object" ? Math.min(tip.round, radius) : 0;
       const isRapid = move.kind === "sweep" || move.kind === "lift";
       const points = tool === null || move.kind === "probe" ? [] : pointsOfMove(move, SAGITTA);
       for (const at of points) for (const axis of [0, 1]) at[axis] += path.zero[axis];
-      for (let index = 1; index < points.length; index++) numbers.push(...points[index - 1], ...points[index], radius, isRapid ? 1 : 0);
+      for (let index = 1; index < points.length; index++) numbers.push(...points[index - 1], ...points[index], radius, isRapid ? 1 : 0, round);
       until.push(numbers.length / WIDTH);
       if (!isCut(move.kind) || points.length === 0) continue;
+      hasUnknownTip ||= tip === "unknown";
       const [top, raised] = faces(path, move, assumed);
       const through = top > raised ? raised + scene.through : -Infinity;
       const name = `${top} ${through}`;
@@ -82,6 +88,7 @@ export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
     box: all.map((it) => it.box).reduce(joined),
     top: Math.max(...all.map((it) => it.top)),
     low,
+    hasUnknownTip,
   };
 }
 

@@ -4,8 +4,8 @@ use pathbuild_gcode::interpret::Program;
 use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapid_hits};
 use pathbuild_motion::{Move, MoveShape, Pace, Position, Step};
 
-use super::Blank;
 use super::strokes::{CuttingConditions, MovePiece, Piece, cutting_conditions};
+use super::{Blank, joined};
 use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath};
 
 /// Length, in cutter diameters, of the pieces of a rapid move that are checked for material.
@@ -14,9 +14,22 @@ const SEARCH_PIECE: f64 = 0.25;
 /// Maximum number of pieces of a rapid move.
 const MAX_PIECES: f64 = 400.0;
 
-/// Returns the pieces of a path's rapid moves that hit material. If not all cuts share one blank, the material is only known near cuts. `index` is that
-/// of the path.
-pub(super) fn hits(scene: &Scene, path: &ScenePath, index: u32, blank: Option<Blank>) -> Vec<MovePiece> {
+/// Returns the pieces of a path's rapid moves that hit material. `index` is that of the path. Several blanks, whose upper faces are in ascending order,
+/// may overlap: away from cuts, there is certainly material up to the lowest upper face only.
+pub(super) fn hits(scene: &Scene, path: &ScenePath, index: u32, blanks: &[Blank]) -> Vec<MovePiece> {
+    let Some((_, lowest)) = blanks.first() else { return Vec::new() };
+    let everywhere = blanks.iter().map(|(corners, _)| *corners).reduce(joined).map(|all| (all, *lowest));
+    let mut hits = hits_in(scene, path, index, everywhere);
+    if blanks.len() > 1 {
+        hits.extend(hits_in(scene, path, index, None));
+        hits.sort_unstable();
+        hits.dedup();
+    }
+    hits
+}
+
+/// Returns the pieces that hit material near cuts or in this blank.
+fn hits_in(scene: &Scene, path: &ScenePath, index: u32, blank: Option<Blank>) -> Vec<MovePiece> {
     let tops = path.moves.iter().filter_map(|movement| cutting_conditions(scene, path, movement));
     let highest = tops.map(|setting| setting.top).fold(f64::NEG_INFINITY, f64::max);
     let touch = blank.map(|blank| move_touching_blank(blank, path.zero));
@@ -119,7 +132,7 @@ fn move_touching_blank(([low, high], surface): Blank, zero: Point) -> (Move, Sto
     let end = |[x, y, z]: [f64; 3]| Position::known(x, y, z);
     let way =
         Move { from: end(from), to: end(to), shape: MoveShape::Line, pace: Pace::Feed(1.0), named: None };
-    let cutter = Cutter { diameter: reach, removed: 0.0, colliding: 0.0 };
+    let cutter = Cutter { removed: 0.0, colliding: 0.0, ..Cutter::flat(reach) };
     (way, StockSpan { line: 1, surface, cutter })
 }
 

@@ -2,7 +2,7 @@
 
 use pathbuild_motion::{Axes, Move, MoveShape, Position};
 
-use crate::scene::{Point, Scene, SceneMove, ScenePath, ToolSpan};
+use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath, Tip, ToolSpan};
 
 /// Number of steps into which the deepest slope is divided. Each step has one colour.
 pub(super) const SLOPE_STEPS: f64 = 64.0;
@@ -15,7 +15,7 @@ pub(super) struct SweptArea {
 
 /// A move of a path, or a piece of it. The area that it sweeps is computed whenever it is drawn, because the areas of a long program would take more
 /// memory than its moves.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct MovePiece {
     /// Index of the path.
     pub(super) path: u32,
@@ -24,7 +24,7 @@ pub(super) struct MovePiece {
     pub(super) piece: Piece,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Piece {
     Whole,
     /// One of `count` pieces of the same length, counted from 0.
@@ -60,9 +60,11 @@ fn is_upright(way: &Move) -> bool {
 /// A stroke to paint. Higher strokes are painted first, and an edge before the cuts at the same height.
 pub(super) struct Stroke {
     pub(super) at: MovePiece,
+    /// Width in mm: less than the cutter's diameter towards the bottom of a round cut.
+    pub(super) diameter: f64,
     pub(super) z: f64,
     pub(super) kind: StrokeKind,
-    /// Whether the stroke has the colour of [`MilledStock::mark`].
+    /// Whether the stroke has the colour of a mark, instead of that of its depth.
     pub(super) is_marked: bool,
 }
 
@@ -79,6 +81,10 @@ impl SweptArea {
 }
 
 impl Stroke {
+    pub(super) fn area(&self, paths: &[&ScenePath]) -> SweptArea {
+        SweptArea { diameter: self.diameter, ..swept_area(paths, self.at) }
+    }
+
     /// Returns the height that remains after the cut. All cuts through the material have the same height.
     pub(super) fn height(&self) -> f64 {
         if self.kind >= StrokeKind::ThroughEdge { f64::NEG_INFINITY } else { self.z }
@@ -95,6 +101,26 @@ pub(super) fn sort(strokes: &mut [Stroke]) {
     });
 }
 
+/// Number of levels of cuts from which the picture is that of a relief.
+const RELIEF_LEVELS: usize = 16;
+
+/// Height in mm up to which a step has no edge.
+const SMALLEST_STEP: f64 = 0.02;
+
+/// Raises the edges of cuts by the height of a step, so that the cuts beside them paint over those of smaller steps. In a relief, whose levels follow
+/// a surface, edges of all passes would cover it: there, a step is as high as one of [`RELIEF_LEVELS`] levels. `depth` is that of the deepest cut.
+pub(super) fn raise_edges(strokes: &mut [Stroke], depth: f64) {
+    let is_edge = |stroke: &&Stroke| stroke.kind == StrokeKind::Edge;
+    let mut levels: Vec<f64> = strokes.iter().filter(is_edge).map(|stroke| stroke.z).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup();
+    let is_relief = levels.len() > RELIEF_LEVELS;
+    let step = if is_relief { depth / RELIEF_LEVELS as f64 } else { SMALLEST_STEP };
+    for stroke in strokes.iter_mut().filter(|stroke| stroke.kind == StrokeKind::Edge) {
+        stroke.z = rounded(stroke.z + step);
+    }
+}
+
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum StrokeKind {
     Edge,
@@ -106,6 +132,7 @@ pub(super) enum StrokeKind {
 /// The cutter and the stock that apply to a move.
 pub(super) struct CuttingConditions {
     pub(super) diameter: f64,
+    pub(super) tip: Tip,
     /// Z in mm of the upper face of the stock.
     pub(super) top: f64,
     /// Z in mm at or below which a cut goes through the stock.
@@ -121,10 +148,10 @@ pub(super) fn swept_area(paths: &[&ScenePath], MovePiece { path, movement, piece
     let path = paths[path as usize];
     let movement = &path.moves[movement as usize];
     let way = piece.of(&in_drawing_coordinates(&movement.way, path.zero));
-    SweptArea { way, diameter: cutter(path, movement).unwrap_or_default() }
+    SweptArea { way, diameter: cutter(path, movement).map_or(0.0, |(diameter, _)| diameter) }
 }
 
-/// A cut that has a known place and known material.
+/// A move that has a known place and known material.
 pub(super) struct Cut<'s> {
     pub(super) path: &'s ScenePath,
     pub(super) movement: &'s SceneMove,
@@ -132,13 +159,36 @@ pub(super) struct Cut<'s> {
     pub(super) setting: CuttingConditions,
 }
 
+impl Cut<'_> {
+    /// Returns the corners of the stock that the move needs, in the coordinates of the drawing: the cutter's diameter around it.
+    pub(super) fn extent(&self) -> Option<[Point; 2]> {
+        let [from, to] = self.movement.extent()?;
+        let (zero, margin) = (self.path.zero, self.setting.diameter);
+        Some([
+            [0, 1].map(|axis| from[axis] + zero[axis] - margin),
+            [0, 1].map(|axis| to[axis] + zero[axis] + margin),
+        ])
+    }
+}
+
 pub(super) fn cuts(scene: &Scene) -> impl Iterator<Item = Cut<'_>> {
+    moves(scene).filter(|cut| cut.movement.kind.cuts())
+}
+
+/// Returns the rapid moves below an upper face.
+pub(super) fn low_rapids(scene: &Scene, top: f64) -> impl Iterator<Item = Cut<'_>> {
+    moves(scene).filter(move |cut| {
+        matches!(cut.movement.kind, MoveKind::Sweep | MoveKind::Lift)
+            && cut.movement.depth().is_some_and(|z| z < top.min(cut.setting.top))
+    })
+}
+
+/// Returns the moves with a known place, cutter and material.
+fn moves(scene: &Scene) -> impl Iterator<Item = Cut<'_>> {
     let all = (0..).zip(&scene.paths).flat_map(|(index, path)| {
         (0..).zip(&path.moves).map(move |(movement, way)| (index, path, movement, way))
     });
-    let known = all.filter(|(.., movement)| {
-        movement.kind.cuts() && is_known(&movement.way) && movement.extent().is_some()
-    });
+    let known = all.filter(|(.., movement)| is_known(&movement.way) && movement.extent().is_some());
     known.filter_map(move |(index, path, number, movement)| {
         let at = MovePiece { path: index, movement: number, piece: Piece::Whole };
         Some(Cut { path, movement, at, setting: cutting_conditions(scene, path, movement)? })
@@ -157,12 +207,14 @@ pub(super) fn cutting_conditions(
     let raised = component.map_or(0.0, |component| component.raised);
     let is_on_zero = scene.program.as_ref().is_none_or(|program| program.is_on_zero);
     let through = if is_on_zero && top > raised { raised + scene.through } else { f64::NEG_INFINITY };
-    Some(CuttingConditions { diameter: cutter(path, movement)?, top, through })
+    let (diameter, tip) = cutter(path, movement)?;
+    Some(CuttingConditions { diameter, tip, top, through })
 }
 
-/// Returns the diameter in mm of the cutter of a move.
-fn cutter(path: &ScenePath, movement: &SceneMove) -> Option<f64> {
-    tool_span(path, movement).map(|tool| tool.diameter).or(path.tool)
+/// Returns the diameter in mm and the tip of the cutter of a move.
+fn cutter(path: &ScenePath, movement: &SceneMove) -> Option<(f64, Tip)> {
+    let own = path.tool.map(|diameter| (diameter, path.tip));
+    tool_span(path, movement).map(|tool| (tool.diameter, tool.tip)).or(own)
 }
 
 fn tool_span<'s>(path: &'s ScenePath, movement: &SceneMove) -> Option<&'s ToolSpan> {
@@ -185,12 +237,17 @@ fn in_drawing_coordinates(way: &Move, zero: Point) -> Move {
 
 pub(super) struct StrokeBuilder {
     pub(super) strokes: Vec<Stroke>,
+    /// Height in mm of the steps of slopes.
+    pub(super) step: f64,
+    /// Height in mm of the steps of round cuts, which is larger in long programs.
+    pub(super) band: f64,
 }
 
 impl StrokeBuilder {
     /// Adds the strokes that a cut paints. A slope is divided into pieces, each of which has the height of its upper end; so is an arc that bulges up or
     /// down. Only level cuts have an edge: those of neighbouring slopes would cover each other's surfaces.
-    pub(super) fn cut(&mut self, at: MovePiece, way: &Move, setting: &CuttingConditions, step: f64) {
+    pub(super) fn cut(&mut self, at: MovePiece, way: &Move, setting: &CuttingConditions) {
+        let step = self.step;
         let [from, to] = [way.from.z(), way.to.z()];
         let [.., Some((low, high))] = way.extent() else { return };
         if low >= setting.top {
@@ -222,13 +279,41 @@ impl StrokeBuilder {
         }
     }
 
+    /// Adds the strokes of a piece. A round cut is divided into steps, each of which has the height of its middle and ends at its exact width.
     fn add(&mut self, at: MovePiece, z: f64, setting: &CuttingConditions, has_edge: bool) {
+        let Tip::Round(radius) = setting.tip else {
+            return self.add_stroke(at, z, setting.diameter, setting, has_edge);
+        };
+        let radius = radius.min(setting.diameter / 2.0);
+        let flat = setting.diameter - 2.0 * radius;
+        if flat > 0.0 {
+            self.add_stroke(at, z, flat, setting, false);
+        }
+        let rise = radius.min(setting.top - z);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let count = (rise / self.band).ceil().clamp(1.0, SLOPE_STEPS) as u16;
+        for step in 1..=count {
+            let upper = rise * f64::from(step) / f64::from(count);
+            let middle = upper - rise / f64::from(2 * count);
+            let width = flat + 2.0 * libm::sqrt(upper * (2.0 * radius - upper));
+            self.add_stroke(at, z + middle, width, setting, has_edge && step == count);
+        }
+    }
+
+    fn add_stroke(
+        &mut self,
+        at: MovePiece,
+        z: f64,
+        diameter: f64,
+        setting: &CuttingConditions,
+        has_edge: bool,
+    ) {
         let (z, edge, kind) = if z <= setting.through {
             (setting.through, StrokeKind::ThroughEdge, StrokeKind::Through)
         } else {
             (rounded(z), StrokeKind::Edge, StrokeKind::Cut)
         };
-        let stroke = |kind| Stroke { at, z, kind, is_marked: false };
+        let stroke = |kind| Stroke { at, diameter, z, kind, is_marked: false };
         self.strokes.extend(has_edge.then_some(stroke(edge)));
         self.strokes.push(stroke(kind));
     }
