@@ -160,11 +160,11 @@ fn a_rounded_corner_clears_less() {
     assert!(!rapid_beside_a_cut(&tool("shape = \"other\"\n"), 0.0));
 }
 
-/// Whether `verify` reports a rapid move from the second of two parallel cuts to the first, at their depth.
+/// Whether `verify` reports a rapid move from the middle of a cut to a parallel one, at their depth.
 fn rapid_between_cuts(tool: &str, distance: f64) -> bool {
     let program = format!(
         "G17 G21 G90 G94\nT4 M6\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X40\nG0 Z5\nG0 Y{distance}\n\
-         G1 Z-1\nG1 X20\nG0 Y0\nG0 Z5\nM5\nM30\n"
+         G1 Z-1\nG1 X10\nG0 X20\nG0 Y0\nG0 Z5\nM5\nM30\n"
     );
     verify(tool, &program, "--surface 0").stderr.contains("PB740")
 }

@@ -128,7 +128,7 @@ fn moves_of_a_line_that_is_ignored_do_not_count_as_checked() {
 fn moves_from_a_place_that_is_never_stated_do_not_count_as_checked() {
     let verify = |mode: &str| {
         let program = format!(
-            "G21 {mode} G94 G17\nT1 M6\nS12000 M3\nG0 Z5\nG0 X10 Y10\nG1 Z-7 F200\nG1 X40 F600\nG0 Z7\nG0 Y20\nM5\nM30\n"
+            "G21 {mode} G94 G17\nS12000 M3\nG0 Z5\nG0 X10 Y10\nG1 Z-7 F200\nG1 X40 F600\nG0 Z7\nG0 Y20\nM5\nM30\n"
         );
         let configuration = "[machine]\ntravel = [400, 300, 80]\n";
         let place = Place::new().file("pathbuild.toml", configuration).file("a.nc", program);

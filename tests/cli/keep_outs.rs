@@ -193,10 +193,11 @@ const COMPONENT: &str = "layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 S21 MAl\"\nmill 
     polyline 2,3 7,3 7,8 2,8 closed\ntext 2.5,4 \"Z20\" height 2\n";
 
 fn embedding(project: &str) -> Place {
+    let cut = if project.contains("mill ") { " I5 B0" } else { "" };
     Place::new()
         .file("pathbuild.toml", OPTIONS)
         .file("1234.1P.dxf", dxf(COMPONENT))
-        .file("8001.1P.dxf", dxf(&format!("layer 8001.1P\nstart 0,0 \"T5 O2 I5 B0 S22 MAl\"\n{project}")))
+        .file("8001.1P.dxf", dxf(&format!("layer 8001.1P\nstart 0,0 \"T5 O2{cut} S22 MAl\"\n{project}")))
 }
 
 /// The clamps of a component are moved, rotated and raised with it, and affect the whole program.

@@ -18,10 +18,22 @@ use self::recorded::{Form, Run};
 use crate::support;
 
 /// Runs with known differences, each with the reason. A run without differences must not be listed.
-const DIFFERENT: [(&str, &str); 2] = [
-    ("reference-drawings/3", "PB202 beside PB101, PB102 and PB105: a milling segment has a T"),
-    ("reference-drawings/35", "PB201 beside PB202: B is missing as well, on other segments"),
+const DIFFERENT: [(&str, Form, &str); 6] = [
+    (
+        "reference-drawings/3",
+        Form::Recorded,
+        "PB202 beside PB101, PB102 and PB105: a milling segment has a T",
+    ),
+    ("reference-drawings/35", Form::Recorded, "PB201 beside PB202: B is missing as well, on other segments"),
+    ("random_0012/1", Form::Default, BARS_OF_TURNED_CIRCLE),
+    ("random_0036/2", Form::Default, BARS_OF_TURNED_CIRCLE),
+    ("random_0044/6", Form::Default, BARS_OF_TURNED_CIRCLE),
+    ("random_0052/3", Form::Default, BARS_OF_TURNED_CIRCLE),
 ];
+
+/// Expected are bars that stand still while the path and everything else that it mills turns, so that another cut may take away the only one.
+const BARS_OF_TURNED_CIRCLE: &str =
+    "a helical circle with bars in a turned embedding begins at the lowest point of its own drawing";
 
 #[test]
 fn recorded_runs_are_equal() {
@@ -107,7 +119,7 @@ fn say(what: &str, differences: &[&Vec<String>]) {
 
 /// Returns the problem with the outcome of a run: it differs unexpectedly, or is equal although it is listed as different.
 fn fault(run: &Run, differences: &[String]) -> Option<String> {
-    let known = DIFFERENT.iter().find(|(name, _)| *name == run.name());
+    let known = DIFFERENT.iter().find(|(name, form, _)| *name == run.name() && *form == run.form);
     match (known, differences) {
         (None, []) | (Some(_), [_, ..]) => None,
         (Some(_), []) => Some(format!("{}: equal now, and to be taken off the list", run.name())),

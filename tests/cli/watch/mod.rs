@@ -22,7 +22,8 @@ const CONFIGURATION: &str = "spindle = \"manual\"\nfeed = 150\nrapid = 1000\nswe
 
 /// Returns a drawing of one path with this T, which mills, or embeds other paths.
 fn dxf(name: &str, thickness: u32, embeds: &[&str]) -> Vec<u8> {
-    let mut text = format!("layer {name}\nstart 0,0 \"T{thickness} O2 I1 B0 MPlate\"\n");
+    let cut = if embeds.is_empty() { " I1 B0" } else { "" };
+    let mut text = format!("layer {name}\nstart 0,0 \"T{thickness} O2{cut} MPlate\"\n");
     if embeds.is_empty() {
         text.push_str("mill 0,0 40,0\n");
     }

@@ -144,7 +144,7 @@ fn at_element_of_step(db: &Database, target: Target, mut problem: Diagnostic) ->
     let step = problem.place.line.take();
     match step.zip(traced_program(db, target).as_deref()) {
         Some((step, traced)) => locate(db, traced.at_element_of_step(db, step, problem)),
-        None => problem.in_file(target.file(db).path(db)).in_path(&**target.name(db)),
+        None => problem.in_file(target.file(db).path(db)).in_path(target.name(db)),
     }
 }
 
