@@ -1,4 +1,5 @@
-//! Tests chip loads outside the limits of `[tool]` (PB790) and cuts deeper than its cutting edges (PB792), in drawings and programs, and the shape of a tool in `verify`.
+//! Tests chip loads outside the limits of `[tool]` (PB790) and cuts deeper than its cutting edges (PB792), in drawings and programs, and the shape of
+//! a tool in `verify`.
 
 use crate::support::{Place, Run};
 use pathbuild_testkit::sheet;

@@ -227,8 +227,8 @@ fn places_in_the_program_are_marked_in_the_drawing() {
     assert_eq!(picture([0, 0]), picture([30, -20]));
 }
 
-/// Returns the pictures of findings about a component whose support bar, and whose part, is cut by another component, by their codes. `shims` is the H
-/// of the other component, whose cut has the given length. The last argument is the place of the project's start marker.
+/// Returns the pictures of findings about a component whose support bar, and whose part, is cut by another component, by their codes. `shims` is the
+/// H of the other component, whose cut has the given length. The last argument is the place of the project's start marker.
 fn cuts_by_a_neighbour(length: i32, shims: &str, [x, y]: [i32; 2]) -> BTreeMap<String, String> {
     let folder = support::project().join("docs/drawings/part");
     let groove = format!(
@@ -291,8 +291,8 @@ fn regions_that_no_cut_or_another_path_makes_are_filled() {
     assert!(!seen.keys().any(|name| name.starts_with("1121.1P")), "{:?}", seen.keys());
 }
 
-/// A project's element embeds a whole path, and the element of a contour may be long: the damage is elsewhere. The project begins at (-6, 0), where its
-/// program has X0 Y0.
+/// A project's element embeds a whole path, and the element of a contour may be long: the damage is elsewhere. The project begins at (-6, 0), where
+/// its program has X0 Y0.
 #[test]
 fn findings_about_parts_are_placed_at_the_damage() {
     let folder = support::project().join("docs/drawings/part");

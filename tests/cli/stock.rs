@@ -549,8 +549,8 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Returns the number of moves and pieces of moves that the picture of an arc in the plane G18 shows, and of different colours. The arc begins and ends
-/// 1 mm below the surface, 20 mm apart.
+/// Returns the number of moves and pieces of moves that the picture of an arc in the plane G18 shows, and of different colours. The arc begins and
+/// ends 1 mm below the surface, 20 mm apart.
 fn shown_of_an_upright_arc(word: &str) -> [usize; 2] {
     let program = format!(
         "G17 G21 G90 G94\nS9000 M3\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG18\n{word} X20 Z-1 I10 K0\nG17\nG0 Z5\nM5\nM30\n"
@@ -577,8 +577,8 @@ fn an_arc_in_an_upright_plane_is_as_deep_as_it_dips() {
     );
 }
 
-/// Returns whether the picture has an edge between each pass and the one before, for parallel passes of a cutter of 3 mm, 1 mm apart, each of which is
-/// deeper than the one before by one of the steps.
+/// Returns whether the picture has an edge between each pass and the one before, for parallel passes of a cutter of 3 mm, 1 mm apart, each of which
+/// is deeper than the one before by one of the steps.
 fn edges_between_passes(steps: &[f64]) -> Vec<bool> {
     let mut program = String::from("G21 G90 G17 G94\nS9000 M3\nG0 Z5\n");
     let mut z = 0.0;

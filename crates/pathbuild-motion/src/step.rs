@@ -16,8 +16,8 @@ pub struct Step {
     pub action: Action,
     /// The axes for which the program has stated a position since the last tool change. The machine may have moved the other axes during the change.
     pub stated: Axes,
-    /// The axes for which a move has stated a position since the last tool change or stop, at which the operator may have moved the axes, and for Z since
-    /// the last change of the tool length.
+    /// The axes for which a move has stated a position since the last tool change or stop, at which the operator may have moved the axes, and for Z
+    /// since the last change of the tool length.
     pub stated_since_stop: Axes,
 }
 
@@ -263,8 +263,8 @@ impl WorkSystem {
 /// Coordinate systems whose places relative to each other are known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Frame {
-    /// The first system of the program whose place relative to the selected one is known: usually the selected one itself, and the program's first one if
-    /// G10 has stated both places.
+    /// The first system of the program whose place relative to the selected one is known: usually the selected one itself, and the program's first
+    /// one if G10 has stated both places.
     pub system: WorkSystem,
     /// Number of times that the operator has moved the zero in X or Y during the program.
     pub zero: u32,

@@ -267,8 +267,8 @@ fn polling_notices_the_same() {
     assert!(said.iter().any(|line| line.contains("PB506")), "{said:#?}");
 }
 
-/// Polling sees only later modification times, in whole seconds. A drawing that has other contents under the same time, or an earlier one, is noticed all
-/// the same; one with the same contents under an earlier time is not reported.
+/// Polling sees only later modification times, in whole seconds. A drawing that has other contents under the same time, or an earlier one, is noticed
+/// all the same; one with the same contents under an earlier time is not reported.
 #[test]
 fn polling_notices_a_drawing_without_a_later_time() {
     let place = library();

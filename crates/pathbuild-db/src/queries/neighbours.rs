@@ -302,8 +302,8 @@ impl<'db> PlacedProgram<'db> {
         self.embedding_beside(path, other).unwrap_or((path, origin))
     }
 
-    /// Returns the innermost path that contains both paths, and its element that embeds the first one. `None` if the first path contains the other one,
-    /// or if none contains both and no path embeds the first one.
+    /// Returns the innermost path that contains both paths, and its element that embeds the first one. `None` if the first path contains the other
+    /// one, or if none contains both and no path embeds the first one.
     fn embedding_beside(&self, mut path: usize, other: usize) -> Option<(usize, &'db Origin)> {
         let around: Vec<usize> = self.path_and_embedders(other).collect();
         let mut found = None;

@@ -135,8 +135,8 @@ pub fn uncut_rings(db: &dyn Db, file: SourceFile) -> Vec<&[Curve]> {
     findings.uncut.iter().filter_map(ring).collect()
 }
 
-/// Returns PB220 for each outline that no path comes near, and PB223 for each outline in an opening that is cut as a part. The drawing is read again for
-/// the positions of the outlines.
+/// Returns PB220 for each outline that no path comes near, and PB223 for each outline in an opening that is cut as a part. The drawing is read again
+/// for the positions of the outlines.
 pub(super) fn doubtful_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
     let Some(findings) = example_findings(db, file).filter(|findings| has_doubtful_outlines(findings)) else {
         return Vec::new();

@@ -449,8 +449,8 @@ fn components_are_checked_with_the_values_of_the_project() {
     assert_eq!(found("mill", "0,0.5", "0.5"), ["PB215", "PB217"], "of the project, and of the component");
 }
 
-/// A path that only engraves leaves the outline to others; if there are none, the outline is not cut. A path with a through cut or support bars anywhere should also cut through along the
-/// outline: bars hold nothing where the plate is whole.
+/// A path that only engraves leaves the outline to others; if there are none, the outline is not cut. A path with a through cut or support bars
+/// anywhere should also cut through along the outline: bars hold nothing where the plate is whole.
 #[test]
 fn only_paths_with_through_cuts_or_bars_leave_material() {
     let path = |other: &str| {
@@ -658,7 +658,8 @@ fn of_rings_in_each_other_the_one_that_is_cut_must_be_met() {
     assert_eq!(milled(8.4), [""; 0]);
 }
 
-/// A hole is 2.9 or 3.1 mm from the edge, along which a cutter of 6 mm runs: material of the part lies between the two, so the cut is not for the hole.
+/// A hole is 2.9 or 3.1 mm from the edge, along which a cutter of 6 mm runs: material of the part lies between the two, so the cut is not for the
+/// hole.
 #[test]
 fn cuts_behind_the_material_of_the_part_do_not_cut_a_hole() {
     let with = |web: f64| {

@@ -76,8 +76,8 @@ pub struct Rules {
     pub refuses_idle_words: bool,
     /// Whether a drilling cycle that begins below R first rises to it and then goes to the hole, as in RS274/NGC, 3.5.16.1.
     pub rises_before_holes: bool,
-    /// Whether a hole with G98 is approached at the initial height even after holes with G99, so that the tool rises on a slant. Other controls move in
-    /// the plane at the present height.
+    /// Whether a hole with G98 is approached at the initial height even after holes with G99, so that the tool rises on a slant. Other controls move
+    /// in the plane at the present height.
     pub rises_on_way_to_holes: bool,
     /// Whether drilling cycles return to their initial height (G98) by default.
     pub lifts_to_start: bool,

@@ -455,8 +455,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Sets the coordinate of the current position. Where only the machine knows that position, after a probe, or after a stop at which the operator may
-    /// have touched off, coordinates are relative to it from here on.
+    /// Sets the coordinate of the current position. Where only the machine knows that position, after a probe, or after a stop at which the operator
+    /// may have touched off, coordinates are relative to it from here on.
     fn set_origin(&mut self, block: &Block<'_>, axis: usize, coordinate: f64) {
         let is_followed = self.state.followed_axes().has(Axes::of(axis));
         let is_moved_by_hand = self.state.position.known.has(Axes::of(axis)) && !is_followed;

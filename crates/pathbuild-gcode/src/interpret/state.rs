@@ -154,7 +154,8 @@ impl State {
         self.offsets.clear_reference_length();
     }
 
-    /// Returns the axes on which the program knows where the tool is: it has stated the position since the last stop, and no probe has made contact since.
+    /// Returns the axes on which the program knows where the tool is: it has stated the position since the last stop, and no probe has made contact
+    /// since.
     pub(super) fn followed_axes(&self) -> Axes {
         self.position.known.and(self.stated_since_stop.with(self.zeroed_since_stop))
     }
@@ -308,7 +309,8 @@ impl Offsets {
         Frame { system, zero: self.zero }
     }
 
-    /// Begins another frame in the active system, because the operator has set its zero in the plane. Positions before cannot be compared with those after.
+    /// Begins another frame in the active system, because the operator has set its zero in the plane. Positions before cannot be compared with those
+    /// after.
     pub(super) fn begin_frame(&mut self) -> Frame {
         self.zero += 1;
         self.frame(self.active)

@@ -1,5 +1,5 @@
-//! Finds cuts and rapid moves with the length of another tool or without any length, and cuts with a tool that was not replaced by the one that T had selected.
-//! (book: program/reading, "Tool lengths")
+//! Finds cuts and rapid moves with the length of another tool or without any length, and cuts with a tool that was not replaced by the one that T had
+//! selected. (book: program/reading, "Tool lengths")
 //!
 //! On every control with G43 the length in effect survives M6, so a program must set the length of each tool. A program that never uses G43 works
 //! with one zero per tool and is not checked.
@@ -141,7 +141,8 @@ impl<'c> LengthRules<'c> {
         });
     }
 
-    /// Checks the first rapid move that states Z with the current tool and length. Whether it hits anything depends on lengths that only the machine knows.
+    /// Checks the first rapid move that states Z with the current tool and length. Whether it hits anything depends on lengths that only the machine
+    /// knows.
     fn check_rapid(&mut self, line: u32) {
         if std::mem::replace(&mut self.is_rapid_judged, true) {
             return;

@@ -29,7 +29,8 @@ const CENTRE_LINE_HALF_WIDTH: f64 = 0.75;
 /// Width in mm beside a cut up to which material is attributed to rounding.
 const RESIDUE_WIDTH: f64 = 0.01;
 
-/// The side of a cell in mm for flat cutters, as long as a program is not too large: a rapid move that takes off more than some hundredths is a crash.
+/// The side of a cell in mm for flat cutters, as long as a program is not too large: a rapid move that takes off more than some hundredths is a
+/// crash.
 const FINE_RESOLUTION: f64 = 0.02;
 
 /// Upper bound on the cells visited at a resolution finer than that of the stock, so that the check takes a fraction of a second.
@@ -303,8 +304,8 @@ impl<'s> KnownMaterial<'s> {
         })
     }
 
-    /// Returns the width in mm that is not counted as material beside a cut. The centre of a cell is exact, but coordinates are rounded and the chords
-    /// of an arc keep away from it. Of a cutter that is not flat, the width is not known either.
+    /// Returns the width in mm that is not counted as material beside a cut. The centre of a cell is exact, but coordinates are rounded and the
+    /// chords of an arc keep away from it. Of a cutter that is not flat, the width is not known either.
     fn slack(&self) -> f64 {
         if self.is_flat { RESIDUE_WIDTH + self.resolution / CELL_PER_SAGITTA } else { self.resolution }
     }

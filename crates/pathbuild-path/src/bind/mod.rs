@@ -646,8 +646,8 @@ impl Binder<'_> {
         }
     }
 
-    /// Reports PB212 if P or U is given, but there are no bars and the cuts through the material form a ring, so that the part would come loose. Parts that are held
-    /// otherwise need no bars.
+    /// Reports PB212 if P or U is given, but there are no bars and the cuts through the material form a ring, so that the part would come loose.
+    /// Parts that are held otherwise need no bars.
     fn check_bars(&mut self, tool: Option<f64>) {
         let elements = &self.raw.drawn.elements;
         let has_letters = BAR_LETTERS.into_iter().any(|letter| self.values.has(letter));

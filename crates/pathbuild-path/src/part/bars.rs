@@ -62,8 +62,8 @@ pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
 }
 
 impl LostBar {
-    /// Returns PB218 for bars that the same element takes away from a path: a warning if all of them are too short, otherwise an error. The bar that loses most is named. `is_placed`: whether its place is given
-    /// in the program instead of in the drawing.
+    /// Returns PB218 for bars that the same element takes away from a path: a warning if all of them are too short, otherwise an error. The bar that
+    /// loses most is named. `is_placed`: whether its place is given in the program instead of in the drawing.
     pub fn problem<'l>(
         bars: impl IntoIterator<Item = &'l Self>,
         path: &PathCuts,

@@ -120,7 +120,8 @@ struct PartCheck<'s> {
     settings: &'s PartSettings,
     /// For each ring, whether a cut that may cut it out comes near.
     is_cut: Vec<bool>,
-    /// For each path, whether it may own the part and comes within O of one of its rings. Only these paths, the owners, can leave material at the part.
+    /// For each path, whether it may own the part and comes within O of one of its rings. Only these paths, the owners, can leave material at the
+    /// part.
     owners: Vec<bool>,
     /// For each path, whether it is an owner that cuts parts out.
     contours: Vec<bool>,

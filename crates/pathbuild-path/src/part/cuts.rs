@@ -98,8 +98,8 @@ impl PathCuts {
         self.elements[element as usize].origin.at(problem).in_path(self.name.as_str())
     }
 
-    /// Whether the path cuts parts out: one of its cuts goes through the plate or leaves support bars, which hold nothing where the plate is whole, and
-    /// it is not milled with a slot cutter.
+    /// Whether the path cuts parts out: one of its cuts goes through the plate or leaves support bars, which hold nothing where the plate is whole,
+    /// and it is not milled with a slot cutter.
     pub fn is_contour(&self) -> bool {
         let cuts_out = |element: &CutElement| element.lowest <= THROUGH_HEIGHT || element.supported.is_some();
         !self.is_slot && self.elements.iter().any(cuts_out)
@@ -171,7 +171,8 @@ impl<'c> CutIndex<'c> {
         self.boxes.near(widened(&extent, reach(self.largest_radius))).filter(is_near)
     }
 
-    /// Whether a cut may cut out an outline beside it: it goes through the plate, belongs to a segment with support bars, or is that of a slot cutter.
+    /// Whether a cut may cut out an outline beside it: it goes through the plate, belongs to a segment with support bars, or is that of a slot
+    /// cutter.
     pub(super) fn may_cut_out(&self, cut: &IndexedCut<'c>) -> bool {
         cut.through.is_some() || cut.element(self).supported.is_some() || self.paths[cut.path].is_slot
     }

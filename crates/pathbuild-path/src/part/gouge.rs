@@ -129,9 +129,9 @@ pub fn gouging_moves<'w>(
     stretches.collect()
 }
 
-/// Returns the level, in the program, from which cuts are measured to tell whether they spoil a part on a plate of this thickness. It is the level of the
-/// cutting path, which is raised by `height`, but not below the level of the part, and not above its material. So a cut through the plate of a path on
-/// shims that ends in this part spoils it, and is not taken for one of its grooves.
+/// Returns the level, in the program, from which cuts are measured to tell whether they spoil a part on a plate of this thickness. It is the level of
+/// the cutting path, which is raised by `height`, but not below the level of the part, and not above its material. So a cut through the plate of a
+/// path on shims that ends in this part spoils it, and is not taken for one of its grooves.
 pub(super) fn level_for_cuts(raised: f64, thickness: f64, height: f64) -> f64 {
     let highest = (thickness - MIN_CUT_DEPTH).max(0.0);
     raised + (height - raised).clamp(0.0, highest)

@@ -186,8 +186,8 @@ impl<'s> LeftoverSearch<'s> {
         let mut judged: Vec<_> =
             judged.map(|(ring, stretches)| (self.agreement(ring, &stretches), ring, stretches)).collect();
         judged.sort_by(|one, other| {
-            let left = |stretches: &RingStretches| total_length(stretches.stretches_left());
-            one.0.cmp(&other.0).then_with(|| left(&one.2).total_cmp(&left(&other.2)))
+            let length_left = |stretches: &RingStretches| total_length(stretches.stretches_left());
+            one.0.cmp(&other.0).then_with(|| length_left(&one.2).total_cmp(&length_left(&other.2)))
         });
         let is_exceeded = judged.iter().any(|(agreement, ..)| *agreement == Agreement::Exceeded);
         let (agreement, ring, mut stretches) = judged.into_iter().next()?;
@@ -370,8 +370,8 @@ impl<'s> LeftoverSearch<'s> {
         }
     }
 
-    /// Returns the numbers of the sweeps that run along a ring, at a distance of half of O and over more than O, with the stretches of the ring beside
-    /// them.
+    /// Returns the numbers of the sweeps that run along a ring, at a distance of half of O and over more than O, with the stretches of the ring
+    /// beside them.
     fn stretches_beside_sweeps(&self, ring: usize) -> BTreeMap<usize, Vec<Stretch>> {
         let mut found: BTreeMap<usize, Vec<Stretch>> = BTreeMap::new();
         let mut start = 0.0;
@@ -585,8 +585,8 @@ impl<'s> LeftoverSearch<'s> {
         near.or_else(|| self.nearest_of((0..self.cuts.cuts.len()).collect(), ring, at))
     }
 
-    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate is only considered where it reaches
-    /// the ring.
+    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate is only considered where it
+    /// reaches the ring.
     fn nearest_of(&self, near: Vec<usize>, ring: usize, at: Xy) -> Option<&'s IndexedCut<'s>> {
         let point = Curve::Line(Line { start: at, end: at });
         let curve = RingCurve { ring, curve: &point, near };

@@ -49,7 +49,8 @@ pub struct PartSettings {
 pub struct Part {
     /// The layer of the outermost ring.
     pub layer: SmolStr,
-    /// The paths to which the part may belong: the name captured by the pattern, in upper case and with points. `None` if the pattern captures nothing.
+    /// The paths to which the part may belong: the name captured by the pattern, in upper case and with points. `None` if the pattern captures
+    /// nothing.
     pub paths: Option<SmolStr>,
     /// The outermost ring, counterclockwise, then the openings, clockwise: the material is on the left.
     pub rings: Vec<PartRing>,

@@ -37,8 +37,9 @@ pub struct WasteCut {
 const MIN_STRETCH: f64 = 0.01;
 
 impl PlacedCuts<'_> {
-    /// Returns the first of some cuts of another path in the waste of an opening of this path's parts, if the earlier cuts in that opening leave nothing
-    /// that holds the waste. A cut where they have removed the waste does not count. `cuts` are indices into [`PathCuts::cuts`](super::PathCuts::cuts).
+    /// Returns the first of some cuts of another path in the waste of an opening of this path's parts, if the earlier cuts in that opening leave
+    /// nothing that holds the waste. A cut where they have removed the waste does not count. `cuts` are indices into
+    /// [`PathCuts::cuts`](super::PathCuts::cuts).
     pub fn cut_in_loose_waste(
         &self,
         later: &Self,

@@ -203,8 +203,8 @@ fn turned_moves(circle: &str, options: PathOptions) -> Vec<String> {
     shown(&program_with(&drawing, options), false)
 }
 
-/// A circle without bars begins below its centre, even if the embedding rotates the path. So does a circle with bars in compatible programs, where the
-/// half circles end there.
+/// A circle without bars begins below its centre, even if the embedding rotates the path. So does a circle with bars in compatible programs, where
+/// the half circles end there.
 #[test]
 fn circles_begin_below_the_centre_however_the_path_is_turned() {
     for milled in [turned_moves("circle 20,0 d 11", OPTIONS), turned_moves(BARS, COMPATIBLE)] {

@@ -151,8 +151,8 @@ impl Divider {
                 let [x, y, _] = way.point(*share);
                 libm::hypot(x - point[0], y - point[1]) <= CURVE_TOLERANCE
             };
-            let left = MAX_ADDITIONAL_PIECES.saturating_sub(self.additional + cuts.len());
-            cuts.extend(shares(way, point).take(left + 1).filter(is_on_way).map(|share| (share, point)));
+            let remaining = MAX_ADDITIONAL_PIECES.saturating_sub(self.additional + cuts.len());
+            cuts.extend(shares(way, point).take(remaining + 1).filter(is_on_way).map(|share| (share, point)));
         }
         cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
         cuts
@@ -247,9 +247,9 @@ mod tests {
         let (pieces, divider) = divide(0, 0);
         assert_eq!((pieces, divider.is_exhausted(), divider.additional), (3, false, 2));
         let searched = MAX_SEARCHED - divider.searched;
-        let of = |(pieces, divider): (usize, Divider)| (pieces, divider.is_exhausted());
-        assert_eq!(of(divide(MAX_ADDITIONAL_PIECES - 2, searched)), (3, false));
-        assert_eq!(of(divide(MAX_ADDITIONAL_PIECES - 1, 0)), (1, true));
-        assert_eq!(of(divide(0, searched + 1)), (1, true));
+        let outcome = |(pieces, divider): (usize, Divider)| (pieces, divider.is_exhausted());
+        assert_eq!(outcome(divide(MAX_ADDITIONAL_PIECES - 2, searched)), (3, false));
+        assert_eq!(outcome(divide(MAX_ADDITIONAL_PIECES - 1, 0)), (1, true));
+        assert_eq!(outcome(divide(0, searched + 1)), (1, true));
     }
 }

@@ -228,8 +228,8 @@ impl MachineStates {
         self.stated[kind as usize].get_or_insert_default().push(stated);
     }
 
-    /// Returns the first difference of each kind that is known on both sides. If the programs have different numbers of cuts, their words are compared
-    /// in order, regardless of the cuts to which they apply.
+    /// Returns the first difference of each kind that is known on both sides. If the programs have different numbers of cuts, their words are
+    /// compared in order, regardless of the cuts to which they apply.
     pub fn changes(&self, new: &Self) -> Vec<StateChange> {
         StateKind::ALL.into_iter().filter_map(|kind| self.first_change(new, kind)).collect()
     }

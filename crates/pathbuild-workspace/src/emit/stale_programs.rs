@@ -128,8 +128,8 @@ impl<'a> EarlierPrograms<'a> {
     ) -> StaleOutcome {
         let mut dealt = StaleOutcome::default();
         for stale in stale {
-            // Keep a program that may belong to another library, one that was copied or edited, because that work would be lost, and one whose drawing
-            // may become readable again.
+            // Keep a program that may belong to another library, one that was copied or edited, because that work would be lost, and one whose
+            // drawing may become readable again.
             let is_kept = matches!(
                 stale.reason,
                 Reason::Copied | Reason::OfOthers | Reason::Edited { .. } | Reason::Unread { .. }

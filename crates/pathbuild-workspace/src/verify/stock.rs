@@ -155,8 +155,8 @@ impl<'s> Sources<'s> {
         Some(Diagnostic::new(&say::CUTS_ABOVE_SURFACE).with("found", lowest).with("given", given))
     }
 
-    /// Returns the outcome of the check of rapid moves. `blind` counts the rapid moves that start at an unknown position, `found` are the findings of all
-    /// rules.
+    /// Returns the outcome of the check of rapid moves. `blind` counts the rapid moves that start at an unknown position, `found` are the findings of
+    /// all rules.
     pub(super) fn rapids(
         &self,
         is_limit_reached: bool,

@@ -203,8 +203,8 @@ impl GraphTexts {
     }
 }
 
-/// Formats one line per embedding, such as `8001.1P > 2051.1P :A0,5`, or `2051.2P @ 2051.1P` for borrowed parameters, sorted by the embedding path. Paths without any embeddings get a
-/// line of their own.
+/// Formats one line per embedding, such as `8001.1P > 2051.1P :A0,5`, or `2051.2P @ 2051.1P` for borrowed parameters, sorted by the embedding path.
+/// Paths without any embeddings get a line of their own.
 fn list(graph: &Graph, words: &GraphTexts) -> String {
     let (below, above) = (graph.neighbours(Direction::Down), graph.neighbours(Direction::Up));
     let mut text = String::new();

@@ -79,7 +79,8 @@ impl<'db> PlacedProgram<'db> {
         nearest.into_values().filter(|partners| partners.displacement() > self.settings.tolerance).collect()
     }
 
-    /// Returns two paths as partners if they cut a part together and place it less than O apart. In joined programs, they belong to different programs.
+    /// Returns two paths as partners if they cut a part together and place it less than O apart. In joined programs, they belong to different
+    /// programs.
     fn partners(&self, one: &CuttingPath<'db>, other: &CuttingPath<'db>) -> Option<Partners<'db>> {
         let [cuts, other_cuts] = [one, other].map(|path| &self.paths[path.number].cuts);
         let diameter = 2.0 * cuts.cuts.radius.max(other_cuts.cuts.radius);

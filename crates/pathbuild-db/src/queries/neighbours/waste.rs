@@ -70,8 +70,8 @@ impl<'db> PlacedProgram<'db> {
             && !(self.is_joined && self.root(owner) == self.root(later))
     }
 
-    /// Returns the cuts of the first paths that are made before a section of a path is milled, except for those of the same drawing at the same place.
-    /// The number of paths is [`Section::paths_before`].
+    /// Returns the cuts of the first paths that are made before a section of a path is milled, except for those of the same drawing at the same
+    /// place. The number of paths is [`Section::paths_before`].
     fn cuts_before(&self, later: usize, paths_before: usize) -> Vec<EarlierCuts<'_, 'db>> {
         let PlacedPath { instance, cuts, .. } = &self.paths[later];
         let is_other = |path: &usize| !self.is_at(&self.paths[*path], *instance, &cuts.placement);

@@ -14,8 +14,8 @@ const SEARCH_PIECE: f64 = 0.25;
 /// Maximum number of pieces of a rapid move.
 const MAX_PIECES: f64 = 400.0;
 
-/// Returns the pieces of a path's rapid moves that hit material. `index` is that of the path. Several blanks, whose upper faces are in ascending order,
-/// may overlap: away from cuts, there is certainly material up to the lowest upper face only.
+/// Returns the pieces of a path's rapid moves that hit material. `index` is that of the path. Several blanks, whose upper faces are in ascending
+/// order, may overlap: away from cuts, there is certainly material up to the lowest upper face only.
 pub(super) fn hits(scene: &Scene, path: &ScenePath, index: u32, blanks: &[Blank]) -> Vec<MovePiece> {
     let Some((_, lowest)) = blanks.first() else { return Vec::new() };
     let everywhere = blanks.iter().map(|(corners, _)| *corners).reduce(joined).map(|all| (all, *lowest));
@@ -48,8 +48,8 @@ fn hits_in(scene: &Scene, path: &ScenePath, index: u32, blank: Option<Blank>) ->
     hits
 }
 
-/// The moves of a path in the form in which hits are searched: rapid moves below a surface are divided into pieces, so that only those pieces are found
-/// that hit material.
+/// The moves of a path in the form in which hits are searched: rapid moves below a surface are divided into pieces, so that only those pieces are
+/// found that hit material.
 struct HitSearch<'s> {
     scene: &'s Scene,
     path: &'s ScenePath,

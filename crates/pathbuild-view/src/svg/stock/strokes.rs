@@ -244,8 +244,8 @@ pub(super) struct StrokeBuilder {
 }
 
 impl StrokeBuilder {
-    /// Adds the strokes that a cut paints. A slope is divided into pieces, each of which has the height of its upper end; so is an arc that bulges up or
-    /// down. Only level cuts have an edge: those of neighbouring slopes would cover each other's surfaces.
+    /// Adds the strokes that a cut paints. A slope is divided into pieces, each of which has the height of its upper end; so is an arc that bulges up
+    /// or down. Only level cuts have an edge: those of neighbouring slopes would cover each other's surfaces.
     pub(super) fn cut(&mut self, at: MovePiece, way: &Move, setting: &CuttingConditions) {
         let step = self.step;
         let [from, to] = [way.from.z(), way.to.z()];
