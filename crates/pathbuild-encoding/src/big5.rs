@@ -44,12 +44,12 @@ mod tests {
     use super::*;
     use crate::BIG5;
 
-    fn standard(bytes: &[u8]) -> (String, bool) {
+    fn decode_by_standard(bytes: &[u8]) -> (String, bool) {
         let (text, had_errors) = BIG5.decode_without_bom_handling(bytes);
         (text.into_owned(), !had_errors)
     }
 
-    fn own(bytes: &[u8]) -> (String, bool) {
+    fn decode_by_pairs(bytes: &[u8]) -> (String, bool) {
         decode(bytes, |pair| {
             let known = BIG5.decode_without_bom_handling_and_without_replacement(&pair);
             known.map(std::borrow::Cow::into_owned)
@@ -59,11 +59,11 @@ mod tests {
     #[test]
     fn all_pairs_and_what_follows_them_are_those_of_the_standard() {
         for first in 0..=u8::MAX {
-            assert_eq!(own(&[first]), standard(&[first]), "{first:02x}");
+            assert_eq!(decode_by_pairs(&[first]), decode_by_standard(&[first]), "{first:02x}");
             for second in 0..=u8::MAX {
                 for third in [0x20, 0x41, 0x7F, 0x80, 0x81, 0xA4, 0xFE, 0xFF] {
                     let bytes = [first, second, third];
-                    assert_eq!(own(&bytes), standard(&bytes), "{bytes:02x?}");
+                    assert_eq!(decode_by_pairs(&bytes), decode_by_standard(&bytes), "{bytes:02x?}");
                 }
             }
         }

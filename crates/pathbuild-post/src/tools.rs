@@ -62,7 +62,7 @@ struct Checker<'j> {
     tip_height: TipHeight,
     /// Line of the first move in the plane since the last cut that follows a stop, with no height stated between them.
     moved_low: Option<u32>,
-    /// For each step of the job that is a stop, whether the spindle may turn there.
+    /// For each step of the job, whether the spindle may turn during it if it is a stop; `None` for other steps.
     stops: Vec<Option<bool>>,
     /// Number of the job's steps before the last cut.
     reached: usize,

@@ -33,14 +33,14 @@ const NEGLIGIBLE_DISTANCE: f64 = 0.001;
 const SAMPLE_LENGTH: f64 = 20.0;
 
 impl Correction {
-    /// Whether the correction is that of the original tool, which corrects a move by the value at its start, and a helical circle by the
+    /// Whether the correction is that of PathDxf2GCode, which corrects a move by the value at its start, and a helical circle by the
     /// value at its centre.
     pub fn is_compatible(self) -> bool {
         self.model == ZModel::Idw4 && self.longest <= 0.0
     }
 
     /// Returns the steps of a program with probes, split and with each height corrected at the end of its move. Programs without probes, and those
-    /// corrected as by the original tool, are returned unchanged.
+    /// corrected as by PathDxf2GCode, are returned unchanged.
     pub fn steps(self, program: &Program) -> Cow<'_, [ProgramStep]> {
         if program.probes.is_empty() || self.is_compatible() {
             return Cow::Borrowed(&program.steps);

@@ -291,7 +291,7 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
         if !near(to, surface) {
             let z = Height { z: to, at: self.tip.at };
             let count = Count { class: MoveClass::Drilling, length: (surface - to).abs(), feed: Some(feed) };
-            // The original tool writes no feed, so its plunges run at the previous feed.
+            // PathDxf2GCode writes no feed, so its plunges run at the previous feed.
             let feed = if self.compatible { self.last_feed } else { feed };
             self.step(PlannedMove::Drill { feed, z }, count, Tip { z: to, ..self.tip });
         }

@@ -196,7 +196,7 @@ impl<P: FoldPaths> Fold<'_, P> {
     }
 
     /// Returns the circle of a helix. The lowest point of a circle with support bars, from which they are distributed, is that in its drawing: the
-    /// bars turn with the path. All other circles begin at their lowest point in the program, as those of the original tool do.
+    /// bars turn with the path. All other circles begin at their lowest point in the program, as those of PathDxf2GCode do.
     fn placed_circle(&self, place: &PlacedPath<'_>, helix: &Helix) -> Circle {
         let (centre, feed) = (place.placement.place(helix.centre), self.feed_or_default(helix.feed));
         let circle = Circle::from_lowest_point(centre, helix.axis_radius(place.path.tool), feed);
@@ -251,7 +251,7 @@ impl<P: FoldPaths> Fold<'_, P> {
         let length = 2.0 * PI * circle.radius;
         let Some(plan) = BarPlan::new(bars, depth, place.path.tool, length) else { return done };
         let (low, high) = (place.raised + depth, place.raised + bars.top);
-        // The original tool continues from the end of its spiral, which may already be below B.
+        // PathDxf2GCode continues from the end of its spiral, which may already be below B.
         let mut z = if self.compatible { done } else { high };
         while above(z, low) {
             self.checkpoint();

@@ -106,7 +106,7 @@ pub(crate) const FIRST_FEED: f64 = 150.0;
 
 /// A move or a comment, as the writer of a program needs it.
 ///
-/// It carries what a step of the machine (`pathbuild_motion::Step`) cannot: how the original tool counts the move, the point for which its
+/// It carries what a step of the machine (`pathbuild_motion::Step`) cannot: how PathDxf2GCode counts the move, the point for which its
 /// height is corrected, half circles of helices, and comments that name elements. [`Program::moves`] gives the machine's moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the type says it")]
@@ -159,7 +159,7 @@ pub struct Height {
     pub at: Xy,
 }
 
-/// The contribution of a move to the statistics of the original tool.
+/// The contribution of a move to the statistics of PathDxf2GCode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Count {
     /// The label under which the move is counted.
@@ -170,7 +170,7 @@ pub struct Count {
     pub feed: Option<f64>,
 }
 
-/// The labels of the original tool's statistics.
+/// The labels of PathDxf2GCode's statistics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum MoveClass {
@@ -366,7 +366,7 @@ fn whole(number: f64) -> u64 {
     number as u64
 }
 
-/// The totals of a program, by the labels of the original tool's statistics.
+/// The totals of a program, by the labels of PathDxf2GCode's statistics.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Statistics {

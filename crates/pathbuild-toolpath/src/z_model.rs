@@ -180,7 +180,7 @@ const PROBES_PER_POINT: usize = 4;
 /// Relative difference of weights below which the tree may order them wrongly, so that they are ordered by index.
 const WEIGHT_TOLERANCE: f64 = 1e-12;
 
-/// The model of the original tool. (book: language/probes)
+/// The model of PathDxf2GCode ([`ZModel::Idw4`]): the four nearest probes, weighted by the inverse of their distance. (book: language/probes)
 #[derive(Clone, Debug)]
 pub(super) struct NearestProbes {
     /// Positions with the indices of their probes. Only the first few at the same position can be used.
@@ -259,7 +259,7 @@ pub fn odd_probes(probes: &[(Xy, f64)]) -> Vec<OddProbe> {
     odd.collect()
 }
 
-/// The plane through all probes, and their scatter around it.
+/// The plane with the smallest sum of squared distances from all probes.
 struct PlaneFit {
     scatter: Scatter,
     inverse: Matrix2<f64>,

@@ -586,7 +586,7 @@ pub struct Trace {
     pub lookups: Vec<NameLookup>,
 }
 
-/// A name that was looked up.
+/// A lookup of a path by its name, with the directories that were searched.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct NameLookup {
     /// Name of the path.

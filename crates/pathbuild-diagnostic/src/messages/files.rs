@@ -19,8 +19,8 @@ messages! {
     LINE_TOO_LONG: UnreadableFile {
         en: "cannot read the file: a line is longer than {limit} bytes",
         de: "die Datei ist nicht lesbar: eine Zeile ist länger als {limit} Bytes",
-        help_en: "shorten the line, or move the file away if it holds no patterns",
-        help_de: "die Zeile kürzen oder die Datei woanders ablegen, wenn sie keine Muster enthält",
+        help_en: "shorten the line; if the file is not a list of ignore patterns, move it elsewhere",
+        help_de: "die Zeile kürzen; enthält die Datei keine Ignore-Muster, sie woanders ablegen",
     }
     /// A directory that the system refuses to list.
     UNLISTABLE: UnreadableFile {

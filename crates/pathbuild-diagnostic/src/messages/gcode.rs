@@ -31,14 +31,14 @@ messages! {
     /// A word that the post does not write and that is not interpreted, in a program read in the post's dialect.
     FOREIGN_WORD: ForeignWord {
         en: "{word} is not checked: the post for {dialect} does not write it, and its effect is not tracked",
-        de: "{word} ist nicht geprüft: der Postprozessor für {dialect} schreibt es nicht, und seine Wirkung wird nicht berücksichtigt",
+        de: "{word} wird nicht geprüft: der Postprozessor für {dialect} schreibt es nicht, und seine Wirkung wird nicht berücksichtigt",
         help_en: "remove it, or check its effect at the control",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }
     /// A word that the post does not write and that is not interpreted, in a program read by means of the post's definition.
     FOREIGN_TO_DEFINITION: ForeignWord {
         en: "{word} is not checked: {post} does not write it, and its effect is not tracked",
-        de: "{word} ist nicht geprüft: {post} schreibt es nicht, und seine Wirkung wird nicht berücksichtigt",
+        de: "{word} wird nicht geprüft: {post} schreibt es nicht, und seine Wirkung wird nicht berücksichtigt",
         help_en: "remove it, or check its effect at the control",
         help_de: "das Wort entfernen oder an der Steuerung prüfen, was es bewirkt",
     }

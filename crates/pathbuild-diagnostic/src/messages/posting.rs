@@ -50,14 +50,14 @@ messages! {
         help_en: "add it as [tool.NAME] to pathbuild.toml",
         help_de: "als [tool.NAME] in pathbuild.toml aufnehmen",
     }
-    /// A tool number that is missing from the tool table.
+    /// A tool number that is missing from the tool table, in a program that a post writes.
     TOOL_NUMBER_UNKNOWN: UnknownTool {
         en: "the tool table has no tool with the number {index}: the diameter of T{index} is unknown, and a post that writes it writes 0",
         de: "die Werkzeugtabelle hat kein Werkzeug mit der Nummer {index}: der Durchmesser von T{index} ist unbekannt, und ein Postprozessor, der ihn schreibt, schreibt 0",
         help_en: "add it as [tool.NAME] with `number` to pathbuild.toml",
         help_de: "als [tool.NAME] mit `number` in pathbuild.toml aufnehmen",
     }
-    /// A tool number that is missing from the tool table and not written.
+    /// `verify`: a change to a tool that is missing from the tool table.
     TOOL_NOT_IN_TABLE: UnknownTool {
         en: "T{index} is not in the tool table",
         de: "T{index} ist nicht in der Werkzeugtabelle",

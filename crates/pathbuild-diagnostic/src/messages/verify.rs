@@ -73,14 +73,14 @@ messages! {
     }
     /// `verify --against`: a probing program with another move than the drawing's.
     PROBING_NOT_DRAWN: MovesDiffer {
-        en: "the drawing's probing run has `{expected}` here",
+        en: "the drawing's probing program has `{expected}` here",
         de: "das Antastprogramm der Zeichnung hat hier `{expected}`",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
     /// `verify --against`: a probing program that goes on after the end of the drawing's.
     PROBING_ENDED: MovesDiffer {
-        en: "the drawing's probing run has no line here: it has ended",
+        en: "the drawing's probing program has no line here: it has ended",
         de: "das Antastprogramm der Zeichnung hat hier keine Zeile mehr: es ist zu Ende",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
@@ -141,7 +141,7 @@ messages! {
         help_en: "correct Q of the cycle, or write the program again with `pathbuild emit`",
         help_de: "Q des Zyklus berichtigen oder das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: a cut before the program switches the spindle.
+    /// `verify --against`: a cut before the program switches the spindle on.
     SPINDLE_NOT_SWITCHED: MovesDiffer {
         en: "the program has not switched the spindle on, but the drawing's cutter needs `{expected}`",
         de: "das Programm hat die Spindel nicht eingeschaltet, der Fräser der Zeichnung braucht aber `{expected}`",

@@ -337,7 +337,7 @@ impl Ellipse {
         Ok(pieces)
     }
 
-    /// Whether the whole ellipse is within the largest coordinate of a drawing.
+    /// Whether the coordinates of the centre and of both half axes are at most [`MAX_COORDINATE`].
     fn is_near(&self) -> bool {
         let Point3 { x, y, .. } = self.centre;
         [Vector { x, y }, self.major, self.minor].into_iter().all(Vector::is_near)

@@ -286,7 +286,7 @@ impl Writer<'_> {
     }
 }
 
-/// Removes the last word of a text and keeps the blank before it.
+/// Removes the last word of a text and the blank before it.
 fn without_last_word(text: &[u8]) -> &[u8] {
     text.iter().rposition(|byte| *byte == b' ').map_or(text, |end| &text[..end])
 }

@@ -135,8 +135,8 @@ fn with_all_words(head: &[u8], guess: Guess) -> Guess {
         .map_or(guess, |dialect| Guess { dialect, evidence: Evidence { reason, ..guess.evidence } })
 }
 
-/// Whether a program states units or distances by words that XpertMILL does not know. XpertMILL would interpret the inches of such a program as
-/// millimetres.
+/// Whether a program sets the unit or the distance mode with G20, G21, G90 or G91, which XpertMILL does not know. XpertMILL would interpret the
+/// inches of such a program as millimetres.
 fn states_modes(head: &[u8]) -> bool {
     let mut reader = BlockReader::new(head, Dialect::Xpertmill.rules());
     while let Some(block) = reader.next_block() {

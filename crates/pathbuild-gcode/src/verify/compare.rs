@@ -307,8 +307,8 @@ pub(super) fn check_pace(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> R
     }
 }
 
-/// Compares a stretch with another one up to a fraction of the latter. `radius_error`, the difference in mm between the radii of the expected
-/// stretch, extends the tolerance, because the centre of that stretch is not known more exactly.
+/// Compares the shape of a stretch with that of another one, which ends at the fraction `other_end` of its move. `radius_error`, the difference in
+/// mm between the radii at the start and the end of the expected stretch, extends the tolerance, because its centre is not known more exactly.
 pub(super) fn check_shape(
     one: &Stretch,
     other: &Stretch,

@@ -177,7 +177,7 @@ impl<'s> PartCheck<'s> {
         })
     }
 
-    /// Whether cuts through the plate run half of O beside the outside of a ring all round, and leave what lies in it.
+    /// Whether cuts through the plate follow the whole outside of a ring at a distance of half of O, and none lies directly inside the ring.
     fn is_cut_round(&self, ring: usize, drawn: &PartRing) -> bool {
         let is_followed = |curve: &Curve, share: f64| {
             let extent = widened_box(curve, 0.0);

@@ -198,7 +198,7 @@ impl<'a> EarlierPrograms<'a> {
         let done = self.jobs.iter().filter(is_done);
         let done: HashSet<Target> = done.flat_map(|job| job.targets.iter().copied()).collect();
         let open = targets.iter().filter(|target| !done.contains(target));
-        let mut listings = Listings::default();
+        let mut listings = ProgramListings::default();
         // Two drawings may yield the same program.
         let mut known = HashSet::new();
         let older = |target: &Target| {
@@ -214,7 +214,7 @@ impl<'a> EarlierPrograms<'a> {
 
     /// Returns the programs on disk that belong to a target. Their names begin with the name of the drawing or of the path, and the head of each
     /// program names its path.
-    fn programs_of_target(&self, target: Target, listings: &mut Listings) -> Vec<Utf8PathBuf> {
+    fn programs_of_target(&self, target: Target, listings: &mut ProgramListings) -> Vec<Utf8PathBuf> {
         let db = self.session.db();
         let (drawing, path) = (target.file(db).path(db), &**target.name(db));
         let directory = output_directory(self.session.out_dir().as_deref(), drawing);
@@ -567,12 +567,12 @@ fn is_outside(session: &Session<'_>, directory: &Utf8Path) -> bool {
 
 /// The programs in output directories. Each directory is listed at most once, when its programs are first requested.
 #[derive(Default)]
-struct Listings {
+struct ProgramListings {
     programs: HashMap<Utf8PathBuf, Vec<(String, Utf8PathBuf)>>,
     problems: Vec<Diagnostic>,
 }
 
-impl Listings {
+impl ProgramListings {
     /// Returns the programs in a directory with names that begin with `stem`, ignoring case.
     fn programs_beginning_with(
         &mut self,

@@ -1,4 +1,5 @@
-//! The entries of a description, from which values are taken one by one. Entries that are never taken have no corresponding key.
+//! The entries of a machine description, from which the values of known keys are taken one by one. The remaining entries have no counterpart in
+//! `pathbuild.toml` and are returned as unused.
 
 use pathbuild_diagnostic::messages::configuration::{NUMBER, POSITIVE};
 use pathbuild_diagnostic::messages::import as say;

@@ -456,7 +456,7 @@ pub enum ConfigCommand {
         /// Also say where each value comes from
         #[arg(long)]
         origin: bool,
-        /// Places with the configuration to show: drawings, paths and directories.
+        /// Drawings, paths and directories whose configuration is shown.
         #[command(flatten)]
         inputs: InputArgs,
     },

@@ -48,8 +48,8 @@ fn hits_in(scene: &Scene, path: &ScenePath, index: u32, blank: Option<Blank>) ->
     hits
 }
 
-/// The moves of a path in the form in which hits are searched: rapid moves below a surface are divided into pieces, so that only those pieces are
-/// found that hit material.
+/// The moves of a path, prepared for the search for hits: rapid moves below a surface are divided into pieces, so that only the pieces that hit
+/// material are reported.
 struct HitSearch<'s> {
     scene: &'s Scene,
     path: &'s ScenePath,
