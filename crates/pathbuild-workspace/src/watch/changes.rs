@@ -1,4 +1,4 @@
-//! Collects changes on disk in batches. Events are debounced, and a batch waits for files that a CAD program is still writing.
+//! Collects changes on disk in batches. Events are debounced, and drawings that a CAD program is still writing are held back for a later batch.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub(super) struct Watcher {
     pub(super) bell: WakeHandle,
     source: Box<dyn notify::Watcher>,
     debounce: Duration,
-    /// The files of the configuration and of the post-processor, as the paths that events report.
+    /// The files of the configuration and of the post-processor, and the baseline, as the paths that events report.
     configuration: BTreeSet<Utf8PathBuf>,
     directories: WatchedDirectories,
     /// Path of the working directory at the start; `None` if no watched path is relative.
@@ -38,7 +38,7 @@ pub(super) struct Watcher {
     is_woken: bool,
     /// Whether the end of watching was requested.
     is_over: bool,
-    /// Time at which to check the configuration and the files on which results depend once more; `None` if all of their changes are reported.
+    /// Time of the next check of the configuration and of the known files while polling; `None` if the system reports all changes.
     next_poll: Option<Instant>,
     polled: PolledFiles,
     /// Incomplete drawings, each with the time after which it is read although it is incomplete.
@@ -57,10 +57,11 @@ pub(super) enum WaitOutcome {
     Over,
 }
 
-/// Interval at which network drives are polled.
+/// Interval at which directories are polled if that is requested, as for network drives.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Resolution of the times by which polling notices changes, with a margin: a change within a second after the first look is not noticed.
+/// Interval at which the configuration and the known files are checked while polling, in addition to [`PollWatcher`]: that one compares modification
+/// times in whole seconds, so it misses a second change within a second. Includes a margin.
 const POLL_RESOLUTION: Duration = Duration::from_millis(1100);
 
 /// Interval at which the path of the working directory is checked.
@@ -73,7 +74,7 @@ const INCOMPLETE_DRAWING_TIMEOUT: Duration = Duration::from_secs(2);
 const INCOMPLETE_DRAWING_INTERVAL: Duration = Duration::from_millis(50);
 
 impl Watcher {
-    /// Starts watching. `post` lists the files that make up the post-processor.
+    /// Starts watching. `post` lists the files that make up the post-processor, and the baseline.
     pub(super) fn new(
         session: &Session<'_>,
         request: &Request<'_>,
@@ -118,7 +119,7 @@ impl Watcher {
         })
     }
 
-    /// Watches the targets of the files that are links. If the system refuses to watch a target, returns the file with the system's reason.
+    /// Watches the targets of those files that are links. If the system refuses to watch a target, returns the file with the system's reason.
     pub(super) fn watch_link_targets(
         &mut self,
         session: &Session<'_>,
@@ -160,7 +161,7 @@ impl Watcher {
         }
     }
 
-    /// Returns the time until the next deadline, if no more events arrive.
+    /// Returns the time until the next deadline, if no more events arrive; [`Duration::MAX`] if nothing is pending.
     fn time_to_deadline(&self, library: &Library<'_>) -> Duration {
         if self.pending.is_empty() && self.unfinished.is_empty() && !library.has_backlog() {
             return Duration::MAX;
@@ -179,7 +180,7 @@ impl Watcher {
         (!changes.is_empty() || library.has_backlog()).then_some(WaitOutcome::Changes(changes))
     }
 
-    /// Whether drawings have changed since the last batch, or the end of watching was requested.
+    /// Whether there is a reason to end the batch early: drawings have changed, events were lost, or watching must start again or end.
     pub(super) fn has_news(&mut self, session: &Session<'_>) -> bool {
         self.poll_signals(session);
         let pending = &self.pending;
@@ -333,7 +334,7 @@ fn is_unfinished(system: &dyn System, path: &Utf8Path) -> bool {
 
 /// The files on which results depend, each with the state in which polling last found it.
 ///
-/// Polling for events compares modification times in whole seconds and only notices later ones, but a file may change twice within a second, or be
+/// [`PollWatcher`] compares modification times in whole seconds and only notices later ones, but a file may change twice within a second, or be
 /// replaced by an older one. (book: reference/decisions)
 #[derive(Debug, Default)]
 struct PolledFiles(HashMap<SourceFile, PolledFile>);

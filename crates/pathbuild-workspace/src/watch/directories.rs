@@ -50,7 +50,7 @@ impl EventPath {
 }
 
 impl WatchedDirectories {
-    /// Collects the directories of a request. `post` lists the files that make up the post-processor.
+    /// Collects the directories of a request. `post` lists the files that make up the post-processor, and the baseline.
     pub(super) fn new(session: &Session<'_>, request: &Request<'_>, post: &[Utf8PathBuf]) -> Self {
         let (mut watched, mut roots, mut names) = (BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
         let workspace = session.workspace();
@@ -93,7 +93,7 @@ impl WatchedDirectories {
         Ok(())
     }
 
-    /// Watches the targets of the files that are links. If the system refuses to watch a target, returns the file with the system's reason.
+    /// Watches the targets of those files that are links. If the system refuses to watch a target, returns the file with the system's reason.
     pub(super) fn follow(
         &mut self,
         source: &mut dyn Watcher,
@@ -272,8 +272,8 @@ fn is_refusal(error: &notify::Error) -> bool {
     }
 }
 
-/// Returns the directories to watch: those of drawings, the search directories, and those of the configuration and the post-processor. Missing
-/// directories are included because they may appear later.
+/// Returns the directories to watch: those of drawings, the search directories, and those of the configuration, the post-processor and the baseline.
+/// Missing directories are included because they may appear later.
 fn directories(
     session: &Session<'_>,
     request: &Request<'_>,

@@ -30,26 +30,27 @@ pub struct Request<'a> {
 
 /// A receiver of reports from the watch loop. Callbacks get the session, so that they can query more than the findings.
 pub trait Listener {
-    /// Whether the files of the configuration still have the contents that were loaded. Called when the system begins to report changes of these
-    /// files, because they may have changed before.
+    /// Whether the files of the configuration still have the contents that were loaded. Called when watching begins, because they may have changed
+    /// since they were loaded, and at intervals while polling.
     fn is_configuration_current(&self) -> bool {
         true
     }
     /// Receives the handle that wakes the watcher from other threads.
     fn set_wake_handle(&self, _: WakeHandle) {}
-    /// Called when drawings were found and read, before they are checked. The diagnostics are those of arguments and directories.
+    /// Called after the drawings have been found and read, before they are checked. The diagnostics are those of arguments and directories.
     fn drawings_found(&self, _: &mut Session<'_>, _: &[SourceFile], _: &[Diagnostic]) {}
-    /// Called when drawings were checked and, if requested, their programs were written through this post-processor.
+    /// Called after drawings have been checked. If programs are requested, they have been written through this post-processor; the first check writes
+    /// them last, and then passes their drawings once more.
     fn drawings_checked(&self, _: &mut Session<'_>, _: &[SourceFile], _: Option<&PostProcessor>) {}
-    /// Called when a wake-up was requested through the [`WakeHandle`].
+    /// Called after a wake-up has been requested through the [`WakeHandle`].
     fn woken(&self, _: &mut Session<'_>) {}
-    /// Called when all drawings were checked for the first time.
+    /// Called after all drawings have been checked for the first time.
     fn first_check_done(&self, _: &FirstCheck) {}
-    /// Called when a batch of changes was processed.
+    /// Called after a batch of changes has been processed.
     fn batch_done(&self, _: &Update) {}
     /// Called for links to targets that cannot be watched, with the system's reason.
     fn not_watched(&self, _: &[(Utf8PathBuf, String)]) {}
-    /// Called when programs were written.
+    /// Called after programs have been written.
     fn programs_written(&self, _: Vec<ProgramOutcome>) {}
     /// Called when programs cannot be written because options are missing; the text names them.
     fn options_missing(&self, _: &str) {}
@@ -78,7 +79,7 @@ pub struct FirstCheck {
 /// The result of a batch of changes.
 #[derive(Clone, Debug, Default)]
 pub struct Update {
-    /// Number of the batch, counted from 1.
+    /// Number of the revision, counted from 1. A batch that only tries drawings again has the number of the batch before it.
     pub revision: u64,
     /// The changed files that caused the batch.
     pub changed: BTreeSet<Utf8PathBuf>,
@@ -94,9 +95,9 @@ pub struct Update {
     pub checked_files: Vec<SourceFile>,
     /// Number of drawings still to be checked, because more changes arrived.
     pub open: usize,
-    /// Previous diagnostics of the checked drawings.
+    /// Previous diagnostics of everything that was checked again or removed: drawings, Q-projects, programs, directories.
     pub before: Vec<Diagnostic>,
-    /// Current diagnostics of the checked drawings.
+    /// Current diagnostics of everything that was checked: drawings, Q-projects, programs, directories.
     pub now: Vec<Diagnostic>,
     /// The findings that are reported now and were not before, as `check` reports them.
     pub new: Vec<Diagnostic>,
@@ -161,7 +162,7 @@ pub(super) enum Signal {
     Over,
 }
 
-/// A handle that wakes the watching thread. May be cloned and used by any thread.
+/// A handle that wakes or stops the watching thread. May be cloned and used by any thread.
 #[derive(Clone, Debug)]
 pub struct WakeHandle(pub(super) Sender<Signal>);
 
@@ -182,7 +183,7 @@ impl WakeHandle {
 pub(super) enum Restart {
     /// A watched directory, or a parent of one, appeared, disappeared or was replaced.
     Directories,
-    /// The configuration or a file of the post-processor changed.
+    /// The configuration, a file of the post-processor or the baseline changed.
     Configuration,
 }
 

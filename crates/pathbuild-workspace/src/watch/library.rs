@@ -155,7 +155,7 @@ impl<'a> Library<'a> {
     }
 
     /// Marks drawings with transient diagnostics to be checked again, except those just checked, and lists unreadable directories again. `further`
-    /// names drawings whose programs could not be written.
+    /// names drawings with programs that have transient diagnostics or could not be written.
     pub(super) fn mark_transient(
         &mut self,
         further: &BTreeSet<Utf8PathBuf>,
@@ -242,7 +242,7 @@ impl<'a> Library<'a> {
         self.drawings.contains_key(drawing) || self.open.contains_key(drawing)
     }
 
-    /// Whether a change of this file or directory may decide which drawings or configurations there are, even if no drawing changed.
+    /// Whether a change of this file or directory may add or remove drawings or configurations, even if no drawing changed.
     fn may_be_other_library(&self, path: &Utf8Path) -> bool {
         let decides = |name: &str| is_ignore_file(name) || name == FILE_NAME;
         let mut named = self.problems.iter().filter_map(|problem| problem.file.as_ref());
@@ -404,7 +404,7 @@ impl<'a> Library<'a> {
         update.checked_files.extend(checked_files);
     }
 
-    /// Compares drawings with their Q-projects, if either was checked or has gone.
+    /// Compares drawings with their Q-projects, if one of the two was checked or the pair is new.
     fn compare_q_projects(&mut self, checked_files: &[SourceFile], update: &mut Update) {
         if self.pairs.is_none() {
             self.find_pairs(update);

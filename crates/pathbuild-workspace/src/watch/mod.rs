@@ -76,7 +76,7 @@ struct WatchLoop<'a> {
     revision: u64,
 }
 
-/// Number of drawings that the first check processes between two wake-ups.
+/// Number of drawings that the first check processes before it handles a pending wake-up or the end of watching.
 const FIRST_PORTION: usize = 512;
 
 /// Number of drawings checked between polls for new changes.
@@ -142,7 +142,8 @@ impl WatchLoop<'_> {
         }
         self.revision += 1;
         let checked_files = self.work_on(affected);
-        // Checking drawings again may take as long as the time limit allows, so it must not delay the results of the change itself.
+        // Drawings and programs with transient diagnostics, such as an exceeded time limit, may take that long again, so they must not delay the
+        // results of the change itself.
         if !self.library.has_backlog() && !self.watcher.has_news(self.library.session()) {
             let unwritten = self.writer.with_transient_problems(self.library.session());
             let again = self.library.mark_transient(&unwritten, &checked_files);

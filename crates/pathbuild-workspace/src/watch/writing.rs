@@ -77,7 +77,8 @@ impl<'a> Writer<'a> {
         self.programs.drawings_with(session, may_pass)
     }
 
-    /// Forgets the programs of removed drawings. Returns the other drawings whose programs may be written now.
+    /// Forgets the programs of removed drawings. Returns the other drawings whose programs may be written now, because no removed drawing claims
+    /// their file names any more.
     pub(super) fn forget(
         &mut self,
         session: &Session<'_>,
@@ -86,7 +87,8 @@ impl<'a> Writer<'a> {
         self.programs.forget(session.db(), removed)
     }
 
-    /// Writes the targets among the paths of drawings that were checked. Returns the other drawings whose programs may be written now.
+    /// Writes the targets among the paths of drawings that were checked. Returns the other drawings whose programs may be written now, because none
+    /// of these drawings claims their file names any more.
     pub(super) fn write(
         &mut self,
         session: &mut Session<'_>,
