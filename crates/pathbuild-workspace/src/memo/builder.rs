@@ -1,5 +1,5 @@
-//! Builds the catalogue of results that is stored in the cache. Results that still hold keep their facts about files; new results get current facts.
-//! Also returns the names and diagnostics of drawings themselves, from an earlier run or newly read.
+//! Builds the catalogue of results that is stored in the cache. Results that still hold keep their facts about files; new results get the facts of
+//! this run. Also returns the path names and the diagnostics of drawings, from the cache or newly read.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -84,8 +84,8 @@ impl<'a> CatalogueBuilder<'a> {
         self.catalogue
     }
 
-    /// Carries over a record that was not invalidated, unless this run read other bytes from one of its drawings or generated one of its
-    /// files from other inputs.
+    /// Carries over a record that was not invalidated, unless this run read other bytes from one of its drawings, or wrote or compared one of its
+    /// output files for a new result.
     fn carry_over_record(&mut self, record: &Record) {
         let kept = &self.store.kept;
         let has_written = |file: &usize| self.run.written.contains(&*kept.files[*file].path);
@@ -99,8 +99,8 @@ impl<'a> CatalogueBuilder<'a> {
         self.catalogue.records.push(Record { subject, files, lookups, outputs, payload });
     }
 
-    /// Adds a new result. Leaves it out if one of its drawings could not be read or changed during the run, because such a result may not be
-    /// reproducible.
+    /// Adds a new result, unless it must not be cached. Leaves it out as well if one of its drawings could not be read or changed during the run,
+    /// because such a result may not be reproducible.
     fn add_fresh(&mut self, result: &FreshResult<'_>) {
         let Some(payload) = &result.payload else { return };
         let db = self.session.db();
@@ -126,7 +126,7 @@ impl<'a> CatalogueBuilder<'a> {
         });
     }
 
-    /// Whether this run read bytes from a file that was not verified before, and they differ from those that the old catalogue describes.
+    /// Whether a file of the old catalogue was not verified, and this run read other bytes from it or could not read it.
     fn is_other(&self, number: usize) -> bool {
         let file = &self.store.kept.files[number];
         self.store.verdict.files[number] == FileState::Unchecked && self.run.is_other(&file.path, file.hash)
@@ -141,7 +141,7 @@ impl<'a> CatalogueBuilder<'a> {
         match self.store.verdict.files[number] {
             FileState::Unchanged | FileState::Unchecked => {}
             FileState::Touched(stamp) => fact.stamp = stamp.for_storing(self.begun),
-            // The output is out of date. Its hash stays, because it describes the expected content.
+            // An output file that is out of date: its hash stays, because it describes the expected content.
             FileState::Changed => fact.stamp = Stamp::UNKNOWN,
         }
         // If the file has changed since it was compared, it is unclear which content a result belongs to.
@@ -302,12 +302,13 @@ impl<'a> RunFacts<'a> {
         self.read.get(path).copied().flatten()
     }
 
-    /// Whether the bytes read from a drawing have a different hash.
+    /// Whether this run accessed a drawing and got a hash other than this one. A drawing that could not be read, or changed during the run, has the
+    /// hash `None`.
     fn is_other(&self, path: &Utf8Path, hash: Option<[u8; 32]>) -> bool {
         self.read.get(path).is_some_and(|content| content.map(|(read, _)| read) != hash)
     }
 
-    /// Whether the database saw the same names in a directory as the old catalogue, or made no lookups there.
+    /// Whether the names in a directory are those that the database saw. Also true if no new result depends on lookups there.
     fn agrees_with_database(&self, fact: &DirectoryFact) -> bool {
         if !self.searched.contains(&*fact.path) {
             return true;
@@ -378,7 +379,8 @@ pub(crate) fn subject(drawing: &Utf8Path, paths: Option<&[PathName]>) -> Box<str
     format!("{drawing}\0{names}").into()
 }
 
-/// Returns the names and diagnostics of drawings themselves, sorted by path. Drawings without a cached result are read.
+/// Returns the path names of drawings and the diagnostics of reading them, in the order of `paths`. Drawings without a cached result for their
+/// `subject` are read.
 pub(crate) fn read_drawings(
     session: &Session<'_>,
     memo: &Memo,

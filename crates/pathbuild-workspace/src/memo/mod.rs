@@ -21,7 +21,7 @@ use store::Store;
 pub use store::{Answer, Dependencies, FreshResult, GeneratedFile, Inputs, OutputState, hash_output};
 pub use store::{BUILD, Coverage, CoveredPaths};
 
-/// Cached results of a command; `None` if nothing is cached.
+/// Cached results of a command; `None` if the run uses no cache.
 #[derive(Debug, Default)]
 pub struct Memo(Option<Store>);
 
@@ -45,7 +45,7 @@ impl Memo {
         memo
     }
 
-    /// Loads the results of the last checks; `None` if no results are cached.
+    /// Loads the results of earlier checks with example values; `None` if results are not cached.
     pub fn of_checks(workspace: &Workspace) -> Option<Self> {
         let store =
             Store::open(workspace, ResultKind::Check, &check_query(false), Scope::All, Listings::new());
@@ -69,7 +69,8 @@ impl Memo {
     }
 
     /// Returns the result for each item, in the order of the items: the cached one if it still holds and `accept` takes it, otherwise one that
-    /// `build` computes. `build` gets all items without a cached result at once, and may compute fewer results than it gets items.
+    /// `build` computes. `build` gets all items without an accepted cached result at once. If it computes fewer results than it gets items, the last
+    /// of these items are left out.
     pub fn get_or<K, T: DeserializeOwned>(
         &self,
         items: &[K],

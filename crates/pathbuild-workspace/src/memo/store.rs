@@ -121,7 +121,8 @@ impl<'a> Dependencies<'a> {
 }
 
 impl Store {
-    /// Loads the cached results and verifies them against the files; `None` without a configuration, or if caching is disabled.
+    /// Loads the cached results and verifies them against the files; `None` without a configuration, if caching is disabled, or if the cache
+    /// directory must not be used.
     pub(super) fn open(
         context: &Workspace,
         kind: ResultKind,
@@ -140,7 +141,7 @@ impl Store {
             context.reporter.status(&format!("{}: {phrase}: {reason}", place.directory()));
             return None;
         }
-        // Without write access, the run goes on without a cache.
+        // Best effort: without write access, cached results are still used, but no new ones are stored.
         if place.create().is_ok_and(|is_new| is_new) {
             report_old_cache(context, &base);
         }
@@ -275,8 +276,8 @@ fn report_fault(context: &Workspace, reason: CacheFault) {
 /// Identifier of this build of the program.
 pub const BUILD: &str = env!("PATHBUILD_BUILD");
 
-/// Returns the cache key: the query with all settings that results depend on. Directories are relative to the configuration, so that a tree keeps
-/// its results when it is moved or copied as a whole.
+/// Returns the text of the cache key: the query with all settings that results depend on. Directories are relative to the configuration, so that
+/// results in a named cache directory still hold when the tree is moved or copied as a whole.
 pub(super) fn query_text(context: &Workspace, result_kind: ResultKind, query: &str) -> String {
     let mut text = query.to_owned();
     let base = context.settings.directory().map(|base| format!("\"{base}/")).unwrap_or_default();
@@ -294,7 +295,8 @@ pub(super) fn query_text(context: &Workspace, result_kind: ResultKind, query: &s
     text
 }
 
-/// Returns the working directory relative to the configuration. It is part of the key because names in results are relative to it.
+/// Returns the working directory, relative to the configuration's directory if it is below it. It is part of the key because names in results are
+/// relative to it.
 fn relative_working_directory(context: &Workspace) -> &str {
     let directory = &context.working_directory;
     let base = context.settings.directory();
@@ -345,13 +347,13 @@ impl CoveredPaths<'_> {
     }
 }
 
-/// The drawings that a run uses. The subject of a result begins with the path of a drawing. If the result is about something in the drawing, its
-/// description follows after a NUL.
+/// The drawings that a run uses, or the programs that it verifies. The subject of a result begins with the path of this file. If the result is about
+/// something in a drawing, its description follows after a NUL.
 #[derive(Debug)]
 pub(super) enum Scope {
     All,
     Drawings {
-        /// Paths of the drawings that the run uses.
+        /// Paths of the drawings or programs that the run uses.
         drawings: HashSet<String>,
         /// Directories that were listed completely, so that they contain no other drawings.
         directories: HashSet<String>,
