@@ -1,6 +1,6 @@
-//! Baselines: text files with one accepted finding per line, which users can read, merge and shorten. A line begins with the fingerprint of
-//! the finding; `depth=` in mm, `until=` with a date and `reason=` with a text in double quotes may follow. The rest describes the finding.
-//! Empty lines and lines that begin with `#` are comments. (book: howto/ci)
+//! Baselines: text files with one accepted finding per line, which users can read, merge and shorten. A line begins with the fingerprint of the
+//! finding; `depth=` in mm, `until=` with a date and `reason=` with a text in double quotes may follow. The remainder of the line describes the
+//! finding. Empty lines and lines that begin with `#` are comments. (book: howto/ci)
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -30,7 +30,7 @@ pub struct Baseline {
     entries: BTreeMap<String, Entry>,
 }
 
-/// The part of a line after its fingerprint.
+/// The content of a line after its fingerprint, and the line itself.
 #[derive(Clone, Debug)]
 struct Entry {
     waiver: Waiver,

@@ -12,7 +12,7 @@ use crate::files;
 use crate::memo::DrawingResult;
 use crate::session::Session;
 
-/// Warns about each configuration in the searched directories that does not apply to the run. Directories outside the tree of the applied
+/// Returns a warning for each configuration in the searched directories that does not apply to the run. Directories outside the tree of the applied
 /// configuration are skipped: for them, `--config` has chosen a configuration of another tree.
 pub(crate) fn unused_configurations(session: &Session<'_>, directories: &[Utf8PathBuf]) -> Vec<Diagnostic> {
     let system = session.db().system();
@@ -36,8 +36,8 @@ pub(crate) fn unused_configurations(session: &Session<'_>, directories: &[Utf8Pa
     files.filter(is_unused).map(warning).collect()
 }
 
-/// Returns PB527 for each pattern that matches no layer of the library, given the results of all its drawings. Returns nothing if a drawing could
-/// not be read, because it may contain such layers.
+/// Returns PB527 for each of the patterns `keep-out` and `part` that matches no layer of the library, given the results of all its drawings. Returns
+/// nothing if there are no drawings, or if one of them could not be read, because it may contain such layers; nor in compatible mode.
 pub(crate) fn patterns_without_layer<'a>(
     session: &Session<'_>,
     mut library: impl Iterator<Item = &'a DrawingResult> + Clone,

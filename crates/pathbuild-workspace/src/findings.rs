@@ -120,8 +120,8 @@ fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
     identity(a) == identity(b)
 }
 
-/// Returns the parts of a finding that distinguish it from others. Arguments are left out for paths nested too deeply, which may be reached from
-/// several projects, each with different arguments.
+/// Returns the parts of a finding that distinguish it from others. The arguments of a finding about paths nested too deeply are left out: these paths
+/// may be reached from several projects, each with different arguments.
 pub(crate) fn identity(found: &Diagnostic) -> impl Eq + Hashed + '_ {
     let arguments = (found.code() != Code::NestingTooDeep).then_some(&found.arguments);
     (found.message, &found.file, &found.path, &found.place, &found.text, arguments)

@@ -74,7 +74,8 @@ impl Workspace {
         }
     }
 
-    /// Rewrites the baseline. Lines without a fingerprint are dropped. A reason or date that cannot be read is an error.
+    /// Rewrites the baseline, even if it cannot be read. Lines without a fingerprint are dropped. A depth, reason or date that cannot be parsed is an
+    /// error.
     fn update_baseline(
         &self,
         file: &Utf8Path,
@@ -124,7 +125,7 @@ impl Workspace {
         }
     }
 
-    /// Returns the reason why a waiver would have no effect; `None` if it would have an effect.
+    /// Returns the reason why a waiver is refused: its reason is empty, or it ends before the date of the run. `None` if it is valid.
     fn waiver_refusal(&self, waiver: &Waiver) -> Option<String> {
         if waiver.reason.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
             let reason = self.choose("--reason must not be empty", "--reason darf nicht leer sein");

@@ -106,7 +106,7 @@ impl Waiver {
         self.with_note(&messages::SEVERITY_UNTIL, diagnostic, file, run)
     }
 
-    /// Adds a note with the date and the reason of the waiver to a finding.
+    /// Adds notes to a finding: one with the end of the waiver and the date of the run, and one with the reason, as far as the waiver states them.
     fn with_note(
         &self,
         message: &'static Message,
