@@ -45,8 +45,7 @@ pub enum EntryKind {
 /// Callback that gets the index of a blob and its bytes, or its size if that exceeds the limit.
 pub type TakeBlob<'t> = &'t mut dyn FnMut(usize, Result<&mut dyn Read, u64>) -> io::Result<()>;
 
-/// Maximum length in bytes of a `.git` file, and of a line in which Git lists a file or introduces a blob. No system has longer file
-/// names.
+/// Maximum length in bytes of a `.git` file, and of a line in which Git lists a file or introduces a blob. Linux opens no longer paths.
 const MAX_LINE_BYTES: u64 = 4096;
 
 /// Maximum total size in bytes of the blobs in a single request, because a few Git objects can expand to any size.
@@ -69,8 +68,8 @@ const MAX_LINK_BYTES: u64 = 4096;
 const REMOVED_VARIABLES: [&str; 5] =
     ["GIT_DIR", "GIT_WORK_TREE", "GIT_COMMON_DIR", "GIT_INDEX_FILE", "GIT_PREFIX"];
 
-/// Environment variables that prevent a partial clone from fetching missing objects with configured commands. Older versions of Git know
-/// only the second one.
+/// Environment variables that prevent a partial clone from fetching missing objects with configured commands. Older versions of Git do not know the
+/// first one.
 const NO_FETCH_VARIABLES: [(&str, &str); 3] =
     [("GIT_NO_LAZY_FETCH", "1"), ("GIT_ALLOW_PROTOCOL", "none"), ("GIT_TERMINAL_PROMPT", "0")];
 
@@ -111,8 +110,8 @@ impl<'a> Repository<'a> {
         Ok(repository)
     }
 
-    /// Whether `.git` refers to a repository elsewhere that does not list this working tree. The repository of a tree made by `git
-    /// worktree` lists the tree.
+    /// Whether `.git` is a symbolic link out of the working tree, or refers to a repository elsewhere that does not list this tree. The repository of
+    /// a tree made by `git worktree` lists the tree.
     fn leads_out(&self) -> bool {
         let system = &self.workspace.system;
         let git = self.root.join(".git");
@@ -305,7 +304,8 @@ impl Entry {
         Some(Self { kind, id: facts.nth(1)?.to_owned(), name: name.to_owned() })
     }
 
-    /// Whether the name is a safe relative path on every system. A name that is not UTF-8 is not safe.
+    /// Whether the name is a relative path that stays below the root on this system, and outside `.git`. A name that is not UTF-8 does not count as
+    /// one.
     pub fn is_plain(&self) -> bool {
         let is_foreign = |part: &str| cfg!(windows) && part.contains(['\\', ':']);
         let is_special = |part: &str| matches!(part, "" | "." | "..") || part.eq_ignore_ascii_case(".git");

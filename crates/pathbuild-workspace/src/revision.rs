@@ -1,4 +1,4 @@
-//! The files of a Git revision, for checks that are limited to what has changed since. (book: reference/commands, `check`)
+//! The files of a Git revision, for checks that are limited to what has changed since then. (book: reference/commands, `check`)
 
 use std::collections::BTreeMap;
 
@@ -55,7 +55,7 @@ impl<'a> RevisionFiles<'a> {
             self.drawings.entry(directory.to_owned()).or_default().push(name.to_owned());
         }
         match kind {
-            // Git for Windows checks symbolic links out as plain files.
+            // Git for Windows checks out symbolic links as plain files.
             EntryKind::Link if cfg!(unix) => self.links.insert(file, id),
             EntryKind::File | EntryKind::Link => self.files.insert(file, id),
             // The contents of a submodule are unknown: all its files are treated as new.
@@ -86,7 +86,7 @@ impl<'a> RevisionFiles<'a> {
         (is_comparable && self.has_old_links(file, &real)).then_some((real, id))
     }
 
-    /// Whether all symbolic links on the way to a file existed in the revision. Their targets are compared in `changed_link`.
+    /// Whether all symbolic links of the working tree on the way to a file existed in the revision. Their targets are compared in `changed_link`.
     fn has_old_links(&self, file: &Utf8Path, real: &Utf8Path) -> bool {
         let spelt = clean(&self.workspace.working_directory.join(file));
         if spelt == real {
