@@ -315,7 +315,8 @@ pub(in crate::config) fn texts<'v, 't>(
     reader.require(items.and_then(Iterator::collect::<Option<Vec<_>>>), &messages::LIST_OF_TEXTS, value)
 }
 
-/// Whether a string can be written in single quotes, in which TOML escapes nothing.
+/// Whether a string can be written in single quotes, in which TOML escapes nothing. `##` is excluded because CI runners may take it for a command, so
+/// it may have to be escaped.
 pub(in crate::config) fn is_literal(text: &str) -> bool {
     !text.contains('\'') && !text.contains("##") && !text.contains(shown::is_active)
 }

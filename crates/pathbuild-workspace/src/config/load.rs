@@ -52,7 +52,8 @@ pub fn load(
     (settings, diagnostics)
 }
 
-/// Returns the repositories that an untrusted run must not leave: those of the configuration and of each argument. `None` if all of them are trusted.
+/// Returns the repositories that an untrusted run must not leave: those of the configuration and of each argument. `None` if the run is trusted,
+/// which means that all of them are trusted and `--untrusted` is not given.
 fn untrusted_repositories(
     system: &Arc<dyn System>,
     given: &Overrides,
@@ -239,7 +240,7 @@ pub fn repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8P
 }
 
 /// Returns the repository outside which an untrusted run must not access files. If the path of the directory goes through symbolic links, this is the
-/// repository that contains the outermost of these links.
+/// repository that contains the outermost of these links, if there is one.
 pub(super) fn confining_repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
     let is_link = |place: &&Utf8Path| {
         let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else { return false };

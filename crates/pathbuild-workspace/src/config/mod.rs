@@ -1,9 +1,7 @@
 //! The configuration: `pathbuild.toml` and the command-line options that override it. (book: reference/configuration)
 //!
 //! ```text
-//! file ---------> Options --\
-//!                            over --> Settings
-//! command line -> Options --/
+//! file --read--> Options --apply (command line)--> Options --resolve (defaults)--> Settings
 //! ```
 //!
 //! Each key is declared once, in [`sections`]: its type, its default, its description, and the option that overrides it. The reader,

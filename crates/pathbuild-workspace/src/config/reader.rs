@@ -251,7 +251,7 @@ impl<'a> Table<'_, '_, 'a> {
     /// Refuses a table that is reserved for a later version.
     pub(super) fn refuse_reserved(&mut self, name: &'static str) {
         if let Some((key, _)) = self.content.get_key_value(name) {
-            // Unless it is there, the key must not be suggested for another one.
+            // If the key were known without being present, it would be suggested for misspelled keys.
             self.known.push(name);
             self.reader.key = format!("{}{name}", self.prefix);
             self.reader.report(self.reader.fault(&messages::NOT_BUILT, key.span()));
@@ -337,7 +337,7 @@ impl KeyIndex {
         Self(all)
     }
 
-    /// Finds the table for a key that is unknown in its own table: by this name, or else by a similar one.
+    /// Finds the table for a key that is unknown in the table that contains it: by this name, or else by a similar one.
     pub(super) fn find(&self, name: &str) -> Option<KeyPlace<'_>> {
         let exact = self.keys().find(|home| home.key == name);
         exact.or_else(|| {
@@ -360,7 +360,7 @@ fn properties(table: &Json) -> Option<&Map<String, Json>> {
     table["properties"].as_object()
 }
 
-/// A text file that maps byte offsets to lines and columns. The time to look up an offset does not grow with the file.
+/// A text file that maps byte offsets to lines and columns. Finding an offset does not scan the text before it.
 #[derive(Clone, Debug)]
 pub(super) struct Source<'a> {
     file: &'a Utf8Path,

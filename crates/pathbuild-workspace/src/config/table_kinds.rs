@@ -243,7 +243,7 @@ fn severity((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option
     Some((code, level))
 }
 
-/// Returns the code with the number or name most similar to `name`; the first one if several are equally similar.
+/// Returns the number or name of a code that is most similar to `name`; the first one if several are equally similar, and `None` if none is similar.
 pub fn nearest_code(name: &str) -> Option<String> {
     static CODES: LazyLock<Vec<(String, &str)>> =
         LazyLock::new(|| Code::ALL.iter().map(|code| (code.to_string(), code.name())).collect());
@@ -316,7 +316,7 @@ fn report_shared_number(
     }
 }
 
-/// Reads a tool. Without a diameter it fits no path, so it is dropped.
+/// Reads a tool. A tool without a diameter is dropped, because it fits no path; so is one with an impossible corner radius.
 fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
     let diameter = table.take("diameter", &POSITIVE).and_then(|value| value.value);
     let paths = table.take("paths", &REGEX).map(|value| value.value);

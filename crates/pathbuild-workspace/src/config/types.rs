@@ -277,7 +277,8 @@ impl Tool {
         Some(ChipLoad { flutes: self.flutes?, speed: self.spindle, least: from, most: to })
     }
 
-    /// Returns the length in mm of the cutting edges that no cut should exceed; `None` for a slot cutter, which cuts below the surface.
+    /// Returns the length in mm of the cutting edges, which no cut should exceed in depth; `None` if it is not configured, and for a slot cutter,
+    /// whose cutting edges lie below the surface.
     pub fn cutting_length(&self) -> Option<f64> {
         self.length.filter(|_| self.shape != CutterShape::Slot)
     }
@@ -287,8 +288,8 @@ impl Tool {
         self.direction.or(self.spindle.map(|_| Turning::Clockwise))
     }
 
-    /// Returns the widths for the check of rapid moves. A tool without a flat tip fits into its own cut, so only the centre line of its moves is
-    /// considered, both for removing material and for hitting it.
+    /// Returns the cutter for the check of rapid moves, in which only the flat part of the tip counts, both for removing material and for hitting it.
+    /// A tool without a flat tip fits into the cut that it made, so only the centre line of its moves is considered.
     pub fn cutter(&self) -> Cutter {
         let corner_radius = (self.shape != CutterShape::Other).then_some(self.corner_radius);
         let flat = corner_radius.map_or(0.0, |radius| (self.diameter - 2.0 * radius).max(0.0));
