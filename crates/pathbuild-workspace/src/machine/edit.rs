@@ -29,7 +29,7 @@ pub struct Change {
 pub struct EditedConfiguration {
     /// The new text.
     pub text: String,
-    /// The inserted values, each with the value that it replaces.
+    /// All imported values, including those that the configuration had already.
     pub changes: Vec<Change>,
     /// Warnings about tools that seem to replace others.
     pub problems: Vec<Diagnostic>,
@@ -126,7 +126,7 @@ fn table_mut<'d>(document: &'d mut DocumentMut, path: &[String]) -> Option<&'d m
     Some(table)
 }
 
-/// Copies to a new value the whitespace and comments around and within the value that it replaces.
+/// Gives a new value the whitespace and comments of the value that it replaces, including those between the numbers of a list.
 fn with_decor_of(mut new: Value, old: &Value) -> Value {
     match (&new, old) {
         (Value::Array(numbers), Value::Array(old)) if numbers.len() == old.len() => {

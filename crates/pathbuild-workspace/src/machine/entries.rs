@@ -131,7 +131,7 @@ impl Entries {
         }
     }
 
-    /// Sets a key to the numbers of the entries for X, Y and Z, multiplied by `scale`. Sets nothing unless all three are present.
+    /// Sets a key to the numbers of the entries for X, Y and Z, multiplied by `scale`. Sets nothing unless all three are positive numbers.
     pub(super) fn set_axes(&mut self, key: &'static str, names: [&str; 3], scale: f64) {
         let readings = names.map(|name| self.positive(name));
         let given: Vec<&str> =

@@ -61,7 +61,7 @@ fn named_unit(name: &str) -> Option<LengthUnit> {
     }
 }
 
-/// Returns the unit of lengths in mm; reports a missing or unknown unit.
+/// Returns the factor that converts lengths to mm; reports a missing or unknown unit.
 fn unit(entries: &mut Entries) -> Option<f64> {
     let Some(entry) = entries.take("TRAJ/LINEAR_UNITS").cloned() else {
         entries.report(Diagnostic::new(&say::UNIT_MISSING));

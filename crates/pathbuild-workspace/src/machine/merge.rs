@@ -76,7 +76,7 @@ impl ToolEntry<'_> {
     }
 }
 
-/// Returns the name for a tool: that of an earlier tool with the same number, or else its own, with the number appended if the name is taken.
+/// Returns the name for a tool: that of an earlier tool with the same number, or else its own, with a number appended if the name is taken.
 fn unique_name<'d>(tool: &'d DescribedTool, names: &mut Vec<(String, &'d DescribedTool)>) -> String {
     let number = tool.number.map(|number| format!("T{number}"));
     let own = Some(tool.name.clone()).filter(|name| !name.is_empty()).or(number.clone());

@@ -56,7 +56,7 @@ pub struct Description {
     pub tools: Vec<DescribedTool>,
     /// The entries for which there is no key.
     pub unused: Vec<Entry>,
-    /// Diagnostics of entries for which there is a key, but with values that the key cannot take.
+    /// Diagnostics of the entries and tools, for example of values that a key cannot take.
     pub problems: Vec<Diagnostic>,
 }
 
