@@ -94,7 +94,7 @@ fn unsafe_moves(
 /// Adds the setup sheets to the files of a program.
 ///
 /// # Errors
-/// PB005 if a file is too large; problems of the sheets.
+/// PB005 if any of the files is too large, or the error that kept a sheet from being rendered.
 fn with_sheets(
     mut outputs: Vec<Output>,
     db: &Database,
@@ -235,7 +235,7 @@ fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Ite
     })
 }
 
-/// Returns PB005 for a line that is too long to be read back, by pathbuild or any other program.
+/// Returns PB005 for a line that is longer than the longest line that pathbuild reads.
 fn too_long_line(text: &str, path: &Utf8Path) -> Option<Diagnostic> {
     let (number, line) = (1_u64..).zip(text.split('\n')).find(|(_, line)| line.len() > LONGEST_LINE)?;
     let problem = Diagnostic::new(&files::OUTPUT_LINE_TOO_LONG).with("line", number);

@@ -59,7 +59,7 @@ fn escaped(path: &Utf8Path) -> String {
     let mut escaped = String::with_capacity(path.as_str().len());
     let mut backslashes = 0;
     for character in path.as_str().chars() {
-        // Double the preceding backslashes, which would otherwise escape each other.
+        // Double the preceding backslashes, which would otherwise escape each other, and add one for the character itself.
         let further = match character {
             // On Windows a colon occurs only after a drive letter, which `make` recognizes.
             ':' if cfg!(windows) => 0,

@@ -73,7 +73,7 @@ pub struct Emission {
 }
 
 impl Request {
-    /// Whether results of earlier runs are used, if the session traces inputs. Otherwise, everything is regenerated.
+    /// Whether results of earlier runs may be used, which only a session that traces inputs has. If not, everything is regenerated.
     pub fn uses_cache(&self) -> bool {
         let is_always_made = matches!(self.task, Task::Print | Task::Write { force: true })
             || self.deps.is_some()
@@ -102,7 +102,7 @@ impl Request {
         }
         let mut matches = session.match_arguments(inputs);
         let memo = if uses_cache {
-            // Drawings and settings are keyed separately, and nothing else affects a program.
+            // The cache accounts for drawings and settings by itself. Besides these, only the post-processor affects a program.
             let query = post_processor.map_or_else(|| "emit".to_owned(), PostProcessor::cache_key);
             Memo::open(session, ResultKind::Emit, &query, inputs, &mut matches)
         } else {
@@ -246,7 +246,7 @@ fn complete_inputs(answer: &mut Answer<Plan>, task: Task) {
     if outcome.is_complete(job.files.len()) {
         inputs.outputs = outcome.generated(task);
     } else {
-        // A program refused by the post-processor may be accepted after other files change; a failed write may succeed in another run.
+        // A refused program is refused again until its inputs change, so its result can be cached; a failed write may succeed in another run.
         inputs.is_transient |= !outcome.is_refused;
     }
 }

@@ -47,7 +47,7 @@ pub fn missing_values(context: &Workspace, names: impl IntoIterator<Item = &'sta
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Returns a sentence about a configuration that exists but does not apply to this run, because keys that users set in it would have no effect.
+/// Returns a sentence that says why no configuration applies to this run, so that users do not set keys without effect; `None` if one applies.
 fn no_configuration(context: &Workspace) -> Option<String> {
     if context.settings.file.is_some() {
         return None;

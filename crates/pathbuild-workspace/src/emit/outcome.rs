@@ -47,7 +47,7 @@ pub struct ProgramOutcome {
     pub length: f64,
     /// Machining time of the program in minutes.
     pub minutes: f64,
-    /// Errors of the program, and differences between its moves and those of the file on disk.
+    /// Diagnostics of the program, and differences between its moves and those of the file on disk.
     pub problems: Vec<Diagnostic>,
     /// Whether the program itself has errors, which prevent writing it.
     #[serde(skip)]

@@ -35,8 +35,8 @@ pub(super) struct Job {
     /// The paths in milling order; never empty.
     #[serde(skip)]
     pub(super) targets: Vec<Target>,
-    /// The drawings that were read for the paths, starting with the first path's own. Includes drawings that were searched for an embedded path
-    /// without finding it.
+    /// The drawings that were read for the paths, starting with the first path's own. Includes drawings that were searched for an embedded path but
+    /// do not define it.
     #[serde(skip)]
     pub(super) sources: Vec<SourceFile>,
     /// Name of the path as the drawing spells it, or the name of the joined program.
@@ -181,7 +181,7 @@ fn inputs(checked: &[CheckedTarget]) -> Inputs {
     Inputs { traces, is_transient, ..Inputs::default() }
 }
 
-/// Returns the plan of an earlier run if it suffices for the task. It does not suffice if files have changed on disk since, unless the task
+/// Returns the plan of an earlier run if it suffices for the task. It does not suffice if output files have changed on disk since, unless the task
 /// compares them byte for byte.
 fn cached_plan_if_sufficient(
     session: &Session<'_>,
@@ -245,7 +245,7 @@ pub(super) struct JobBuilder<'a> {
 }
 
 impl JobBuilder<'_> {
-    /// Returns the plan for the paths of one program. It has neither a job nor refusals if any of the paths has errors.
+    /// Returns the plan for the paths of one program. It has no job if any of the paths has errors.
     pub(super) fn plan(&self, checked: &[CheckedTarget]) -> Plan {
         let diagnostics =
             checked.iter().flat_map(|checked| path_diagnostics(self.session, checked)).collect();
@@ -390,7 +390,8 @@ fn same_output_error(name: Option<&str>, first: String, second: String, drawing:
         .in_file(drawing)
 }
 
-/// Joins a file name to a directory. Returns an error if the system forbids the name. `rest` is the part of the name that follows the drawing's name.
+/// Joins a file name to a directory. Returns an error if the system forbids the name. `rest` is the part of the name that does not come from the
+/// drawing's file name.
 fn join_file_name(name: &str, rest: &str, directory: &Utf8Path) -> Result<Utf8PathBuf, Box<Diagnostic>> {
     if let Some(fault) = stem_fault(name, rest) {
         return Err(Box::new(write_error(name, fault)));

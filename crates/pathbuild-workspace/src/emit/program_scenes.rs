@@ -111,7 +111,8 @@ impl Session<'_> {
         scene
             .keep_outs
             .extend(keep_outs(self.db(), file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
-        // Before the paths are built: for these layers, the drawing is read again.
+        // Collect these layers before the paths are built: the drawing is read again for them, which would otherwise add to the memory that the paths
+        // take.
         scene.other_layers = view::other_layers(remaining_layers(self.db(), file));
         for path in names {
             let (seen, found, clamps) = self.scene_path(file, path, text);
@@ -342,7 +343,7 @@ fn program_text(
     let files =
         session.map_guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(BuiltProgram::default()));
     let files = files.map_err(|problem| vec![*problem])?;
-    // Without a known dialect, read the text as generic RS274, as when it is read back.
+    // Without a known dialect, read the text in LinuxCNC's, as when it is read back.
     let dialect = post_processor
         .map_or(Dialect::Native, |post_processor| post_processor.reader().unwrap_or(Dialect::LinuxCnc));
     match files.outputs.into_iter().find(|output| output.kind.is_program()) {

@@ -38,7 +38,7 @@ enum Reason {
     Left,
     /// No path yields the program any more, and `emit` would give it another name, so a person may have copied it.
     Copied,
-    /// The program's drawing cannot be read, so nobody knows whether its path still yields the program.
+    /// The program's drawing cannot be read, so it is unknown whether its path still yields the program.
     Unread { drawing: String },
     /// The program's drawing is not in this library, but may be in another library that shares the output directory.
     OfOthers,
@@ -106,7 +106,8 @@ pub(super) struct EarlierPrograms<'a> {
 }
 
 impl<'a> EarlierPrograms<'a> {
-    /// Finds programs that show another state of the drawings. Stale programs are removed if `is_removed`, and reported otherwise.
+    /// Finds programs that show another state of the drawings. Stale programs are reported; if `is_removed`, they are removed instead, except those
+    /// that may still be needed.
     pub(super) fn find_and_settle(
         &'a self,
         is_removed: bool,
@@ -522,8 +523,8 @@ impl KnownTitles {
         }
     }
 
-    /// Returns the reason why a program that no path of the run yields is stale; `None` if another drawing may yield it. `beside` lists the files
-    /// in its directory.
+    /// Returns the reason why a program that no path of the run yields is stale; `None` if a path that the run does not generate may yield it.
+    /// `beside` lists the files in its directory.
     fn removal_reason<'n>(
         &self,
         directory: &Utf8Path,

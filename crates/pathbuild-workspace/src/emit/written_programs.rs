@@ -24,7 +24,7 @@ use crate::session::{Session, compare_paths};
 #[derive(Debug, Default)]
 pub struct WrittenPrograms {
     by_drawing: BTreeMap<Utf8PathBuf, Vec<(Target, Plan)>>,
-    /// The targets that yield each file, by file name in lower case. A file with several targets is not written.
+    /// The targets that yield each file, by its path in lower case. A file with several targets is not written.
     owners: HashMap<String, Vec<Target>>,
 }
 
@@ -94,7 +94,7 @@ impl WrittenPrograms {
             plan.leave_out_if_raised(context);
             // The errors of drawings are those that `check` reports.
             plan.diagnostics.clear();
-            // A job that is left out claims its names, too: whether another target may write them does not depend on which drawing was saved last.
+            // A job that is left out claims its names, too. Otherwise, which target may write them would depend on the drawing that was saved last.
             if let Some(job) = plan.job.as_mut().filter(|job| self.is_claimed(session.db(), job, drawings)) {
                 job.leave_out();
             }
