@@ -176,7 +176,8 @@ impl Session<'_> {
         entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name)).collect()
     }
 
-    /// Adds the paths of the library with names that match a pattern, and the diagnostics of drawings without any known path.
+    /// Adds the paths of the library with names that match a pattern, and the errors of drawings without any known path, because these may contain
+    /// such paths.
     fn add_matching_paths(&self, pattern: &Pattern, found: &mut ArgumentMatches) {
         let paths = self.paths_of_library(usize::MAX);
         let (files, problems) = self.all_drawings();
@@ -272,7 +273,8 @@ impl Session<'_> {
         each.map(|(path, walked)| self.found_directory(path, walked, listings)).collect()
     }
 
-    /// Returns the directories in which names are searched for: the working directory, the search directories, the library and everything below it.
+    /// Returns the directories in which names are searched for: the working directory, the search directories, and the directories of the library
+    /// that contain drawings.
     pub fn name_directories(&self) -> Vec<Utf8PathBuf> {
         self.listed_name_directories(&mut Listings::new()).0
     }
@@ -320,7 +322,8 @@ impl Session<'_> {
         self.walk(is_drawing).search(directory).drawings.into_iter()
     }
 
-    /// Passes the names of freshly listed directories to the database, so that it need not list them again. Incomplete listings are left out.
+    /// Passes the names of freshly listed directories to the database, so that it need not list them again. Listings that are incomplete or contain
+    /// symbolic links are left out.
     pub fn provide_names(&self, listings: &Listings) {
         for (directory, listing) in
             listings.iter().filter(|(_, listing)| !listing.is_doubtful && listing.links.is_empty())

@@ -39,12 +39,12 @@ pub struct Node {
     pub bindings: Bindings,
     /// Whether the values are only examples for checking: no path embeds this one with these values.
     pub is_example: bool,
-    /// Whether the path's drawing has no errors. A path in a drawing with errors may embed more than is known.
+    /// Whether the path has no errors. A path with errors may embed more than is known.
     pub is_sound: bool,
 }
 
-/// An embedding: all subpath segments of one path that embed the same other path. Or a path that has the parameters of another one, by @: a change
-/// of that one affects it as well.
+/// An edge of the graph: all subpath segments of one path that embed the same other path. Or a path that takes the parameters of another one with @,
+/// so that a change of the other path affects it as well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Embedding {
     /// Index of the embedding path in [`Graph::nodes`].
@@ -76,8 +76,8 @@ pub enum Direction {
 }
 
 impl Graph {
-    /// Returns the nodes of a path, one for each set of values. The node with example values is left out if other paths embed this path, unless
-    /// they have its parameters.
+    /// Returns the nodes of a path, one for each set of values. If other paths embed this path, the node with example values is left out, unless a
+    /// path takes its parameters with @.
     pub fn nodes_of(&self, name: &PathName, file: &Utf8Path) -> Vec<usize> {
         let is_it = |node: &Node| node.name == *name && node.file == *file;
         let mut indices: Vec<usize> =
@@ -272,7 +272,7 @@ struct TargetGraph {
     /// Number of paths that the target embeds, including itself.
     reached: usize,
     embeddings: Vec<(usize, EmbeddingEnd)>,
-    /// Paths with the parameters of another one, each with that one.
+    /// Paths that take the parameters of another path with @, each with that path, as indices into `nodes`.
     loans: Vec<(usize, usize)>,
     /// Diagnostics that explain why the graph of this target is incomplete.
     problems: Vec<Diagnostic>,
@@ -326,7 +326,8 @@ fn target_graph(db: &Database, target: Target) -> TargetGraph {
     TargetGraph { embeddings, nodes, reached, loans, problems: too_many_paths }
 }
 
-/// Adds the paths whose parameters others have by @, unless they are there, and returns each borrower with its lender.
+/// Adds the paths from which others take their parameters with @, unless they are among the nodes already. Returns the index of each borrower with
+/// that of its lender.
 fn add_lenders(db: &Database, nodes: &mut Vec<Node>) -> Vec<(usize, usize)> {
     let mut loans = Vec::new();
     for borrower in 0..nodes.len() {
@@ -369,7 +370,7 @@ fn node(db: &Database, instance: Instance<'_>) -> Node {
     }
 }
 
-/// A graph under construction. The maps are never iterated.
+/// A graph under construction. The maps are never iterated, so their order does not affect the graph.
 #[derive(Default)]
 struct GraphBuilder {
     graph: Graph,

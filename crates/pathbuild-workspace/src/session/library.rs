@@ -450,7 +450,8 @@ pub(crate) fn is_ignore_file(name: &str) -> bool {
     IGNORE_FILES.contains(&name)
 }
 
-/// Whether an entry of this name changes the rules: an ignore file does; so does `.git`, the root of a repository, if there already are rules.
+/// Whether an entry of this name changes the rules: an ignore file does; so does `.git`, which marks the root of a repository, if there already are
+/// rules.
 pub(super) fn changes_rules(name: &str, are_some: bool) -> bool {
     is_ignore_file(name) || are_some && name == ".git"
 }

@@ -149,7 +149,8 @@ fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
     clean(path.strip_prefix(working_directory).unwrap_or(path))
 }
 
-/// Whether a path is normal already, as nearly all paths are: without redundant components, and not an absolute path inside the working directory.
+/// Whether a path is known to be normal, as nearly all paths are: without redundant components, and not an absolute path inside the working
+/// directory. Always false on Windows.
 fn is_normal(path: &Utf8Path, working_directory: &Utf8Path) -> bool {
     let is_redundant = |part: &str| matches!(part, "" | "." | "..");
     let below_root =

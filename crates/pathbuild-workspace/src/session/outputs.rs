@@ -12,7 +12,7 @@ use crate::config::types::SheetFormat;
 pub enum OutputKind {
     /// The program of a path without probes.
     Milling,
-    /// The program with correction formulas.
+    /// The program of a path with probes, with correction formulas.
     Clean,
     /// The program that measures the probes.
     Probing,
@@ -140,7 +140,8 @@ pub fn stem_fault(name: &str, rest: &str) -> Option<&'static Text> {
     (name == rest && is_device(name)).then_some(&DEVICE_NAME)
 }
 
-/// Whether Windows takes this file name for a device, which depends only on the part before the first dot.
+/// Whether Windows takes this file name for a device, which depends only on the part before the first dot. A name without a dot is no device, because
+/// a suffix such as `_Milling` follows it.
 fn is_device(name: &str) -> bool {
     let Some((base, _)) = name.split_once('.') else { return false };
     let base = base.trim_end().to_ascii_uppercase();

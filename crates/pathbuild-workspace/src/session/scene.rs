@@ -129,8 +129,8 @@ pub(crate) struct ProgramDetails<'a> {
     pub(crate) emitted: Option<EmittedText<'a>>,
 }
 
-/// Returns the scene of a program, with the elements from which its moves come; `None` if a drawing changed in the meantime. `details`: whether to
-/// add texts and the parameters of the elements, which take more memory than the moves.
+/// Returns the scene of a program, with the elements from which its moves come; `None` if a drawing changed in the meantime. `details` selects the
+/// texts to add; with it, the parameters of the elements are added too, which take more memory than the moves.
 ///
 /// # Errors
 /// PB005 if its text is too large.

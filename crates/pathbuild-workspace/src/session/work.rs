@@ -323,7 +323,7 @@ fn is_missing(system: &dyn System, drawing: &Utf8Path) -> bool {
     system.kind(drawing) == FileKind::Missing
 }
 
-/// Returns PB515 for a Q-project without its drawing. A drawing that embeds nothing is none, whatever its name.
+/// Returns PB515 for a Q-project without its drawing. A drawing that embeds nothing is not a Q-project, whatever its name.
 fn q_project_without_drawing(
     db: &Database,
     drawing: SourceFile,

@@ -21,8 +21,8 @@ pub(super) struct Workers {
 const STACK_SIZE: usize = 16 << 20;
 
 impl Workers {
-    /// Starts `count` threads, or one per core, without waiting for them; `None` if the system provides none. The calling thread is not
-    /// part of the pool: on two cores, the other thread often started on the caller's core and stayed there for 5 to 10 ms.
+    /// Starts `count` threads, or one per core, without waiting for them; `None` if the system provides none. The calling thread is not part of the
+    /// pool: when it was, the only other thread on a machine with two cores often started on the caller's core and stayed there for 5 to 10 ms.
     pub(super) fn start(count: Option<u16>) -> Option<Self> {
         let is_wanted = Arc::new(AtomicBool::new(false));
         let until = Arc::clone(&is_wanted);
