@@ -47,8 +47,8 @@ impl<'a> Input<'a> {
         if is_place { Self::Place(Utf8Path::new(text)) } else { Self::Name(text) }
     }
 
-    /// Returns the directory or program at which the upward search for the configuration begins; for the name of a path this is the working
-    /// directory (empty).
+    /// Returns the directory or program at which the upward search for the configuration begins. For a name that is not that of a directory, this is
+    /// the working directory (empty).
     pub(crate) fn search_start(self, is_directory: impl Fn(&Utf8Path) -> bool) -> &'a Utf8Path {
         match self {
             Self::Place(place) if is_drawing(place) => place.parent().unwrap_or(Utf8Path::new("")),

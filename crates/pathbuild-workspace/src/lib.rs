@@ -1,6 +1,6 @@
-//! Everything that a `pathbuild.toml` describes: configuration, discovery of drawings, database sessions, results cached between runs, the
-//! jobs of `check` and `emit`, and the watch loop. This crate neither parses arguments nor prints: progress goes to a [`Reporter`] or a
-//! `watch::Listener`. (book: reference/configuration)
+//! Configuration, discovery of drawings, database sessions, results cached between runs, and the requests of `check`, `emit`, `list`, `diff`,
+//! `verify` and `watch`. This crate neither parses arguments nor prints: progress is reported to a [`Reporter`] or a `watch::Listener`. (book:
+//! reference/configuration)
 
 pub mod baseline;
 pub mod check;

@@ -30,7 +30,7 @@ pub struct Request<'a> {
 /// The listed paths, with the number of searched drawings and their diagnostics.
 #[derive(Clone, Debug, Default)]
 pub struct PathListing {
-    /// The paths, sorted by drawing, then in file order.
+    /// The paths, drawing by drawing, in file order.
     pub paths: Vec<ListedPath>,
     /// Number of drawings that were searched.
     pub drawings: usize,
@@ -69,14 +69,14 @@ impl ListedPath {
 /// State of a path's program on disk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ProgramState {
-    /// The program does not exist, or the path has no program of its own.
+    /// There is no program on disk, or none can be generated for the path, for example because it has errors.
     #[default]
     None,
     /// The program is up to date.
     Current,
     /// The program differs from what `emit` would write.
     Stale,
-    /// The program exists but cannot be compared, because the path has an error.
+    /// The program exists but cannot be compared, because an error that `check` does not report keeps it from being generated.
     Unknown,
 }
 

@@ -44,7 +44,7 @@ pub struct PostProcessor {
     /// Options for all programs. They do not contain the files that the definition inserts.
     pub(crate) options: PostOptions<'static>,
     system: Arc<dyn System>,
-    /// Whether commands are not run, because the definition is untrusted.
+    /// Whether a program is refused if its definition requests a command, because the run is untrusted.
     runs_no_command: bool,
 }
 
@@ -256,7 +256,7 @@ impl PostProcessor {
     }
 
     /// Compares a program with another one of this post. Returns the number of the first line that differs, from 1, and the other program's line.
-    /// Lines that contain only a comment in both programs are treated as equal.
+    /// Empty lines are ignored, and so are comment lines if the other program has comments with the same mark.
     pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
         self.post.first_other_line(found, expected)
     }

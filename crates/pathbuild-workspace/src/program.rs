@@ -87,7 +87,7 @@ impl Program {
     /// Reads a file and stores its steps.
     ///
     /// # Errors
-    /// If the file cannot be read at all. Diagnostics of its lines are in [`read`](Self::read).
+    /// If the file cannot be read at all, or has more steps than may be stored. Diagnostics of its lines are in [`read`](Self::read).
     pub fn open(
         workspace: &Workspace,
         file: &Utf8Path,
@@ -168,7 +168,7 @@ impl Program {
             problems.extend(by.translated.unstated.iter().cloned());
             // The definition does not say when M5 takes effect, which this problem depends on.
             problems.retain(|problem| problem.message.key != gcode::STOP_BEFORE_MOTION.key);
-            // Columns and lines of text are those of the translation, which the user does not see.
+            // The columns and the quoted lines are those of the translation, which the user does not see.
             for problem in &mut problems {
                 problem.text = None;
                 problem.place.column = None;
@@ -220,7 +220,7 @@ impl Program {
         place(diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()), &self.file, &self.text);
     }
 
-    /// Returns the name of the dialect, with the reason if it was guessed.
+    /// Returns the name of the post definition with which the program was read, or else of the dialect, with the reason if it was guessed.
     pub fn describe_reading(&self, lang: Lang) -> String {
         let mut text = self.reading_name().to_owned();
         if let Some(evidence) = self.evidence.filter(|_| self.by_definition.is_none()) {
@@ -244,7 +244,8 @@ impl Program {
         !self.read.problems.iter().any(hides_moves)
     }
 
-    /// Returns the first line with unknown moves, for example a call of a subprogram. If there is such a line, lengths and times are unknown as well.
+    /// Returns the first line with unknown moves, for example a call of a subprogram; 0 if its number is unknown. If there is such a line, lengths
+    /// and times are unknown as well.
     pub fn first_line_with_unknown_moves(&self) -> Option<u32> {
         let is_unfollowed =
             |problem: &&Diagnostic| problem.is_error() && problem.code() == Code::WordNotFollowed;
@@ -271,7 +272,7 @@ impl Program {
     }
 }
 
-/// The errors of reading with which a line or a word is ignored, so that the moves are not known.
+/// Errors after which the reader ignores a line or a word, so that the moves are not known.
 const HIDING_MOVES: [Code; 13] = [
     Code::NotGCode,
     Code::UnknownCharacter,

@@ -180,7 +180,8 @@ fn stated_cutters_and_surface(
     (header, cutters, surface)
 }
 
-/// Sets the cutters with which a path is shown: the diameter that the user typed in, or those with which its rapid moves were checked.
+/// Sets the cutters with which a path is shown: the diameter that the user typed in, else those with which its rapid moves were checked, else those
+/// that the program states.
 fn set_cutters(path: &mut ScenePath, cutter: Option<f64>, stated: &[ToolSpan], rapids: Option<&RapidValues>) {
     let mut diameters: Vec<f64> = match (cutter, rapids) {
         (Some(cutter), _) => vec![cutter],

@@ -86,7 +86,7 @@ pub enum Outcome {
     StillBroken,
     /// The path has the same moves, but is defined in another drawing.
     OtherDrawing,
-    /// The path has different moves on the two sides.
+    /// The path's programs differ on the two sides, in their moves or in what they state besides moves.
     Changed(Box<ProgramDiff>),
 }
 
@@ -99,7 +99,8 @@ pub struct ProgramDiff {
     pub has_undivided_moves: bool,
     /// Changes of cutters, tools, spindle, work offsets, stops and the like, as far as they are known on both sides.
     pub states: Vec<StateChange>,
-    /// Reasons for the changes; `None` unless both sides are drawings, empty if no element and no setting differs.
+    /// Reasons for the changes; empty if no element and no setting differs. `None` if a side is not a drawing, if the drawings could not be compared,
+    /// or if only `states` changed and no reason was found.
     pub reasons: Option<Vec<Reason>>,
     /// Lengths and times before and after, if known.
     pub totals: [Option<Totals>; 2],
@@ -116,7 +117,7 @@ pub struct PictureSet {
     pub old: String,
     /// The new moves only, as SVG.
     pub new: String,
-    /// Pictures of the stock that the change removes, and of the stock that it leaves.
+    /// Pictures of the stock that only the new program removes, and of the stock that only the old one removes.
     pub stock: Vec<String>,
 }
 
@@ -185,7 +186,7 @@ fn identity(post_processor: Option<&PostProcessor>) -> Option<Vec<u8>> {
     post_processor.map(PostProcessor::identity)
 }
 
-/// What builds the programs of one side.
+/// The session and the post-processor that build the programs of one side.
 #[derive(Clone, Copy)]
 struct CompiledSide<'a> {
     session: &'a Session<'a>,
@@ -319,7 +320,7 @@ impl PathPair {
     }
 }
 
-/// Compares the two programs of a path; returns `None` if they do the same. If a limit prevents a side from being built, there are no moves to
+/// Compares the two programs of a path; returns `None` if they do the same. If a limit prevents one of them from being built, there are no moves to
 /// compare, and the diagnostics say why.
 fn compare_programs(
     sides: [CompiledSide<'_>; 2],
@@ -339,7 +340,7 @@ fn compare_programs(
                 return None;
             }
             let reasons = explain_change(sides.map(|side| side.session), paths, problems);
-            // The states themselves say what changed in pathbuild.toml.
+            // If only states changed and no reason was found, they show by themselves what changed in pathbuild.toml.
             let reasons = reasons.filter(|reasons| !reasons.is_empty() || !changes.groups.is_empty());
             Outcome::Changed(Box::new(ProgramDiff { states, reasons, ..changes }))
         }
@@ -397,7 +398,7 @@ impl CompiledSide<'_> {
         Ok(CompiledPath { path, states, posted })
     }
 
-    /// Returns what the program states besides moves: the text of a post-processor, as it is read back, or else the drawing.
+    /// Returns what the program states besides moves, according to the text that the post-processor writes, or else to the drawing.
     fn states(
         &self,
         known: &HashedPath,

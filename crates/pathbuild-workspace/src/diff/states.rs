@@ -105,7 +105,7 @@ impl StateKind {
         matches!(self, Self::Zero | Self::Probe | Self::Stop | Self::Dwell)
     }
 
-    /// Whether the steps of a program state it.
+    /// Whether words of this kind are taken from the steps of a program.
     fn is_in_steps(self) -> bool {
         !matches!(self, Self::PostProcessor | Self::Cutter | Self::Peck | Self::OtherLine)
     }
@@ -173,8 +173,7 @@ impl MachineStates {
         self.set(StateKind::Peck, words);
     }
 
-    /// Sets the words of a kind, in their order, with the lines at which they stand; 0 stands for no line. Words that repeat the previous ones change
-    /// nothing.
+    /// Sets the words of a kind, in their order, with their lines; 0 stands for no line. Words that repeat the previous ones change nothing.
     fn set(&mut self, kind: StateKind, mut words: Vec<(u32, String)>) {
         words.dedup_by(|next, previous| next.1 == previous.1);
         let stated =
@@ -213,7 +212,7 @@ impl MachineStates {
         states
     }
 
-    /// Adds the words in effect at a cut, as far as they changed since the cut before.
+    /// Adds the words in effect at a cut, as far as they changed since the previous cut.
     fn add_cut(&mut self, line: u32, current: &CurrentState) {
         for (kind, words) in current.words() {
             let last = self.stated[kind as usize].as_ref().and_then(|stated| stated.last());

@@ -93,12 +93,13 @@ impl ReferenceProgram {
         self.drawn.cutter()
     }
 
-    /// Returns the thickness T in mm, if it is the same for all cuts.
+    /// Returns the height of the upper face of the material in mm, if it is the same for all cuts.
     pub(super) fn surface(&self) -> Option<f64> {
         self.drawn.surface()
     }
 
-    /// Starts a comparison of a program in a dialect with the drawing. The program's steps must have their nominal heights, before correction.
+    /// Starts a comparison of a program in a dialect with the drawing. The steps of the program must be passed to it at their nominal heights, before
+    /// correction.
     pub(super) fn comparison<'w>(
         &self,
         settings: &Settings,

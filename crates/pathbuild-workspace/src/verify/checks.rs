@@ -405,7 +405,8 @@ fn with_cutter(values: &RapidValues, lang: Lang) -> String {
     format!("{against} {}", values.in_lang(lang))
 }
 
-/// Describes the rapid moves that start at an unknown position, as in `2 rapid moves from unknown positions to below the surface, from line 7 on`.
+/// Describes the rapid moves that start at an unknown position, as in `2 rapid moves from unknown positions to below the surface, the first in line
+/// 7`.
 pub fn blind_text(blind: BlindRapids, lang: Lang) -> String {
     let BlindRapids { count, line } = blind;
     match (lang, count) {

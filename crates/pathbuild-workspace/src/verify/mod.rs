@@ -97,9 +97,9 @@ pub struct MoveComparison {
     pub dialect: String,
     /// Name of the dialect or of the definition, with the evidence for the dialect, in the language of messages.
     pub read_as: String,
-    /// Number of moves in the drawing.
+    /// Number of moves in the drawing's program, as drawn or as a post-processor with a definition writes it.
     pub moves: usize,
-    /// Number of moves that are equal in the program and the drawing.
+    /// Number of these moves that the verified program contains before the first difference.
     pub equal: usize,
 }
 
@@ -198,7 +198,7 @@ impl<'w> Verifier<'w> {
         verified.unwrap_or_else(|diagnostics| VerifiedProgram { diagnostics, ..VerifiedProgram::default() })
     }
 
-    /// Returns the material that a program cuts, if its cutters and its surface are known.
+    /// Returns the material that a program cuts, if its cutters and its surface are known, and diagnostics of contradictory values.
     pub fn stock(&self, program: &Program) -> (Option<Stock>, Vec<Diagnostic>) {
         let mut header = HeaderReader::default();
         program.read.steps.iter().for_each(|step| header.step(step));

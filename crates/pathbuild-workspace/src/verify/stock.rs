@@ -1,4 +1,5 @@
-//! Determines the cutter and the material of a program. (book: program/reading: the stock's extent is in no drawing)
+//! Determines the cutters of a program and the height of its material, from options, the drawing, the configuration, and the program itself. (book:
+//! program/reading)
 
 use pathbuild_diagnostic::messages::{gcode as say, posts};
 use pathbuild_diagnostic::{Code, Diagnostic, Message, Severity, Text};
@@ -147,7 +148,8 @@ impl<'s> Sources<'s> {
         self.program.are_moves_known()
     }
 
-    /// Returns PB777 if all cuts end above the surface that an option states: the program then cuts nothing, or its Z 0 is on the table.
+    /// Returns PB777 if all cuts end above the surface that an option states: the program then cuts nothing, or its Z 0 is on the table. Returns
+    /// nothing if the surface is compared with a drawing or contradicts the program, which is reported already.
     pub(super) fn cuts_above(&self, lowest_cut: Option<f64>) -> Option<Diagnostic> {
         let is_compared = self.verifier.against.is_some() || self.other_surface_given().is_some();
         let given = self.options().surface.filter(|_| !is_compared)?;
@@ -202,8 +204,8 @@ impl<'s> Sources<'s> {
         }
     }
 
-    /// Reports rapid moves at cutting depth. Reports none if the cutter is known, and the surface from more than the comments of another CAM program;
-    /// and none on lines that already have an error. A cutter that is not known may be as wide as [`MAX_ASSUMED_DIAMETER`].
+    /// Reports rapid moves at cutting depth, unless the cutter is known, and the surface from more than the comments of another CAM program. Lines
+    /// with an error or with a finding of the same code are left out. A cutter that is not known may be as wide as [`MAX_ASSUMED_DIAMETER`].
     pub(super) fn doubtful_rapids(&self, rules: DepthRules, found: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_surface_known = self.options().surface.is_some()
             || self.verifier.against.is_some()
@@ -340,8 +342,8 @@ impl<'s> Sources<'s> {
         self.tools().get(entry)
     }
 
-    /// Returns the configured tools that cut, each with the line from which it cuts. Empty for a program with subprograms and several tools, in which
-    /// the tool of a line depends on the caller.
+    /// Returns the configured tools that cut, each with the line from which it cuts. Empty for XpertMILL, whose layers are not tools, and for a
+    /// program with subprograms and several tools, in which the tool of a line depends on the caller.
     pub(super) fn cutting_tools(&self) -> Vec<(u32, Option<&'s Tool>)> {
         if self.program.dialect == Dialect::Xpertmill || self.header.has_calls && self.header.tools.len() > 1
         {
