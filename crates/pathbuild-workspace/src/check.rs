@@ -46,7 +46,7 @@ pub struct Request<'a> {
 pub struct CheckOutcome {
     /// All diagnostics, unsorted, with duplicates.
     pub diagnostics: Vec<Diagnostic>,
-    /// The checked drawings, sorted by name.
+    /// The checked drawings, sorted by path.
     pub files: Vec<CheckedFile>,
 }
 

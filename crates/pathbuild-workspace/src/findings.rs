@@ -23,7 +23,7 @@ use crate::workspace::Workspace;
 pub struct Findings {
     /// Diagnostics that are not waived, sorted, without duplicates.
     pub diagnostics: Vec<Diagnostic>,
-    /// The checked drawings, sorted by name; empty for commands that do not check drawings.
+    /// The checked drawings, sorted by path; empty for commands that do not check drawings.
     pub checked: Vec<CheckedFile>,
     /// The programs that were verified, written or compared.
     pub programs: Vec<Utf8PathBuf>,

@@ -34,7 +34,7 @@ pub struct PathListing {
     pub paths: Vec<ListedPath>,
     /// Number of drawings that were searched.
     pub drawings: usize,
-    /// Diagnostics of directories and of the drawings themselves.
+    /// Diagnostics of directories and drawings, of patterns that match no path, and of programs that could not be generated.
     pub diagnostics: Vec<Diagnostic>,
 }
 

@@ -91,7 +91,7 @@ fn read(
     }
 }
 
-/// Returns the text of a configuration file.
+/// Reads a configuration file of at most [`MAX_CONFIGURATION_BYTES`].
 fn text(system: &dyn System, file: &Utf8Path) -> Result<String, Box<Diagnostic>> {
     files::read(system, file, MAX_CONFIGURATION_BYTES).map_err(|reason| {
         let fault = Diagnostic::new(&messages::CONFIGURATION_UNREADABLE).in_file(file);

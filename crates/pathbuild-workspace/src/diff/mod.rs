@@ -199,12 +199,12 @@ struct SidePaths {
     paths: Vec<HashedPath>,
     /// Drawings with errors in which no path can be found, relative to the root.
     unreadable: BTreeMap<Utf8PathBuf, SourceFile>,
-    /// Diagnostics of the drawings themselves.
+    /// Diagnostics of the inputs and the drawings, and of programs that could not be built.
     problems: Vec<Diagnostic>,
 }
 
 impl Tree<'_, '_> {
-    /// Returns the paths of this side.
+    /// Finds the paths of this side, and hashes the moves of their programs.
     fn paths(&mut self) -> SidePaths {
         let selection = self.session.select(self.inputs);
         let files = selection.whole(self.session);

@@ -166,7 +166,7 @@ impl MachineStates {
         self.set(StateKind::PostProcessor, vec![(0, name.to_owned())]);
     }
 
-    /// Adds the depths of the pecks in which the elements are drilled, in their order.
+    /// Adds the peck depths of the drilled elements, in the order of the elements; `None` for an element that is drilled without pecks.
     pub(super) fn set_pecks(&mut self, pecks: impl Iterator<Item = Option<f64>>) {
         let depth = |depth| format!("C{}", Number(depth));
         let words = pecks.map(|peck| (0, peck.map_or_else(String::new, depth))).collect();

@@ -139,7 +139,7 @@ fn move_problems(
     located.partition(Diagnostic::is_error)
 }
 
-/// Places a finding about a step of a target's program, the number of which is in `line`, at the drawn element.
+/// Moves a finding about a step of a target's program to the drawn element of the step. In the finding, `line` is the number of the step.
 fn at_element_of_step(db: &Database, target: Target, mut problem: Diagnostic) -> Diagnostic {
     let step = problem.place.line.take();
     match step.zip(traced_program(db, target).as_deref()) {

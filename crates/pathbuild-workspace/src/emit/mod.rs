@@ -62,7 +62,7 @@ pub struct Request {
 /// The programs of a run of `emit`, with their diagnostics.
 #[derive(Debug)]
 pub struct Emission {
-    /// The outcome of each program, in the order of the targets.
+    /// The outcome of each program, in the order of the targets, followed by earlier programs of paths that this run could not write.
     pub delivered: Vec<ProgramOutcome>,
     /// Stale programs that were removed.
     pub removed: Vec<Utf8PathBuf>,

@@ -44,7 +44,8 @@ pub enum ShownText<'a> {
     Omitted,
     /// The native program, even if `emit` writes another one.
     Native,
-    /// The program that `emit` writes, natively or through a post-processor. Falls back to the native program if `emit` writes nothing.
+    /// The program that `emit` writes, natively or through a post-processor. The native program is shown beside that of a post-processor, and in
+    /// place of a program that `emit` does not write.
     Emitted(Option<&'a PostProcessor>),
 }
 

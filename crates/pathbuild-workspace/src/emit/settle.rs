@@ -143,7 +143,7 @@ fn keep_other_version(system: &dyn System, output: &mut Output, limit: u64) {
     }
 }
 
-/// Writes files, each with the hash of the content that this version generates.
+/// Writes files, each with the hash of the content that this version generates. Without `force`, writes none if measured values would be lost.
 fn write<'a>(
     system: &dyn System,
     outputs: impl Iterator<Item = (&'a Output, [u8; 32])> + Clone,

@@ -38,7 +38,7 @@ pub struct EditedConfiguration {
 /// Inserts values into the text of a configuration.
 ///
 /// # Errors
-/// If the configuration declares a table in a way that cannot take the values.
+/// If the text is not valid TOML, or declares a table in a way that cannot take the values.
 pub fn edit(
     file: &Utf8Path,
     text: &str,

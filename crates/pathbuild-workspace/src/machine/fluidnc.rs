@@ -33,7 +33,7 @@ pub(super) fn read(text: &str) -> Result<Description, Box<Diagnostic>> {
     Ok(entries.finish("FluidNC"))
 }
 
-/// Sets the speeds of the spindle, if there is exactly one spindle. The speed map of a laser is ignored, because it contains powers.
+/// Sets the speeds of the spindle from its speed map, if there is exactly one such map. The map of a laser is ignored, because it contains powers.
 fn spindle(entries: &mut Entries) {
     let is_map = |name: &str| {
         name.strip_suffix("/speed_map")

@@ -33,7 +33,7 @@ pub struct ArgumentMatches {
     pub is_library: bool,
     /// Contents of the directories that were listed.
     pub listings: Listings,
-    /// Diagnostics of configured directories that do not exist.
+    /// Diagnostics of configured directories that do not exist, of directories that cannot be queried, and of patterns that match no path.
     pub problems: Vec<Diagnostic>,
     /// Directories in which names were searched for; empty if no argument is a name.
     pub(super) name_directories: Vec<Utf8PathBuf>,

@@ -35,7 +35,7 @@ pub struct Selection {
     pub directories: Vec<Utf8PathBuf>,
     /// The named directories and all directories below them.
     pub below: Vec<Utf8PathBuf>,
-    /// Diagnostics of names that are unknown or ambiguous.
+    /// Diagnostics of the arguments, such as unknown or ambiguous names and directories that cannot be listed.
     pub problems: Vec<Diagnostic>,
 }
 

@@ -55,7 +55,8 @@ pub struct VerifyOptions {
     pub required: Vec<Requirement>,
     /// Name or file of the post-processor that wrote the programs.
     pub post: Option<String>,
-    /// The control for which the programs will be rewritten. Rapid moves are checked as this control makes them, not as a program's own dialect does.
+    /// The control for which the programs will be rewritten. Rapid moves are checked as this control makes them, and not as the control of a
+    /// program's dialect does.
     pub target: Option<Dialect>,
 }
 

@@ -79,7 +79,8 @@ impl<'s> Sources<'s> {
         self.stock.as_ref()
     }
 
-    /// Returns the cutters, each with the line from which it applies; `None` if there are no cuts, or if the cutter of any cut is unknown.
+    /// Returns the cutters, each with the line from which it applies; `None` if the cutter of any cut is unknown, or if the program has no cuts and
+    /// neither an option nor the drawing states a cutter.
     pub(super) fn cutters(&self) -> Option<&[(u32, Cutter)]> {
         self.cutters.as_deref()
     }

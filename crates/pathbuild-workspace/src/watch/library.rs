@@ -273,7 +273,7 @@ impl<'a> Library<'a> {
         files
     }
 
-    /// Lists the directories again in which files were added or removed, and collects the drawings that looked up a name which has appeared or
+    /// Lists again the directories in which files were added or removed, and collects the drawings that looked up a name that has appeared or
     /// disappeared there. Returns whether any file name has changed.
     fn apply_names(
         &mut self,
