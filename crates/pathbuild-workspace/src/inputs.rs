@@ -29,12 +29,12 @@ impl Inputs {
     }
 }
 
-/// A drawing, path or directory that is given to a command.
+/// A drawing, path, program or directory that is given to a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input<'a> {
-    /// A drawing or directory: the text ends in .dxf, contains a path separator, or is `.` or `..`.
+    /// A drawing, a program or a directory: the text ends in .dxf, contains a path separator, or is `.` or `..`.
     Place(&'a Utf8Path),
-    /// The name of a path or, if there is no such path, the file name of a drawing without `.dxf`.
+    /// The name of a path, of a drawing without its `.dxf`, or of a directory: it refers to the first of these that exists.
     Name(&'a str),
 }
 

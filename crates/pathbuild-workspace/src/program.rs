@@ -61,7 +61,7 @@ pub struct Program {
     pub dialect: Dialect,
     /// The evidence for the dialect, if it was guessed.
     pub evidence: Option<Evidence>,
-    /// The dialect that was named or guessed; it differs from `dialect` if the program is read by means of a post definition.
+    /// The dialect that was named or guessed; it may differ from `dialect` if the program is read by means of a post definition.
     pub shown: Dialect,
     /// Steps and diagnostics of the program.
     pub read: Interpretation,

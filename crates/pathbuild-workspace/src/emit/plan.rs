@@ -24,7 +24,7 @@ use crate::workspace::Workspace;
 pub(super) struct Plan {
     /// Diagnostics of the paths and of the drawings that they use.
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// Reasons why no program is generated although the paths have no errors.
+    /// Reasons why no program is generated, besides errors of the paths.
     pub(super) refusals: Vec<Diagnostic>,
     pub(super) job: Option<Job>,
 }
