@@ -14,7 +14,7 @@ use crate::provenance::{Provenance, head_remarks};
 use crate::read::Problems;
 use crate::verify::Cutter;
 
-/// Maximum difference in mm at which two lengths in comments are considered equal: they are rounded, often to two decimals.
+/// Greatest error in mm that rounding may cause in a length of a comment, which often has two decimals. Two such lengths may differ by twice this.
 const ROUNDING_TOLERANCE: f64 = 0.01;
 
 /// Maximum difference in mm at which two lengths that are not rounded are considered equal.
@@ -95,7 +95,7 @@ pub struct Statement {
 pub struct HeaderForm {
     /// The software that writes comments of this form.
     pub name: &'static str,
-    /// Source in which the form was seen.
+    /// Programs or documents in which the form was seen.
     pub source: &'static str,
     /// A comment in this form.
     pub sample: &'static str,
@@ -198,7 +198,8 @@ impl HeaderReader {
         }
     }
 
-    /// Processes the comments at the beginning of a text. Translated programs need this, because their steps contain no comments.
+    /// Processes the comments at the beginning of a text. Needed for programs that are translated by the definition of their post, because their
+    /// steps contain no comments.
     pub fn read_head_comments(&mut self, text: &[u8]) {
         let steps = std::mem::take(&mut self.events);
         head_remarks(text).for_each(|remark| self.comment(0, &remark));
@@ -254,7 +255,8 @@ fn starts_in_inches(events: &[(u32, Event)], inch: u16) -> bool {
 /// The tools and the stock of a program, as its comments describe them.
 #[derive(Debug, Default)]
 pub struct Header {
-    /// Line and number of each tool that the program inserts (M6), or of each tool that it selects (T) if it inserts none.
+    /// Line and number of each tool that the program inserts (M6); if it inserts none, of each tool that it selects (T); if it has neither word, of
+    /// each tool change in a comment.
     pub changes: Vec<(u32, u32)>,
     /// Whether the program has calls, loops or branches, so that its lines are executed out of order.
     pub has_calls: bool,
@@ -264,7 +266,7 @@ pub struct Header {
     pub surface: Option<f64>,
     /// Whether a comment written by pathbuild states the height of the stock's upper face.
     pub is_of_pathbuild: bool,
-    /// Contradictions between comments.
+    /// Contradictions between comments, and tools that comments list but the program never selects.
     pub problems: Vec<Diagnostic>,
 }
 

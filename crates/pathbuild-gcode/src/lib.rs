@@ -1,4 +1,4 @@
-//! Writes, reads, checks and post-processes programs in G-code. (book: program/gcode, book: program/posts, book: program/reading)
+//! Writes, reads, checks and adjusts programs in G-code. (book: program/gcode, book: program/reading, book: language/probes)
 
 pub mod adjust;
 pub mod dialect;

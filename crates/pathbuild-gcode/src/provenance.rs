@@ -1,12 +1,13 @@
 //! The header line that identifies the origin of a program. (book: program/gcode)
 //!
 //! `pathbuild 0.2.0 3f2a9c0d41b7e685-09c1d2e3 fanuc O2 T5` consists of the version, a hash of the moves and formulas, a hash of the
-//! options, the dialect, the cutter O and the height T of the material in mm. O and T are omitted if a program has several of them.
+//! options, the dialect, the diameter O of the cutter and the height T of the material's upper face, both in mm. O or T is omitted if
+//! it changes within the file.
 //!
 //! A program with equal hashes and an unmodified body is up to date, regardless of the version that wrote it, and even if its drawing has
 //! been saved since.
 //!
-//! Native programs and posts both write the line with [`Display`](fmt::Display), and all readers use [`Provenance::of_head`].
+//! Native programs and posts both write the line with [`Display`](fmt::Display); [`FromStr`] parses it, and [`Provenance::of_head`] finds it.
 
 use std::borrow::Borrow;
 use std::fmt;
@@ -31,9 +32,9 @@ pub struct Provenance {
     pub options: Box<str>,
     /// Dialect of the program; `None` if the post names none.
     pub dialect: Option<Dialect>,
-    /// O in mm, if a single cutter mills everything.
+    /// Diameter O of the cutter in mm, if a single cutter mills everything.
     pub cutter: Option<f64>,
-    /// T in mm, if the upper face of the material is at a single height.
+    /// Height T of the material's upper face in mm, if it is the same everywhere.
     pub thickness: Option<f64>,
 }
 
@@ -69,8 +70,8 @@ impl Provenance {
         (&self.moves, &self.options) == (&other.moves, &other.options)
     }
 
-    /// Parses the provenance in the first bytes of a program, and the text of the next comment line, which is the title. `None` if the
-    /// program was not written by pathbuild.
+    /// Finds the provenance at the beginning of a program, and returns it with the text of the next line, which is the title. `None` if
+    /// the program was not written by pathbuild.
     pub fn of_head(head: &[u8]) -> Option<(Self, Box<str>)> {
         let mut lines = head_remarks(head);
         let provenance = lines.find_map(|line| line.parse().ok())?;

@@ -1,4 +1,4 @@
-//! Calculates the statistics of a program from its own moves: moves, lengths, times, bounding box, tools, feeds. (book: program/gcode; book:
+//! Calculates the statistics of a program from its moves: their number, lengths and times, bounding box, tools, feeds. (book: program/gcode; book:
 //! program/reading, `import`)
 
 use std::collections::{HashMap, HashSet};
@@ -7,8 +7,8 @@ use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Spindle, Step};
 use pathbuild_toolpath::{Program, Statistics, Total};
 
-/// Calculates the statistics of a program from its moves, with a rapid feed in mm/min. A compatible program gets the statistics that PathDxf2GCode
-/// writes.
+/// Calculates the statistics of a program from its moves; `rapid` is the rapid feed in mm/min. A compatible program gets the statistics that
+/// PathDxf2GCode writes.
 pub fn statistics(program: &Program, rapid: f64) -> Statistics {
     if program.compatible {
         return Statistics::of_reference(program, rapid);
@@ -81,7 +81,7 @@ impl Tally {
         self.milling.total + self.drilling.total
     }
 
-    /// Returns the length and the time of all moves, with a rapid feed in mm/min.
+    /// Returns the length and the time of all moves except probing moves; `rapid` is the rapid feed in mm/min.
     pub fn sum(&self, rapid: f64) -> Total {
         self.cutting() + self.sweeps(rapid)
     }
@@ -124,7 +124,8 @@ pub struct Summary {
     pub total: Tally,
     /// The totals of each tool in order of first use; for XpertMILL, of each layer.
     pub tools: Vec<ToolTotals>,
-    /// Least and greatest X, Y, Z of all moves in mm; `None` for axes that never move to a known position.
+    /// Least and greatest X, Y, Z in mm of all moves except those to named positions (G28, G30, G53); `None` for axes that never move to a known
+    /// position.
     pub extent: AxisRanges,
     /// Least and greatest X, Y, Z of cutting moves in mm; `None` for axes that never cut at a known position.
     pub cut: AxisRanges,
@@ -254,7 +255,7 @@ fn widen(extent: &mut AxisRanges, movement: &Move) {
     }
 }
 
-/// Returns the least and greatest X, Y, Z of the cutter tip in the cutting moves of a drawn program, in mm; `None` if nothing is cut.
+/// Returns the least and greatest X, Y, Z of the cutter tip in the cutting moves of a drawing's program, in mm; all `None` if nothing is cut.
 pub fn cutting_box(program: &Program) -> AxisRanges {
     let mut extent = AxisRanges::default();
     for (_, movement) in program.moves().filter(|(_, movement)| matches!(movement.pace, Pace::Feed(_))) {
