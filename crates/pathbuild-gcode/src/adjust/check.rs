@@ -23,7 +23,7 @@ pub(super) struct Check<'c, 'a> {
     pub(super) survey: &'c ProbeSurvey<'a>,
 }
 
-/// Minimum difference, in mm, at which two positions or heights are considered different: both are written with three decimals.
+/// Difference in mm beyond which two positions or heights are considered different: both are written with three decimals.
 pub(super) const MIN_DIFFERENCE: f64 = 0.000_5;
 
 impl Check<'_, '_> {
@@ -156,7 +156,7 @@ impl Check<'_, '_> {
     }
 }
 
-/// Rounds a measured height to six decimals, as in the adjusted program, so that evaluating its formulas gives the same result.
+/// Rounds a measured height to six decimals, as the adjusted program states it, so that evaluating the formulas again gives the same result.
 fn rounded_to_printed(value: f64) -> f64 {
     let mut text = String::new();
     push_exact(&mut text, value);

@@ -1,7 +1,7 @@
 //! Puts measured heights into a program. (book: language/probes)
 //!
 //! The program is read twice, line by line: first every formula is checked and its probes are recorded, then each formula is evaluated.
-//! Therefore the memory needed is little more than the program itself, and nothing is written if there is an error.
+//! Therefore little memory is needed besides the texts of both programs, and nothing is written if there is an error.
 
 mod check;
 mod scan;
@@ -67,7 +67,7 @@ pub fn first_open_formula(program: &[u8]) -> Option<u32> {
     (1..).zip(program.split(|byte| *byte == b'\n')).find(|(_, line)| is_open(line)).map(|(number, _)| number)
 }
 
-/// Text of a formula, or of a probe listed in the header, with its line counted from 1.
+/// Text of a formula, or of a probe listed in the header, with the number of its line, counted from 1.
 #[derive(Debug)]
 pub(crate) struct FormulaText {
     pub(crate) line: u32,
@@ -121,7 +121,7 @@ pub(crate) fn without_comments(line: &str) -> String {
     kept
 }
 
-/// Whether a program equals the result of [`adjust`] for `clean` with the measured heights listed in its header.
+/// Whether a program equals the result of [`adjust`] for `clean` with the measured heights listed in its header, except for the version of pathbuild.
 pub fn is_adjusted_from(program: Source<'_>, clean: Source<'_>) -> bool {
     adjusted_again(program, clean).is_some_and(|expected| is_same_program(program.bytes, &expected))
 }
@@ -268,7 +268,7 @@ impl Writer<'_> {
         Ok(height)
     }
 
-    /// Checks that a correction is within the limit, because a plane far outside the probes can exceed all measured values.
+    /// Checks that a correction is within the limit, because far outside the probes, a plane can exceed all measured heights.
     fn check(&mut self, line: Line<'_>, spot: &FormulaSpan, correction: f64) -> Result<(), Box<Diagnostic>> {
         let limit = self.inputs.max_correction;
         if correction.abs() > CORRECTION_SLACK.0 * limit + CORRECTION_SLACK.1 {

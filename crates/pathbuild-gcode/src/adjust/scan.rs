@@ -1,4 +1,4 @@
-//! Splits a program into lines, and finds their formulas and the probes that these use. A formula consists of numbers, probes such as `#51`, the
+//! Splits a program into lines, finds the formulas in them, and evaluates these. A formula consists of numbers, probes such as `#51`, the
 //! operators + - * / and the brackets ( ) and [ ].
 
 use std::collections::BTreeMap;
@@ -43,7 +43,7 @@ impl<'a> Line<'a> {
         let text = |range: Range<usize>| String::from_utf8_lossy(&content[range]);
         let span = span.start.min(content.len())..span.end.min(content.len());
         let column = u32::try_from(text(0..span.start).chars().count() + 1).unwrap_or(u32::MAX);
-        // Of a very long line, only the part around the error is shown.
+        // Of a very long line, only the part around the start of the error is shown.
         let shown = span.start.saturating_sub(EXCERPT_BYTES)..content.len().min(span.start + EXCERPT_BYTES);
         let before = text(shown.start..span.start).len();
         let fault = text(span.start..span.end.min(shown.end)).len();

@@ -27,7 +27,7 @@ pub(super) struct ProbeLine<'a> {
     pub(super) place: ProbePoint,
     /// Position in the emitted drawing; missing in files of PathDxf2GCode and of old versions of pathbuild.
     pub(super) at: Option<Xy>,
-    /// The expected height (th) in mm; missing in the older form of the file.
+    /// The expected height in mm, after `T=`; missing in the older form of the file.
     pub(super) height: Option<f64>,
     pub(super) value: EnteredValue,
     /// Position of the value, or of the place where it is missing: in this line, or in a line of a log.
@@ -122,7 +122,7 @@ pub(crate) struct ProgramProbe {
     pub(super) place: ProbePoint,
     /// Height at which the probe was drawn, in mm.
     pub(crate) height: f64,
-    /// Position in the program's coordinates.
+    /// Position in the program's coordinates, if the header states it.
     pub(super) at: Option<Xy>,
     /// Measured height in mm; only in adjusted programs.
     pub(crate) measured: Option<f64>,
@@ -137,7 +137,7 @@ impl fmt::Display for ProgramProbe {
     }
 }
 
-/// X and Y of a probe in its own drawing, in mm.
+/// X and Y of a probe, in mm, in the coordinates of the drawing that contains it.
 pub(super) type ProbePoint = [f64; 2];
 
 static HEADER_ENTRY: LazyLock<Regex> = LazyLock::new(|| {
@@ -252,7 +252,7 @@ fn take_measured<'a>(probe: &mut ProbeLine<'a>, measured: LoggedHeight<'a>, prob
 fn read_log<'a>(log: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<LoggedHeight<'a>> {
     let mut measured = Vec::new();
     let mut offset = [0.0; 3];
-    // The offset at the first result. The program is milled in one system, so all heights must be measured in it.
+    // The offset at the first result. The program is milled in a single coordinate system, so all heights must be measured in that system.
     let mut first_offset: Option<[f64; 3]> = None;
     for line in lines(log) {
         for report in LOG_REPORT.captures_iter(line.content()) {
