@@ -85,7 +85,7 @@ const fn needing(letter: char, code: u16, values: &'static [u8], needs: &'static
     InertWord { letter, code, values, harmless: &[], needs }
 }
 
-/// The words that most dialects share. Each dialect overrides some of the fields.
+/// Defaults for the fields: no words, as in most dialects for most fields. Each dialect overrides some of them.
 const COMMON_WORDS: Words = Words {
     letters: Letters(0),
     g: &[],
@@ -163,7 +163,7 @@ pub(super) static XPERTMILL: Words = Words {
     ..COMMON_WORDS
 };
 
-/// The words that GRBL and RS274/NGC share: the native program is written for senders that expect either of them.
+/// The words of GRBL and of RS274/NGC, with G73 and G90.1: native programs are written for senders that expect either of the two.
 pub(super) static NATIVE: Words = Words {
     letters: Letters::new(b"ABCDFGHIJKLMNPQRSTXYZ"),
     g: &[
@@ -276,7 +276,7 @@ pub(super) static DIN: Words = Words {
         0, 10, 20, 30, 40, 90, 170, 180, 190, 400, 410, 420, 430, 440, 530, 540, 550, 560, 570, 580, 590,
         700, 710, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890, 900, 910, 920, 930, 940, 950, 960, 970,
     ],
-    // G53 removes the offsets permanently, and G92 may limit the speed.
+    // G53 removes the offsets permanently, and G92 may limit the spindle speed.
     g_own: &[530, 920],
     m: &[0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 190, 300],
     ..COMMON_WORDS

@@ -126,7 +126,7 @@ fn transliterated(character: char) -> &'static str {
     }
 }
 
-/// Whether a control acts on a comment with this text: it opens a file, prints, hides moves or runs a program.
+/// Whether some control acts on a comment with this text, for example by opening a file, printing, hiding moves or running a program.
 pub fn is_active_comment(text: &str) -> bool {
     beginning_of(text, OBEYED_COMMENTS).or_else(|| beginning_of(text, DISPLAY_WORDS)).is_some()
 }

@@ -48,7 +48,7 @@ macro_rules! dialects {
 }
 
 dialects! {
-    /// The output of pathbuild and its predecessor (book: program/gcode), with correction formulas as data (book: language/probes).
+    /// The output of pathbuild and of its predecessor PathDxf2GCode (book: program/gcode), with correction formulas as data (book: language/probes).
     Native "native" NATIVE;
     /// RS274/NGC version 3 of the NIST, the common ancestor of most other dialects.
     Rs274 "rs274" RS274;

@@ -25,7 +25,7 @@ pub struct Rules {
     pub unit_synonyms: Option<[u16; 2]>,
     /// The effect of a change of the unit on lengths stated before it.
     pub units: UnitChange,
-    /// Whether M6 selects a layer, to which moves and S then apply.
+    /// Whether M6 selects a layer, to which the moves and the S after it belong.
     pub layers: bool,
     /// Whether a motion word applies only to its own line. A line that has coordinates but no motion word repeats the last motion, with a warning.
     pub motion_is_stated: bool,
@@ -252,7 +252,7 @@ pub enum StartMotion {
     None,
 }
 
-/// Permitted difference of radii on the NIST interpreter, from which Mach3 is derived.
+/// Permitted difference of radii in the NIST interpreter, from which Mach3 is derived.
 const NIST_RADIUS: RadiusTolerance = RadiusTolerance::Fixed { mm: 0.002, inch: 0.0002 * 25.4 };
 const GRBL_RADIUS: RadiusTolerance = RadiusTolerance::Relative { most: 0.5, least: 0.005, share: 0.001 };
 
@@ -652,7 +652,8 @@ pub struct Spelling {
     pub formulas: bool,
     /// Whether a number without a letter after M6 is the tool number.
     pub bare_tool_number: bool,
-    /// Whether `!`, `?`, `~` and all bytes above 127 act immediately, even inside comments.
+    /// Whether the control takes `!`, `?`, `~`, 0x18 and all bytes above 127 out of the text, even inside comments. It acts on many of them at once
+    /// and discards the others.
     pub real_time_bytes: bool,
     /// Beginnings of comments that the control obeys: it writes files, runs programs or stops.
     pub active_comments: &'static [&'static str],
@@ -687,7 +688,7 @@ pub enum Percent {
     Frame,
     /// `%` begins the program.
     Start,
-    /// The first `%` begins the program, even after a block number, and the rest of its line is the name of the program.
+    /// The first `%` begins the program, even after a block number, and the rest of its line is the name of the program; the second one ends it.
     Title,
     /// The control rejects `%`.
     Refused,
