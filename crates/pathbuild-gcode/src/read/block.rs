@@ -304,7 +304,7 @@ pub enum Binary {
     GreaterOrEqual,
 }
 
-/// Maximum number of bytes of a line shown on either side of an error.
+/// Maximum number of bytes shown of the faulty part of a line, and of the text on either side of it.
 const EXCERPT_BYTES: usize = 160;
 
 /// Decodes UTF-8, or else Windows-1252.

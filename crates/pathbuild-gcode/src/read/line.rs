@@ -1,4 +1,4 @@
-//! Splits a line into words, settings and comments. (book: program/reading)
+//! Splits a line into words, assignments to parameters, and comments. (book: program/reading)
 
 use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -147,7 +147,7 @@ impl Line<'_> {
         &self.rules.spelling
     }
 
-    /// Reports a lower-case letter if the control reads only upper case. The word is read nevertheless.
+    /// Reports a lower-case letter, for a control that reads only upper case. The word is read nevertheless.
     fn small_letter(&mut self, letter: u8) -> Result<(), UnreadableLine> {
         let letter = letter.to_ascii_uppercase();
         self.report(&say::SMALL_LETTER, self.current_span(), |d| d.with("letter", char::from(letter)));

@@ -118,7 +118,8 @@ impl<'t> BlockReader<'t> {
         Some(Block { line: self.line, text, parts: &self.parts })
     }
 
-    /// Ends the program at this point (M2, M30). The lines after it are not read; they are reported unless they are `%`, blank or a comment.
+    /// Ends the program at this point (M2, M30). The lines after it are not read. The first of them that is not `%`, blank or a comment is reported,
+    /// unless subprograms may follow.
     pub fn end_program(&mut self) {
         if !matches!(self.state, State::Ended(_)) {
             self.state = State::Ended(self.line);

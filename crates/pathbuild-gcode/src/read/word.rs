@@ -1,4 +1,4 @@
-//! Reads words and assignments that do not have the simplest form.
+//! Reads the parts of a line: words that do not have the simplest form, assignments, O words, comments and correction formulas.
 
 use memchr::{memchr, memchr2};
 use pathbuild_diagnostic::messages::gcode as say;
