@@ -1,4 +1,5 @@
-//! Writes programs in the native dialect, with their probing program and the file of probe values. (book: program/gcode, book: language/probes)
+//! Writes programs in the native dialect, with their probing programs and files of probe values, and reads them back. (book: program/gcode, book:
+//! language/probes)
 
 mod number;
 mod program;

@@ -163,7 +163,7 @@ impl<'a> Formulas<'a> {
         })
     }
 
-    /// Appends the formula of a height, with its brackets: `(=z+w*[#51-th]...)`.
+    /// Appends the formula of a height, with its brackets: `(=z+w*[#51-t]...)`, with the weight w of the probe and the height t at which it is drawn.
     pub(super) fn push(&self, text: &mut String, height: Height) {
         text.push_str("(=");
         self.push_number(text, height.z);

@@ -27,7 +27,7 @@ pub struct WriteOptions {
     pub correction: Correction,
 }
 
-/// Returns the first comments of every file, without comment marks. An empty provenance is left out.
+/// Returns the first comments of a program and of its probing program, without comment marks. An empty provenance is left out.
 pub(super) fn first_lines(program: &Program, provenance: &str) -> impl Iterator<Item = String> {
     let provenance = (!provenance.is_empty()).then(|| provenance.to_owned());
     provenance.into_iter().chain([title(&program.drawing, &program.path)])
@@ -122,7 +122,7 @@ pub fn has_title(text: &[u8]) -> bool {
 /// Number of lines at the start of a program in which the title is searched for.
 const TITLE_LINES: usize = 4;
 
-/// Whether a native program is a compatible one, in which F comes before G94.
+/// Whether a native program is a compatible one: its first line other than comments and `%` is `F150`.
 pub fn is_compatible(text: &[u8]) -> bool {
     let mut lines = text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
     lines.find(|line| !matches!(line.first(), None | Some(b'(' | b'%' | b';'))) == Some(b"F150".as_slice())

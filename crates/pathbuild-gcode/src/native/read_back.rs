@@ -172,7 +172,7 @@ fn internal_error(reason: &str) -> Box<Diagnostic> {
 /// Returns the differences between the formulas and probes of a native text and those of the drawing: the first probe and the first formula that
 /// differ.
 ///
-/// Applied formulas differ only in their number, so adjusted programs can be compared too.
+/// Applying a formula changes only the number before it, so adjusted programs can be compared too.
 pub fn formula_differences(text: &[u8], program: &Program, correction: Correction) -> Vec<Diagnostic> {
     let mut found = formula_texts(text);
     let Some(formulas) = Formulas::new(program, correction) else {
@@ -251,7 +251,7 @@ pub struct OtherLine {
 pub enum Parts {
     /// The parts obeyed by the machine and `adjust`: words and formulas.
     Code,
-    /// Lines that consist only of comments, regardless of the version that wrote them.
+    /// Lines that consist only of comments, regardless of the version of pathbuild that they state.
     Comments,
 }
 
