@@ -21,14 +21,17 @@ const MAX_CALL_DEPTH: usize = 10;
 /// Maximum number of lines executed by all calls and loops of a file, so that a few bytes cannot describe hours of work.
 const MAX_REPEATED_LINES: u32 = 1_000_000;
 
+/// The way in which executing or skipping lines has ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum RunEnd {
     Returned,
+    /// A pass through a loop is complete, or the jump has been executed: the next line follows.
     Repeated,
     /// A `break` or `continue` ended a pass of the loop that [`Runner::left`] names.
     Left(LoopExit),
+    /// The file has no more lines.
     NoLines,
-    /// The program has ended, or the caller wants no more steps, or too much has been executed.
+    /// The program has ended, or the caller wants no more steps, or too many lines have been executed.
     Ended,
 }
 

@@ -222,12 +222,12 @@ fn motion(code: u16) -> Option<Motion> {
     })
 }
 
-/// Whether a G code is a drilling cycle in all dialects with cycles.
+/// Whether a G code is a cycle, for drilling, tapping, boring or threads, in all dialects that have this code.
 pub(super) fn is_cycle(code: u16) -> bool {
     matches!(code, 730 | 740 | 760 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890)
 }
 
-/// Returns the name of a G or M code, given ten times its number: `G1`, `G38.2`.
+/// Returns the name of a G or M code, given ten times its number: `G1`, `G38.2`. For an O word, which has the code 0, it is the letter alone.
 pub fn name(letter: char, code: u16) -> String {
     match code % 10 {
         0 if letter == 'O' => letter.to_string(),

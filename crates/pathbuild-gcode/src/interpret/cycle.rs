@@ -1,4 +1,4 @@
-//! Expands drilling cycles to moves along the axis across the plane. (RS274/NGC, 3.5.16)
+//! Expands drilling cycles into rapid moves to the holes and moves along the axis perpendicular to the plane. (RS274/NGC, 3.5.16)
 //!
 //! Names such as "height" and Z assume the plane XY, which is almost always the active one.
 
@@ -214,7 +214,8 @@ impl Interpreter<'_> {
         Some(Hole { cycle, r, bottom, clear: r, step, dwell })
     }
 
-    /// Returns the height of the tool after the hole before: with G98, its height at the start of the series; with G99, its current height.
+    /// Returns the height in mm to which the tool has risen from the previous hole: with G98, its height at the start of the series; with G99, its
+    /// current height.
     fn retract_height(&self) -> f64 {
         let axis = self.state.plane.third();
         if self.state.retract_to_r { self.state.position.at[axis] } else { self.state.cycle.initial[axis] }

@@ -14,8 +14,8 @@ const EQUALITY_TOLERANCE: f64 = 1e-6;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fault(pub(super) &'static Text);
 
-/// The parameters of a program. A parameter that the program has not set has no value, because a control keeps numbered parameters from one program
-/// to the next.
+/// The parameters of a program. A parameter that the program has not set has no value, unless it holds a state of the machine: its value may be left
+/// over from a previous program.
 #[derive(Debug, Default)]
 pub(super) struct Parameters {
     numbered: BTreeMap<u32, f64>,
@@ -42,7 +42,7 @@ pub(super) struct LocalParameters {
 
 const LAST_LOCAL_PARAMETER: u32 = 30;
 
-/// The last parameter that programs use. Parameters above it hold positions, offsets and the state of the machine.
+/// The last parameter that programs may use freely. Parameters above it hold positions, offsets and the state of the machine.
 const LAST_PROGRAM_PARAMETER: u32 = 5000;
 
 impl Parameters {
@@ -232,7 +232,7 @@ const PREDEFINED: &[&str] = &[
     "_z",
 ];
 
-/// Whether LinuxCNC itself defines a name: a state of the machine, or an entry of its configuration or of its signals.
+/// Whether LinuxCNC itself defines a name: for a state of the machine, an entry of its configuration, or a signal of its HAL.
 fn is_predefined(name: &str) -> bool {
     let is_entry = ["_ini[", "_hal["].iter().any(|start| name.starts_with(start));
     is_entry || PREDEFINED.binary_search(&name).is_ok()
@@ -334,7 +334,7 @@ pub(super) struct StatedProbes {
     /// Whether pathbuild wrote the program, so that every probe is listed in its header.
     pub(super) is_ours: bool,
     pub(super) has_begun: bool,
-    /// S0 of the drawing in mm, the only height that is never corrected.
+    /// The start height S0 of the drawing in mm, slightly above the sweep height S, which is the only height that is never corrected.
     pub(super) start_height: Option<f64>,
     stack: Vec<f64>,
 }

@@ -83,7 +83,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Reports a height without a formula. In a program with probes, only S0 has none.
+    /// Reports a height without a formula. In a program with probes, only the start height S0 has none.
     pub(super) fn height_without_formula(&mut self, block: &Block<'_>, span: Span, number: f64) {
         if self.stated.probes.is_empty() {
             return;

@@ -227,7 +227,7 @@ fn is_number(text: &[u8]) -> bool {
     !text.is_empty() && text.iter().all(u8::is_ascii_digit)
 }
 
-/// Whether a line with an O word is part of a subroutine or a branch. A bare `O1234` is the program number of another control.
+/// Whether a line with an O word is part of a subroutine, a branch or a loop. A bare `O1234` is the program number of another control.
 fn ends_in_keyword(line: &[u8]) -> bool {
     const KEYWORDS: [&[u8]; 10] =
         [b"sub", b"endsub", b"call", b"if", b"else", b"endif", b"while", b"do", b"repeat", b"return"];
@@ -312,7 +312,7 @@ impl DisputedWords {
         self.words.entry((letter, code)).or_insert(line);
     }
 
-    /// Returns the first line of the first disputed word, and the names of all disputed words; `None` if there are none.
+    /// Returns the first line that has a disputed word, and the names of all disputed words; `None` if there are none.
     pub fn finish(&self) -> Option<(u32, Vec<String>)> {
         let rules: Vec<&Rules> = Dialect::ALL.iter().map(|dialect| dialect.rules()).collect();
         let knows = |rules: &&&Rules| self.words.keys().all(|(letter, code)| is_known(rules, *letter, *code));

@@ -24,7 +24,7 @@ pub(super) struct DoubtfulArcs {
     found: BTreeMap<u8, Problems>,
 }
 
-/// An arc by R. All values are in mm.
+/// An arc by R, with lengths in mm.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ArcByRadius {
     pub(super) radius: f64,

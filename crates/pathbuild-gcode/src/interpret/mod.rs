@@ -2,7 +2,7 @@
 //!
 //! The result is a list of canonical [`Step`]s in absolute millimetres, each with the positions before and after it, regardless of the
 //! units, distance mode, coordinate systems and cycles used by the program. Every problem is a diagnostic with its line. Lines that
-//! cannot be understood are omitted; later steps may be wrong in consequence.
+//! cannot be understood are omitted, so later steps may be wrong.
 
 mod calls;
 mod codes;

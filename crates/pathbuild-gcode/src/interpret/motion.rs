@@ -193,7 +193,8 @@ impl Interpreter<'_> {
         to
     }
 
-    /// Reports the first move that begins over the part and goes to a low height in machine coordinates.
+    /// Reports the first move that goes to a low height in machine coordinates from a known X and Y, where the part may be. If the machine's offsets
+    /// are known, nothing is reported.
     fn check_machine_height(&mut self, block: &Block<'_>, z: Option<Slot>) {
         let Some(slot) = z.filter(|_| self.state.offsets.of_machine(2, 0.0).is_none()) else { return };
         let is_over_part = self.state.position.known.has(Axes::XY);
@@ -578,7 +579,7 @@ impl Interpreter<'_> {
         self.mark_all_used();
     }
 
-    /// Reads P as the number of full turns in addition to the arc.
+    /// Reads P, the number of turns, and returns the number of full turns in addition to the arc.
     fn extra_turns(&mut self, block: &Block<'_>) -> u32 {
         if !self.rules.arcs.turns {
             return 0;

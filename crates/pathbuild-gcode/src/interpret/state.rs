@@ -14,7 +14,8 @@ pub(super) struct State {
     pub(super) position: Position,
     /// The axes whose position has been specified since the last tool change; all axes before the first tool change.
     pub(super) stated_axes: Axes,
-    /// The axes to a position of which the program has moved since the last tool change, stop for the operator or, for Z, change of the tool length.
+    /// The axes along which the program has moved to a stated position since the last tool change or stop for the operator and, along Z, since the
+    /// last change of the tool length; before the first of these, all axes.
     pub(super) stated_since_stop: Axes,
     /// The axes whose position G92 or G10 L20 has stated since the last tool change or stop for the operator.
     pub(super) zeroed_since_stop: Axes,
@@ -70,12 +71,12 @@ pub(super) struct StatedLength {
     pub(super) unit: f64,
 }
 
-/// The values of drilling cycles, which are kept until another motion.
+/// The values of a drilling cycle, which are kept until a word sets another motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CycleState {
     /// Position before the first cycle of the series.
     pub(super) initial: [f64; 3],
-    /// R and Z as heights in mm, P and Q as written.
+    /// R and Z as heights in mm, P in seconds, Q in mm.
     pub(super) r: Option<f64>,
     pub(super) z: Option<f64>,
     pub(super) p: Option<f64>,

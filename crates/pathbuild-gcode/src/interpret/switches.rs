@@ -1,4 +1,4 @@
-//! Executes all words of a block that do not move: tools, spindle, coolant, dwells, modes, stops.
+//! Executes all words of a block that cause no move: tools, spindle, coolant, dwells, modes, stops.
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
@@ -15,7 +15,8 @@ pub(super) const SPINDLE: &[u16] = &[30, 40, 50, 190];
 pub(super) const STOPS: &[u16] = &[0, 10, 20, 300, 600];
 pub(super) const TOOL: &[u16] = &[60, 610];
 pub(super) const COOLANT: &[u16] = &[70, 80, 90];
-/// M codes that change the order of lines or the meaning of G words.
+/// M codes that are not executed, although they change the order of lines, the modes, the number of the tool or the feed. Those in [`CALLS`] are
+/// executed in dialects with program numbers.
 const UNSUPPORTED_M_CODES: &[u16] = &[470, 610, 700, 710, 720, 730, 970, 980, 990, 2200];
 /// M codes that call and end subprograms.
 pub(super) const CALLS: &[u16] = &[970, 980, 990];
@@ -351,7 +352,7 @@ pub(super) fn is_followed_m(m_code: u16) -> bool {
     !has_no_step(m_code) && m_code != 190
 }
 
-/// Whether an M code produces no step of its own kind.
+/// Whether no kind of [`Action`] stands for an M code, which then becomes a [`Change::Switch`].
 fn has_no_step(m_code: u16) -> bool {
     let has_step = [STOPS, TOOL, COOLANT].iter().any(|group| group.contains(&m_code));
     !has_step && !matches!(m_code, 30 | 40 | 50)
@@ -449,7 +450,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the feed of a cutting move in mm/min; reports a missing feed and returns 0.
+    /// Returns the feed of a cutting or probing move in mm/min. A missing feed is reported and taken as 0.
     pub(super) fn feed(&mut self, block: &Block<'_>, movement: &Move) -> f64 {
         let per_minute = match self.state.feed_unit {
             FeedUnit::PerMinute => self.state.feed,

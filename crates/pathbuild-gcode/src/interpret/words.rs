@@ -11,7 +11,7 @@ use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
 use crate::dialect::MCodeLimit;
 use crate::read::{Block, Span, Target, Value, Word};
 
-/// Number of decimals of a calculated value.
+/// Marks the value of an expression, which has no number of decimals.
 const OF_EXPRESSION: u8 = u8::MAX;
 
 impl Interpreter<'_> {
@@ -222,7 +222,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Adds a step for each G or M word of the block, except for motions.
+    /// Adds a step for each G or M word of the block, except for G0 to G3.
     pub(super) fn emit_word_steps(&mut self, block: &Block<'_>) {
         let moves_beside = self.words.values.has_coordinates();
         for index in 0..self.words.commands.len() {
