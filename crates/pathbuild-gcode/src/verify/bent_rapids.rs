@@ -17,7 +17,8 @@ use crate::dialect::Dialect;
 use crate::interpret::Program;
 use crate::read::Problems;
 
-/// Rule that finds slanting rapid moves below the material's surface: pass every step of a program, then call [`finish`](Self::finish).
+/// Rule that finds slanting rapid moves, which change both X and Y, below the material's surface: pass every step of a program, then call
+/// [`finish`](Self::finish).
 #[derive(Debug)]
 pub struct BentRapidRules<'c> {
     dialect: Dialect,

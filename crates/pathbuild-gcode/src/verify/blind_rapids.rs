@@ -96,7 +96,7 @@ fn is_low_in_machine(movement: &Move) -> bool {
     machine && !movement.to.known.has(Axes::Z) && movement.to.z() < LOWEST_RETRACT
 }
 
-/// Returns the axes of a position that are known and that the program has stated since the machine last changed them.
+/// Returns the axes of a position that are known and that the program has stated since the last tool change.
 fn known(at: &Position, stated: Axes) -> Axes {
     at.known.and(stated)
 }

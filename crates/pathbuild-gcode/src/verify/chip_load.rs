@@ -13,7 +13,7 @@ use crate::read::Problems;
 pub struct ChipLoadRules {
     /// The limits of the tools, each with the line from which it cuts, in the order of the lines.
     tools: Vec<(u32, Option<ChipLoad>)>,
-    /// The spindle speed in 1/min that the program has set; `None` if it has set none.
+    /// The spindle speed in 1/min that the program has set: 0 if it has stopped the spindle, `None` if it has set no speed.
     speed: Option<f64>,
     /// The tool, the feed and the speed of the last cut, which need not be checked again.
     last: Option<Cut>,

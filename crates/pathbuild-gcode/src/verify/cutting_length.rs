@@ -11,7 +11,7 @@ use super::Stock;
 pub struct CuttingLengthRules<'s> {
     /// The material; `None` if its height is unknown, so that nothing is checked.
     stock: Option<&'s Stock>,
-    /// The tools with their cutting edges in mm, each with the line from which it cuts, in the order of the lines.
+    /// The lengths in mm of the tools' cutting edges, if known, each with the line from which the tool cuts, in the order of the lines.
     tools: Vec<(u32, Option<f64>)>,
     /// For each tool, the deepest cut.
     deepest: Vec<Option<DeepestCut>>,
@@ -25,7 +25,7 @@ struct DeepestCut {
 }
 
 impl<'s> CuttingLengthRules<'s> {
-    /// Creates the rule for tools, each with the line from which it cuts, in the order of the lines.
+    /// Creates the rule for the lengths in mm of the tools' cutting edges, each with the line from which the tool cuts, in the order of the lines.
     pub fn new(tools: Vec<(u32, Option<f64>)>, stock: Option<&'s Stock>) -> Self {
         Self { stock, deepest: vec![None; tools.len()], tools }
     }

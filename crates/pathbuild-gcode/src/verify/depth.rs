@@ -52,15 +52,15 @@ impl DepthRules {
         }
     }
 
-    /// Reports a stop or a tool change at the depth of the last cut, at most once until the tool cuts again.
+    /// Reports a stop or a tool change at the depth of the last cut, at most once until the next move.
     fn report_at_cut(&mut self, message: &'static Message, line: u32) {
         if let Some(z) = self.depths.at_cut.take() {
             self.stops.add_at_line(message, line, |d| d.with("z", z));
         }
     }
 
-    /// Reports the stops and tool changes at cutting depth, and the found moves that lead through a point at which the program never cuts as deep.
-    /// The surface of `stock` is [unknown](Stock::with_unknown_surface). If no moves were found, the program is not processed again.
+    /// Reports the stops and tool changes at cutting depth, and the found moves that lead through a point at which the program has not cut as deep
+    /// before. The surface of `stock` is [unknown](Stock::with_unknown_surface). If no moves were found, the program is not processed again.
     pub fn finish(self, program: &(impl Program + ?Sized), stock: &Stock) -> Vec<Diagnostic> {
         let mut problems = self.stops;
         let found = &self.depths.found;
@@ -72,11 +72,11 @@ impl DepthRules {
 /// The heights at which a program cuts, updated move by move.
 #[derive(Debug, Default)]
 struct Depths {
-    /// Height in mm from which the tool goes down by feed. Feed moves that are not below it are moves in the air.
+    /// Height in mm from which the tool goes down at feed. Feed moves that stay at or above this height are moves in the air.
     top: Option<f64>,
     /// Height in mm of the lowest point of the last cut.
     cut: Option<f64>,
-    /// Indices and heights in mm of the rapid moves in the plane since the last cut.
+    /// Indices of the rapid moves in the plane since the last feed move that were above the last cut, each with the height in mm of its higher end.
     pending: Vec<(usize, f64)>,
     found: BTreeSet<usize>,
     /// Height in mm of the tool while it is as deep as the last cut.

@@ -63,8 +63,8 @@ impl DirectionRules {
         self.found.into_iter().map(|(_, problem)| problem)
     }
 
-    /// Reports a program that never switches the spindle, in a dialect that can do so, although a speed of the tool table or an S shows that it
-    /// should. (A spindle that is switched later is reported by [`Rules`](super::Rules).)
+    /// Reports a program that cuts but never switches the spindle, although the direction of a tool or an S shows that it should. Only for programs
+    /// in dialects that can switch the spindle. (A spindle that is switched later is reported by [`Rules`](super::Rules).)
     pub fn never_started_finding(&self) -> Option<Diagnostic> {
         if self.turning != Turning::Unstated {
             return None;

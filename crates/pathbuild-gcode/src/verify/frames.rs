@@ -1,8 +1,8 @@
 //! Looks for rapid moves that hit material, separately in each coordinate system whose position relative to the others is not known. (book:
 //! program/reading)
 //!
-//! Two vises have two systems, G54 and G55. What has been cut in one is not cut in the other, although both have the same coordinates. The same holds
-//! after a stop at which the operator sets the zero for the next part.
+//! For example, parts in two vises are milled in G54 and G55. A cut in one part leaves the other untouched, although both have the same coordinates.
+//! The same holds after a stop at which the operator sets the zero for the next part.
 
 use std::collections::BTreeSet;
 
@@ -52,8 +52,8 @@ impl Frames {
         }
     }
 
-    /// Like [`check`](Self::check), for the rapid moves with these indices among all moves. `legs` replaces each of them by the moves to check. If
-    /// there are none, the program is not processed.
+    /// Like [`check`](Self::check), but only for the rapid moves with these indices among all moves. `legs` returns the moves to check instead of
+    /// each of them. If there are no such moves, the program is not processed.
     pub(super) fn check_rapids<P: Program + ?Sized>(
         self,
         rapids: &BTreeSet<usize>,

@@ -31,7 +31,7 @@ pub struct LengthRules<'c> {
     bare_rapid: Option<(u32, u32)>,
     /// Whether the current combination of tool and length has been checked at a cut.
     is_judged: bool,
-    /// Whether it has been checked at a rapid move that states Z.
+    /// Whether the current combination of tool and length has been checked at a rapid move that states Z.
     is_rapid_judged: bool,
     /// A rapid move with a wrong length, until a cut with the same length is reported instead.
     wrong_rapid: Problems,
@@ -168,7 +168,7 @@ impl<'c> LengthRules<'c> {
         }
     }
 
-    /// Reports no rapid move with the current tool and length, because a cut is reported.
+    /// Drops the finding about a rapid move with the current tool and length, and checks no further one, because a cut is reported instead.
     fn forgive_rapid(&mut self) {
         self.wrong_rapid = Problems::default();
         self.is_rapid_judged = true;

@@ -134,7 +134,7 @@ struct Reach {
     /// The extent of positions in machine coordinates. It includes machine zero, because that is within the travel of every machine.
     machine: Extent,
     said: [[bool; 2]; 3],
-    /// The axes that moves change.
+    /// The axes whose coordinate some move has changed, apart from moves to named positions.
     moved: Axes,
     /// The axes of which a position was known after some move.
     stated: Axes,

@@ -1,7 +1,7 @@
 //! Keeps track of the known material, and finds rapid moves through material that has not been removed. (book: program/reading)
 //!
-//! No drawing contains the extent of the material. It is only known within O of the cuts of a program, up to the surface T that applies there.
-//! Nothing is known or reported elsewhere.
+//! No drawing contains the extent of the material. It is only known within the cutter's diameter O of the cuts of a program, up to the height T of
+//! the upper face that applies there. Nothing is known or reported elsewhere.
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};
@@ -23,14 +23,15 @@ const MIN_CELLS_ACROSS_CUTTER: f64 = 4.0;
 /// Ratio of the side of a cell to the greatest distance of chords from their arc.
 const CELL_PER_SAGITTA: f64 = 4.0;
 
-/// Half the width of a centre line that hits material, as a share of the side of a cell: more than half the diagonal of a cell.
+/// Half the width of the strip along a centre line in which material counts as hit, as a share of the side of a cell: more than half the diagonal of
+/// a cell, so that the strip contains the centres of cells.
 const CENTRE_LINE_HALF_WIDTH: f64 = 0.75;
 
 /// Width in mm beside a cut up to which material is attributed to rounding.
 const RESIDUE_WIDTH: f64 = 0.01;
 
-/// The side of a cell in mm for flat cutters, as long as a program is not too large: a rapid move that takes off more than some hundredths is a
-/// crash.
+/// The side of a cell in mm for flat cutters, as long as a program is not too large: a rapid move that takes off more than some hundredths of a
+/// millimetre is a crash.
 const FINE_RESOLUTION: f64 = 0.02;
 
 /// Upper bound on the cells visited at a resolution finer than that of the stock, so that the check takes a fraction of a second.
@@ -50,7 +51,8 @@ pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: 
     });
 }
 
-/// Returns the lines of the rapid moves that hit material, in the order of the moves; empty for programs that are too large for the map.
+/// Returns the lines of the rapid moves that hit material, in the order of the moves. For programs that are too large for the map, it is empty or
+/// incomplete.
 pub fn rapid_hits(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<u32> {
     let mut lines = Vec::new();
     apply_moves(program, stock, &mut Problems::default(), &mut |bench, line, movement, _| {
@@ -161,9 +163,9 @@ struct MaterialEstimate {
     /// Upper bound of the area in mm² within O of rapid moves below the highest surface. `passes` is the number of these moves.
     passed: f64,
     passes: f64,
-    /// Upper bound of the number of parts into which cutting arcs and slopes are divided.
+    /// Number of parts into which cutting arcs and slopes are divided at the resolution of the stock, without the first part of each move.
     pieces: u64,
-    /// Upper bound of the area in mm² by which the parts of cutting arcs overlap at the fine resolution.
+    /// Upper bound of the area in mm² by which the parts of cutting moves overlap at the fine resolution.
     overlap: f64,
     /// Bounding box of all cuts in X and Y.
     sides: Option<[(f64, f64); 2]>,
@@ -257,7 +259,7 @@ impl<'s> KnownMaterial<'s> {
         }
     }
 
-    /// Removes the material along a cutting move. Along a centre line, the cells that it touches are removed.
+    /// Removes the material along a cutting move, in a strip at least two cells wide, so that a cut of unknown width removes material as well.
     fn remove_material(&mut self, line: u32, movement: &Move) {
         let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
         let highest = self.stock.highest().unwrap_or(piece.surface);
@@ -304,8 +306,8 @@ impl<'s> KnownMaterial<'s> {
         })
     }
 
-    /// Returns the width in mm that is not counted as material beside a cut. The centre of a cell is exact, but coordinates are rounded and the
-    /// chords of an arc keep away from it. Of a cutter that is not flat, the width is not known either.
+    /// Returns the width in mm beside a cut that is not counted as material. The centre of a cell is exact, but coordinates are rounded, and chords
+    /// deviate from their arc. If the cutter is not flat, the width of the cut is not known either.
     fn slack(&self) -> f64 {
         if self.is_flat { RESIDUE_WIDTH + self.resolution / CELL_PER_SAGITTA } else { self.resolution }
     }
@@ -399,7 +401,7 @@ pub(super) fn part_count(movement: &Move, sagitta: f64) -> u32 {
     count
 }
 
-/// Divides a move into straight parts. Arcs become chords at a distance of at most `sagitta` mm.
+/// Divides a move into straight parts. Arcs become chords that deviate from them by at most `sagitta` mm.
 pub(super) fn pieces(movement: &Move, sagitta: f64) -> impl Iterator<Item = MovePiece> + use<> {
     movement
         .split(part_count(movement, sagitta))
@@ -452,7 +454,7 @@ pub struct Cutter {
     pub removed: f64,
     /// Width that collides with material at the height of the tip. 0 stands for the centre line only.
     pub colliding: f64,
-    /// Radius of the corners, which is 0 for a flat tip; `None` if the shape is unknown. For pictures.
+    /// Radius of the corners, which is 0 for a flat tip; `None` if the shape is unknown. Only pictures show it.
     pub corner_radius: Option<f64>,
 }
 
@@ -530,8 +532,8 @@ impl Stock {
         Self::of_pieces(std::iter::once(piece(0, program.thickness, program.tool)).chain(elements).collect())
     }
 
-    /// Derives the stock of a native program whose drawing is not available. T is the height at which a downward move changes from rapid to feed
-    /// (book: program/gcode), separately for each embedded path. `None` if there is no such move.
+    /// Derives the stock of a native program whose drawing is not available. The upper face T of each path is the greatest height at which one of
+    /// its plunges changes from rapid to feed (book: program/gcode). `None` if there is no such plunge.
     pub fn of_native_text(program: &(impl Program + ?Sized), cutter: Cutter) -> Option<Self> {
         let mut pieces = Vec::new();
         let mut section = PathSection { line: 0, surface: None };
@@ -592,7 +594,7 @@ impl Stock {
         Self { most_pieces: most, ..self }
     }
 
-    /// Whether every cutter removes material over the width over which it collides. Of any other the exact width is not known.
+    /// Whether every cutter clears exactly the width with which it collides. The exact width of any other cutter is not known.
     fn is_flat(&self) -> bool {
         self.pieces
             .iter()

@@ -156,7 +156,8 @@ struct NearbyMoves<'d> {
     drawn: &'d toolpath::Program,
     /// The boxes that contain the positions; `None` means everywhere.
     places: Option<Vec<Sides>>,
-    /// Distance in mm within which a move affects a position: material is known within O of a cut, and a passing cutter has a radius.
+    /// Distance in mm within which a move affects a position: material is known within the cutter's diameter of a cut, and a passing cutter has a
+    /// radius.
     reach: f64,
 }
 
@@ -215,7 +216,7 @@ impl CutGrid {
         tops
     }
 
-    /// Returns the highest surface within `radius` mm of a straight move.
+    /// Returns the highest surface within `radius` mm of a straight move; `-inf` where there is no material.
     pub(super) fn highest_along(&self, movement: &Move, radius: f64) -> f64 {
         let [(from_x, to_x), (from_y, to_y)] =
             [0, 1].map(|axis| (movement.from.at[axis], movement.to.at[axis]));
@@ -245,7 +246,7 @@ impl CutGrid {
         }
     }
 
-    /// Returns the cells between two coordinates, inclusive; those outside the grid are omitted.
+    /// Returns the indices along an axis of the cells between two coordinates, inclusive; those outside the grid are omitted.
     fn indices(&self, axis: usize, (low, high): (f64, f64)) -> std::ops::Range<usize> {
         let index = |coordinate: f64| ((coordinate - self.corner[axis]) / self.cell[axis]).floor();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "negative ones become 0")]

@@ -102,7 +102,7 @@ impl<'c> Rules<'c> {
     pub fn step(&mut self, step: &Step) {
         let line = step.line;
         let zero = self.frames.current().zero;
-        // Where the operator has set the zero, the program has stated the height.
+        // If the operator has set the zero, the tool has been moved by hand, and the rule for the tip's height checks the moves that follow.
         self.changes_frame |= self.frames.step(step) && self.frames.current().zero == zero;
         if let Some((line, message)) = self.tip_height.step(step) {
             self.problems.add_at_line(message, line, |d| d);
@@ -198,7 +198,7 @@ impl<'c> Rules<'c> {
         self.spindle_line = line;
     }
 
-    /// Returns the surface of the material if it is above the tip of the tool.
+    /// Returns the height of the material's surface in mm if it is above `z`, the height of the tool's tip.
     fn surface_above(&self, line: u32, z: f64) -> Option<f64> {
         let surface = self.stock?.at(line)?.surface;
         (z < surface - HEIGHT_TOLERANCE).then_some(surface)

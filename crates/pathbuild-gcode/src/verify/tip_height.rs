@@ -2,8 +2,8 @@
 //! (book: program/reading, "Tool changes by hand")
 //!
 //! At a stop the operator may change the tool and set the zero, or only clean: then the tool is where the program left it. A stop is treated as a
-//! tool change if T names a tool other than that of the last cut, if it is beside M6, or if the program sets a zero or another tool length after it.
-//! With M6, a tool that was raised to a machine position stays there.
+//! tool change if T names a tool other than that of the last cut, if M6 precedes or follows it without a move in between, or if the program sets a
+//! zero or another tool length after it. With M6, a tool that was raised to a machine position stays there.
 
 use pathbuild_diagnostic::Message;
 use pathbuild_diagnostic::messages::gcode as say;
@@ -90,7 +90,7 @@ impl TipHeight {
         None
     }
 
-    /// Returns the line of the first move in the plane since the last stop, if the program has neither stated a height nor cut before it.
+    /// Returns the line of the first move in the plane since the last stop, if the program has neither stated a height nor cut since that stop.
     pub fn moved_since_stop(&self) -> Option<u32> {
         match self.height {
             Height::Stopped { moved } => moved,

@@ -41,7 +41,7 @@ pub enum LengthFit {
     Fits,
     /// The length was set before M6 inserted the tool.
     Outdated,
-    /// The length was set for this tool, but by the H with the given number instead of the tool's own.
+    /// The length was set for this tool, but it is that of the H with the given number, which is not the number of the tool.
     OfEntry(u32),
     /// The tool or the length is unknown.
     Unknown,
@@ -131,7 +131,8 @@ impl ToolState {
         self.dialect.rules().lengths.keeps_entry
     }
 
-    /// Whether the spindle is known to be in a state other than the expected one. Speeds may differ by `slack` in 1/min.
+    /// Whether the state that the program has set for the spindle differs from the expected one, or is missing. Nothing is compared where `None` is
+    /// expected. Speeds may differ by `slack` in 1/min.
     pub fn turns_otherwise(&self, turning: Option<Turning>, speed: Option<f64>, slack: f64) -> bool {
         // XpertMILL switches the spindle by events of its own, and the speed belongs to the layer.
         let is_tied = self.dialect.rules().layers;

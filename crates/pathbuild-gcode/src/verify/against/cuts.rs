@@ -38,11 +38,11 @@ pub(super) struct CutComparison<M: Iterator<Item = (u32, Move)>> {
     pecks: Vec<(u32, Option<f64>)>,
     /// The fraction of the next expected move that the program has already made.
     done: f64,
-    /// Height in mm of the bottom of a begun hole when the tool last left it; `None` before the first stroke.
+    /// Height in mm of the bottom of a begun hole when the tool last rose from it; `None` if it has not risen yet.
     left_at: Option<f64>,
     /// The last expected move, if it was a plunge that the program has made.
     finished_plunge: Option<Plunge>,
-    /// The first stroke into a hole that is too deep.
+    /// The finding about the first stroke that is deeper than a peck.
     deep_stroke: Option<Diagnostic>,
     /// The expected position before the next expected move.
     at: Position,
@@ -195,7 +195,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
             && is_near(&movement.to.at, &plunge.movement.to.at, slack)
     }
 
-    /// Reports the first stroke into a hole that is deeper than a peck of the drawing.
+    /// Reports the first stroke of the program that is deeper than a peck of the drawing.
     fn check_stroke(&mut self, line: u32, bottom: f64) {
         let Some((number, expected)) = self.expected.peek().filter(|(_, expected)| is_plunge(expected))
         else {
@@ -347,7 +347,7 @@ fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
     }
 }
 
-/// Checks that two arcs have the same centre, because the points of a short arc hardly determine its centre.
+/// Checks that two arcs have the same centre, which the points of a short arc hardly determine, and the same direction and plane.
 fn check_centres(found: &Move, expected: &Move) -> Result<(), DifferenceKind> {
     let (MoveShape::Arc(ours), MoveShape::Arc(theirs)) = (found.shape, expected.shape) else { return Ok(()) };
     let are_near = ours.centre.iter().zip(theirs.centre).all(|(a, b)| libm::fabs(a - b) <= CENTRE_TOLERANCE);
@@ -412,7 +412,7 @@ pub(super) struct RapidSequence {
     is_head: bool,
 }
 
-/// The expected rapid moves between two cuts.
+/// The expected rapid moves before a cut, or at the end of the program.
 #[derive(Debug)]
 pub(super) struct ExpectedTraverse<'w> {
     pub(super) start: Position,
@@ -421,7 +421,7 @@ pub(super) struct ExpectedTraverse<'w> {
     pub(super) is_foot: bool,
     /// Whether the program may move to machine positions. The native program may not.
     pub(super) may_go_home: bool,
-    /// The drawing's S0: the height in mm at and above which there are no obstacles.
+    /// The start height S0 of the drawing in mm, slightly above the sweep height S. There are no obstacles at or above it.
     pub(super) clearance: f64,
     pub(super) slack: f64,
 }
@@ -519,7 +519,8 @@ impl RapidSequence {
 }
 
 impl ExpectedTraverse<'_> {
-    /// Whether a move before the start or after the end is harmless: at S0 over positions of the expected moves, or to a machine position.
+    /// Whether a move before the start or after the end is harmless: at the start height S0 over positions of the expected moves, or to a machine
+    /// position.
     fn is_harmless(&self, movement: &Move) -> bool {
         let is_raised = !movement.from.known.has(Axes::Z) || self.is_clear(movement.from.z());
         let stays = movement.to.known.has(Axes::XY)
@@ -541,7 +542,7 @@ impl ExpectedTraverse<'_> {
         (0, Move { from, to, shape: MoveShape::Line, pace: Pace::Rapid, named: None })
     }
 
-    /// Returns the start of the expected moves, and the positions that they reach before they go below S0.
+    /// Returns the start of the expected moves, and the positions that they reach before they go below the start height S0.
     fn clear_places(&self) -> impl Iterator<Item = Position> {
         let ends = self.expected.iter().map(|(_, it)| it.to);
         let is_clear = |at: &Position| at.known == Axes::ALL && self.is_clear(at.z());
@@ -591,7 +592,8 @@ pub struct Clamps {
 #[derive(Debug)]
 pub struct ClampCollisions<'c> {
     clamps: &'c Clamps,
-    /// Maximum error due to rounding in mm. A move that touches a clamp in the drawing may be written slightly inside it.
+    /// Maximum error in mm due to rounding, and to chords that replace helices. A move that touches a clamp in the drawing may be written slightly
+    /// inside it.
     slack: f64,
     problems: Problems,
 }

@@ -27,9 +27,10 @@ pub struct ExpectedProgram<M> {
     /// Depths in mm of the pecks with which holes must be drilled, each with the number of the move from which it applies; `None` if the tool may go
     /// down in one stroke.
     pub pecks: Vec<(u32, Option<f64>)>,
-    /// The position at which the moves begin: above the path's zero at the height `clearance`, unless a definition begins elsewhere.
+    /// The position at which the moves begin: above the path's zero at the height `clearance`, unless the definition of the post-processor begins
+    /// elsewhere.
     pub start: Position,
-    /// The drawing's S0: the height in mm at and above which there are no obstacles.
+    /// The start height S0 of the drawing in mm, slightly above the sweep height S. There are no obstacles at or above it.
     pub clearance: f64,
     /// Number, spindle and coolant of the cutter on the machine.
     pub tool: ToolUse,
@@ -100,7 +101,7 @@ impl ToolUse {
 pub struct Agreement {
     /// All differences, ordered by line. Of the differences between moves, only the first one is included.
     pub differences: Vec<Diagnostic>,
-    /// Number of the drawing's moves that the program contains before the first difference.
+    /// Number of the drawing's moves that the program contains before the first difference between the moves.
     pub equal: usize,
 }
 

@@ -41,7 +41,7 @@ pub(super) struct Setup<'w> {
     spindle_line: u32,
     /// The line of the last step.
     line: u32,
-    /// Seconds that the spindle has been running since it was switched on.
+    /// Seconds for which the program has dwelt since it last changed the state of the spindle.
     running: f64,
     reported: ReportedFaults,
 }
@@ -203,7 +203,7 @@ impl<'w> Setup<'w> {
             self.running = 0.0;
             self.reported.spindle = false;
         }
-        // If the drawing does not control the spindle, the program must not mention it at all: even S0 would stop a running spindle.
+        // If the drawing does not control the spindle, the program must not mention it at all: even a speed of 0 would stop a running spindle.
         let is_left_alone = self.expected.turning == Some(Turning::Unstated);
         let is_foot = self.dialect != Dialect::Native
             && spindle.turning == Turning::Unstated
@@ -220,7 +220,7 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Whether the tool is below S0, where it may be in the material.
+    /// Whether the tool is below the drawing's start height, where it may be in the material.
     fn is_low(&self) -> bool {
         self.at.known.has(Axes::Z) && self.at.z() < self.clearance - HEIGHT_TOLERANCE
     }
@@ -248,7 +248,7 @@ impl<'w> Setup<'w> {
         !self.words.lead.is_empty()
     }
 
-    /// Checks that the words which the post writes before the first move are present.
+    /// Reports the words that the post writes before the first move and the program lacks.
     fn check_setup_words(&mut self, line: u32, problems: &mut Problems) {
         for code in std::mem::take(&mut self.missing).into_values() {
             problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", code_name('G', code)));
@@ -285,7 +285,7 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Checks the behaviour at corners, because a control keeps the previous program's behaviour unless the program specifies it.
+    /// Checks that the program sets the behaviour at corners if the post does, because a control otherwise keeps that of the previous program.
     fn check_cutting_corners(&mut self, line: u32, problems: &mut Problems) {
         let is_stated = self.corners.is_some() || !self.words.has('G', 640);
         if !is_stated && !std::mem::replace(&mut self.reported.corners, true) {
