@@ -352,7 +352,7 @@ pub(super) struct Stretch {
     pub(super) movement: Move,
     /// The fraction of the move at which the stretch begins.
     pub(super) begin: f64,
-    /// Length of the stretch in mm; 0 for a move from an unknown position.
+    /// Length of the stretch in mm, without axes that are unknown at either end.
     pub(super) length: f64,
 }
 
@@ -379,7 +379,7 @@ impl<'m> Walker<'m> {
         Some(Stretch { movement, begin: self.done, length: movement.length() * (1.0 - self.done) })
     }
 
-    /// Returns the current position; `None` if there are no moves.
+    /// Returns the current position, or the end of the current move if its start is unknown; `None` if there are no moves.
     pub(super) fn place(&self) -> Option<[f64; 3]> {
         match self.stretch() {
             Some(stretch) if stretch.movement.from.known == Axes::ALL => Some(stretch.point(stretch.begin)),
@@ -471,12 +471,13 @@ impl Stretch {
     }
 }
 
-/// Whether two lengths differ only by rounding, and not by a full turn.
+/// Whether the lengths in mm of two paths between the same ends are so similar that neither path has a full turn more.
 pub(super) fn are_alike(one: f64, other: f64, slack: f64) -> bool {
     one.max(other) <= 1.25 * one.min(other) + 10.0 * slack
 }
 
-/// Whether two programs have the same lines that determine moves: the same words, with numbers within one unit of the third decimal.
+/// Whether two programs have the same lines that determine moves: the same words, with numbers within one unit of the third decimal, and
+/// with equal G words.
 ///
 /// Comments (including correction formulas), blanks, leading zeros, line breaks, and lines without X, Y, Z, G and M are ignored.
 pub fn same_move_lines(found: &str, expected: &str) -> bool {

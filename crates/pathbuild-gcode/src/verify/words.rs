@@ -14,7 +14,7 @@ use crate::dialect::Dialect;
 use crate::interpret::{Options, code_name, interpret_each};
 use crate::read::Problems;
 
-/// Sample program with all words that native programs use: see [`crate::native`].
+/// Sample program from which the words of native programs are collected: see [`crate::native`].
 const NATIVE_SAMPLE: &[u8] =
     b"G17 G21 G40 G49 G54 G80 G90 G94\nT1\nG00 Z5\nG00 X0 Y0\nF40 G38.3 Z0\nG4 P4\nM30\n";
 
@@ -136,7 +136,7 @@ impl PostWords {
     }
 }
 
-/// Whether a move goes to a known position in the plane.
+/// Whether a move ends at a known X or Y.
 fn moves_in_plane(movement: &Move) -> bool {
     !movement.to.known.and(Axes::XY).is_empty()
 }
@@ -159,7 +159,7 @@ fn is_retained(group: Group) -> bool {
 pub struct WordRules<'w> {
     words: &'w PostWords,
     dialect: Dialect,
-    /// Whether the program must agree with a drawing.
+    /// Whether the program must agree with a drawing, or with another program.
     is_strict: bool,
     progress: ReachedPart,
     has_moved_in_plane: bool,
