@@ -8,7 +8,7 @@ use pathbuild_diagnostic::shown;
 use super::rules::OBEYED_COMMENTS;
 use super::{Dialect, NotationSupport, Percent};
 
-/// The characters that may be written. (book: reference/configuration, `charset`)
+/// The characters that may be written in comments. (book: reference/configuration, `charset`)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Charset {
     /// ASCII only, because some controllers take bytes above 127 for commands. Umlauts and the like are transliterated; anything else becomes `?`.

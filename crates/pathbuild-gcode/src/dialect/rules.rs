@@ -506,7 +506,7 @@ const ISO: Rules = Rules {
 
 pub(super) static FANUC: Rules = Rules {
     dialect: Dialect::Fanuc,
-    // From memory of the operator's manual: `/1` to `/9` are optional block skips of their own; the control has Custom Macro B.
+    // From memory of the operator's manual: `/1` to `/9` are block skips, each with its own switch; the control has Custom Macro B.
     spelling: Spelling { slash_numbers: true, macros: true, ..BASE_SPELLING },
     words: &codes::FANUC,
     dwell: DwellRules { p: DwellUnit::Milliseconds, seconds: b"X", counts_turns: false },

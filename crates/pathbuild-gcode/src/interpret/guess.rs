@@ -42,7 +42,7 @@ pub enum EvidenceKind {
     Header,
     /// A line has a feature that only this dialect has.
     Feature,
-    /// The dialect knows the program's words, but other dialects may know them as well.
+    /// The dialect knows all or most of the program's words, but other dialects may know them as well.
     Words,
 }
 

@@ -1,4 +1,4 @@
-//! Finds arcs by R that are nearly half circles, whose centres depend on the last digit of R. (book: program/reading)
+//! Finds arcs given by R that are nearly half circles, whose centres depend on the last digit of R. (book: program/reading)
 //!
 //! Posts omit trailing zeros: in a program with `X20.1234`, `R10.` means 10.0000. The last digit is therefore that of the program's finest
 //! length, which is known only at its end.
@@ -24,7 +24,7 @@ pub(super) struct DoubtfulArcs {
     found: BTreeMap<u8, Problems>,
 }
 
-/// An arc by R, with lengths in mm.
+/// An arc given by R, with lengths in mm.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ArcByRadius {
     pub(super) radius: f64,
