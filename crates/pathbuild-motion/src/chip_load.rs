@@ -20,7 +20,8 @@ pub struct ChipLoad {
 const RELATIVE_TOLERANCE: f64 = 1e-9;
 
 impl ChipLoad {
-    /// Reports a chip load outside the limits, for a feed in mm/min and a spindle speed in 1/min. Without a speed, the tool's own speed is used.
+    /// Reports a chip load outside the limits, for a feed in mm/min and a spindle speed in 1/min. Without a speed, that of the tool is used; nothing
+    /// is reported if the tool has none either, or if the spindle stands still.
     pub fn check(&self, feed: f64, speed: Option<f64>) -> Option<Diagnostic> {
         let speed = speed.or(self.speed).filter(|speed| *speed > 0.0)?;
         let load = feed / (speed * f64::from(self.flutes));

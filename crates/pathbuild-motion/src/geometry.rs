@@ -201,7 +201,7 @@ impl Arc {
         if self.clockwise { -counterclockwise } else { counterclockwise }
     }
 
-    /// Returns the direction of travel at an end of the arc, as a unit vector along the plane's axes.
+    /// Returns the direction of travel at a point of the arc, as a unit vector along the plane's axes; zero at the centre.
     pub fn tangent(&self, at: &[f64; 3]) -> [f64; 2] {
         let [a, b] = self.radius_vector(at);
         let radius = libm::hypot(a, b);
@@ -292,12 +292,12 @@ impl Course {
         libm::hypot(self.length_in_plane(), self.to[third] - self.from[third])
     }
 
-    /// Returns the length in the plane, in mm.
+    /// Returns the length in the plane, in mm, computed with the radius at the start.
     pub fn length_in_plane(&self) -> f64 {
         self.radius * self.sweep
     }
 
-    /// Returns the greatest distance in mm between the arc and its chord from start to end.
+    /// Returns the greatest distance in mm between the arc and its chord from start to end, for an arc of at most one turn.
     pub fn sagitta(&self) -> f64 {
         self.radius * (1.0 - libm::cos(self.sweep / 2.0))
     }
@@ -345,7 +345,7 @@ fn rotated([a, b]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
 //
 // A controller rejects an arc, or mills something unexpected, if its centre is not equidistant from its ends. Start, end and centre are rounded
 // separately, each by up to half a unit of the last digit. Together this may be too much even for a correct arc. Then a centre that differs by one
-// unit of the last digit from the correctly rounded one fits both ends.
+// unit of the last digit from the correctly rounded one usually fits both ends.
 
 /// An arc as it is to be written: its points in the plane, and the notation of its numbers.
 pub struct WrittenArc<'r> {
@@ -364,11 +364,11 @@ pub struct WrittenArc<'r> {
 }
 
 impl WrittenArc<'_> {
-    /// Returns the vector in mm by which to move the centre so that the written radii at both ends agree. Each coordinate is zero or at most one unit
-    /// of the third decimal of a millimetre (the fourth of an inch).
+    /// Returns the vector in mm by which to move the centre so that the written radii at both ends agree. Each coordinate is 0, or one unit of the
+    /// third decimal of a millimetre (the fourth of an inch) up or down.
     ///
     /// # Errors
-    /// The written radii at both ends, if no centre nearby makes them agree. An arc that is wrong before rounding is never adjusted.
+    /// The written radii at both ends in the output unit, if no nearby centre makes them agree. An arc that is wrong before rounding is never adjusted.
     pub fn centre_correction(&self) -> Result<[f64; 2], [f64; 2]> {
         let nearest = self.radii([0.0; 2]);
         if difference(nearest) <= self.tolerance() {

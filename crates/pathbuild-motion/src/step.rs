@@ -16,8 +16,8 @@ pub struct Step {
     pub action: Action,
     /// The axes for which the program has stated a position since the last tool change. The machine may have moved the other axes during the change.
     pub stated: Axes,
-    /// The axes for which a move has stated a position since the last tool change or stop, at which the operator may have moved the axes, and for Z
-    /// since the last change of the tool length.
+    /// The axes for which a move has stated a position since the last tool change or stop (the operator may have moved the axes during a stop); for
+    /// Z, also since the last change of the tool length.
     pub stated_since_stop: Axes,
 }
 
@@ -58,7 +58,7 @@ pub enum Action {
     System {
         /// The system.
         system: WorkSystem,
-        /// Positions in different frames cannot be compared.
+        /// The frame of the following positions. Positions in different frames cannot be compared.
         frame: Frame,
     },
     /// A G or M word other than a motion, regardless of its effect.
@@ -76,7 +76,7 @@ pub enum Action {
     End,
 }
 
-/// A G or M word other than a motion. Its effects, if any, are in other steps.
+/// A G or M word other than a motion, or a call of a subroutine. `effect` tells whether other steps show what it does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StatedWord {
     /// `G` or `M`; `O` for a call of a subroutine.
@@ -118,7 +118,8 @@ impl Spindle {
     pub const UNSTATED: Self = Self { turning: Turning::Unstated, speed: None };
 }
 
-/// The rotation of the spindle. The names are part of the hash of options in programs.
+/// The rotation of the spindle. The names of the variants go into the hash of the options that each program states, so renaming one makes existing
+/// programs stale.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Turning {
     /// The program has not set the state.
@@ -174,8 +175,8 @@ impl Coolant {
     }
 }
 
-/// A change of something other than position, spindle, tool and coordinate system. Positions in steps reflect all of these changes except that of the
-/// tool length.
+/// A change of something other than position, spindle, coolant, tool and coordinate system. Positions in steps reflect all of these changes except
+/// that of the tool length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
     /// G43, G43.1, G43.2, G44, G49: sets the tool length.
