@@ -23,7 +23,8 @@ pub(crate) fn pieces_of(course: &Course, widest: f64) -> u32 {
         .unwrap_or(u8::MAX.into())
 }
 
-/// Moves the centre of an arc so that it is equidistant from start and end, if it almost is.
+/// Moves the centre of an arc so that it is equidistant from start and end, if the radii differ by more than is permitted in mm and by no more than
+/// is permitted in inches.
 pub(crate) fn equalize_radii(movement: &mut Move) {
     let MoveShape::Arc(arc) = &mut movement.shape else { return };
     let difference = (arc.radius(&movement.from) - arc.radius(&movement.to)).abs();
@@ -54,7 +55,7 @@ pub(crate) struct ArcRounding<'r> {
 }
 
 impl ArcRounding<'_> {
-    /// Whether the arc would be read as a full circle because its ends are equal after rounding.
+    /// Whether the arc, which covers less than half a circle, would be read as a full circle because its ends are equal after rounding.
     pub(crate) fn becomes_full_circle(&self, movement: &Move) -> bool {
         let MoveShape::Arc(arc) = movement.shape else { return false };
         let alike =

@@ -95,8 +95,8 @@ impl PostDefinition {
         }
     }
 
-    /// Returns the files that the texts insert under fixed names, relative to the directory of the definition. A program may need further files;
-    /// [`PostOptions::files`] is asked for all of them.
+    /// Returns the files that the control texts insert and whose names are the same for every program, relative to the directory of the definition. A
+    /// program may need further files; all of them are read through [`PostOptions::files`].
     pub fn insertions(&self, macros: &[PostMacro]) -> BTreeSet<Utf8PathBuf> {
         match &self.engine {
             Engine::CamBam(_) => BTreeSet::new(),
@@ -256,8 +256,8 @@ impl PostDefinition {
         }
     }
 
-    /// Checks that the spindle turns at a known speed in every operation that cuts, if the definition switches it and the options require a
-    /// speed.
+    /// Checks that the spindle turns at a known speed in every operation that cuts, if the definition switches it and the options require a speed;
+    /// and that each tool has a single speed, if the definition writes the speed only at tool changes or at the start.
     fn check_spindle(&self, job: &Job, options: &PostOptions<'_>) -> Result<(), Box<Diagnostic>> {
         let is_switched = match &self.engine {
             Engine::CamBam(definition) => definition.switches_spindle(),
@@ -286,7 +286,8 @@ impl PostDefinition {
         }
     }
 
-    /// Checks that whole numbers get a decimal point if the target may read them as thousandths without one.
+    /// Checks that a CamBam definition writes whole numbers with a decimal point if the target may read them as thousandths without one. Control
+    /// texts may format each number differently, so their numbers are checked when the output is read back.
     fn check_decimal_points(&self, target: Option<&Target>) -> Result<(), Box<Diagnostic>> {
         let Some(target) = target.filter(|target| target.needs_decimal_points()) else { return Ok(()) };
         match &self.engine {
@@ -298,7 +299,7 @@ impl PostDefinition {
         }
     }
 
-    /// Checks how far coordinates are rounded. If the user takes responsibility for the moves, even the coarsest rounding is a warning.
+    /// Checks how far coordinates are rounded. If the user takes responsibility for the moves, even the coarsest rounding is only a warning.
     fn check_rounding(&self, job: &Job, is_unchecked: bool) -> Result<Option<Diagnostic>, Box<Diagnostic>> {
         let error = self.rounding_error(job);
         if error > MAX_ROUNDING && !is_unchecked {
@@ -401,7 +402,7 @@ pub enum Language {
     CamBam,
     /// A TOML file with control texts, as in CAD6.
     Cad6,
-    /// The native writer itself. No definition can express its drillings without F, its correction formulas and its statistics.
+    /// The native writer itself. No definition can express its holes without F, its correction formulas or its statistics.
     Native,
 }
 

@@ -75,7 +75,7 @@ pub(crate) struct EngineOutput {
     pub(crate) origins: Vec<LineOrigin>,
     /// Warnings about doubtful constructs in the definition or the text.
     pub(crate) warnings: Vec<Diagnostic>,
-    /// Notes on functions that the job switches but the text does not.
+    /// Notes, for example on functions that the job switches but the text does not.
     pub(crate) notes: Vec<Note>,
     /// The command that the definition asks to run on the finished file, as program and arguments.
     pub(crate) post_build: Option<Vec<String>>,

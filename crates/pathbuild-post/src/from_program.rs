@@ -65,7 +65,7 @@ struct Builder<'a> {
     embedded: Vec<&'a str>,
     operations: Vec<Operation>,
     tool: ToolTip,
-    /// Upper face in mm of the material at the elements since the last step.
+    /// Height in mm of the highest upper face of the material at the elements announced since the last step.
     surface: Option<f64>,
 }
 

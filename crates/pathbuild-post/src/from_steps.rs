@@ -18,7 +18,7 @@ use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, describe}
 pub enum Remark<'a> {
     /// An ordinary comment, which is kept.
     Stays,
-    /// A comment that the post writes anyway, so it is dropped.
+    /// A comment that the post writes itself, so it is dropped here.
     Goes,
     /// Start of an operation with this name.
     Operation(&'a str),
@@ -44,13 +44,15 @@ pub fn is_of_head(text: &str) -> bool {
 }
 
 impl Job {
-    /// Converts the steps of a program in any dialect. A new operation begins where the tool, the spindle or the coolant changes, and
-    /// where `remark` returns one. Several moves in one line are combined into a drilled hole if they form one. The upper face of the
-    /// material is assumed to be at Z 0, because programs do not contain it: see [`set_surface`](Self::set_surface).
+    /// Converts the steps of a program in any dialect. A new operation begins where the tool, the spindle, the coolant or the plane of arcs changes
+    /// between two cuts, after a stop or dwell with the spindle off, and where `remark` says so. Several moves in one line are combined into a
+    /// drilled hole if they form one. The upper face of the material is assumed to be at Z 0, because programs do not contain it: see
+    /// [`set_surface`](Self::set_surface).
     ///
     /// # Errors
-    /// Things that a job cannot express: other coordinate systems, zeros that the program sets before its first move, positions known only
-    /// to the machine, cuts from or to an unknown position, arcs of several turns.
+    /// Things that a job cannot express: work offsets other than G54, zeros that the program sets where the position is unknown, tools without a
+    /// number, lengths of another tool or only for some cuts of a tool, positions known only to the machine, cuts from or to an unknown position,
+    /// arcs of several turns.
     pub fn from_steps(
         name: &str,
         steps: &[Step],
@@ -111,7 +113,7 @@ struct Builder {
     has_layers: bool,
     /// The line that changed to a tool without a number.
     unnamed_change: Option<u32>,
-    /// Whether the tool was changed below the clearance plane and has not moved in Z since.
+    /// Whether the tool was changed below the clearance plane and has neither moved in Z nor cut since.
     was_changed_low: bool,
     at: Position,
     clearance: f64,
@@ -137,7 +139,8 @@ struct Builder {
     length_line: u32,
     /// Whether the tool in the spindle has cut with a length (G43); `None` before its first cut.
     has_cut_with_length: Option<bool>,
-    /// Whether the tool in the spindle has cut: from then on, positions reflect changes of its length.
+    /// Whether the tool in the spindle has cut since it was inserted or the program last stopped: from then on, the interpreter takes changes of its
+    /// length (G43.1) into account in the positions of the moves.
     has_cut_with_tool: bool,
     errors: Vec<Diagnostic>,
 }
@@ -253,7 +256,8 @@ impl Builder {
         }
     }
 
-    /// Starts an operation at the current position. It replaces the last operation if that has not cut anything.
+    /// Starts an operation at the current position. If the settings of the last operation are not final, the new one replaces it and takes over its
+    /// steps, except for rapid moves.
     fn begin(&mut self, name: &str) {
         let mut operation = Operation::new(name, tool_with_number(self.state.tool));
         operation.part.clone_from(&self.job.name);
@@ -320,8 +324,8 @@ impl Builder {
         self.operation()
     }
 
-    /// Refuses a cut with the length of another tool, or with a length although the tool has cut without one: a post writes G43 with the number of
-    /// the tool, once for each tool.
+    /// Refuses a cut with the length of another tool, and cuts of one tool both with and without a length: a post writes G43 with the number of the
+    /// tool, once for each tool.
     fn check_length(&mut self) {
         let is_other = self.length_tool.is_none() || self.length_tool != self.state.tool;
         let has_length = self.has_length;
@@ -361,7 +365,7 @@ impl Builder {
         let coolant = !self.state.coolant.is_some_and(Coolant::is_on);
         self.push(JobStep::SpindleOff { coolant });
         if let Some(operation) = self.job.operations.last_mut().filter(|_| !self.has_cut) {
-            // Otherwise, the tool table would start the spindle before the stop.
+            // Left unspecified, the spindle would be set from the tool table and start before the stop.
             operation.spindle = Some(Turning::Off);
             operation.coolant = operation.coolant.filter(|_| !coolant).or(coolant.then_some(Coolant::OFF));
         }
@@ -489,7 +493,8 @@ impl Builder {
         Ok(self.job)
     }
 
-    /// Removes the last operation, which cuts nothing. Its rapid moves, such as the last retract, take the tool of the last cut away.
+    /// Removes the last operation, which cuts nothing. If it has the tool of the last cut, its rapid moves, such as the last retract, become the
+    /// job's departure.
     fn drop_idle_end(&mut self) {
         let Some(idle) = self.job.operations.pop() else { return };
         if self.job.operations.last().is_some_and(|last| last.tool.index == idle.tool.index) {
@@ -545,9 +550,9 @@ fn rises(movement: &Move) -> bool {
     movement.from.known.has(Axes::Z) && movement.keeps_xy() && movement.to.z() > movement.from.z()
 }
 
-/// Returns the hole at the beginning of `steps`, and the remaining steps. The reader has expanded drilling cycles to moves; all moves of
-/// the hole must come from one line that has no others. The rapid moves to the hole are combined into one, unless one of them rises, because
-/// the tool may then be in the material.
+/// Returns the hole at the beginning of `steps`, and the steps after it. The reader has expanded drilling cycles to moves; all moves of the hole must
+/// come from one line. The rapid moves to the hole are combined into one. If one of them rises, the steps are not a hole, because the tool may be in
+/// the material.
 pub(super) fn hole(steps: &[Step]) -> Option<(Hole, &[Step])> {
     let [first, second, ..] = steps else { return None };
     if first.line != second.line {

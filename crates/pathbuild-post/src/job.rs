@@ -41,7 +41,8 @@ impl Job {
         program_number(&self.name).or_else(|| program_number(&self.operations.first()?.part))
     }
 
-    /// Checks that the job can be written: it has operations, and all its numbers are finite.
+    /// Checks that the job can be written: it has operations, all its numbers are finite, and no operation begins to cut within the material right
+    /// after a tool change.
     pub(super) fn check(&self) -> Result<(), Box<Diagnostic>> {
         if self.operations.is_empty() {
             return Err(Box::new(Diagnostic::new(&posts::JOB_EMPTY)));
@@ -57,7 +58,7 @@ impl Job {
         self.check_changes()
     }
 
-    /// Checks that no tool has to begin within the material after it was inserted.
+    /// Checks that no operation with a newly inserted tool, the first one included, has to begin its cuts within the material.
     fn check_changes(&self) -> Result<(), Box<Diagnostic>> {
         let mut before = None;
         for operation in &self.operations {
@@ -78,7 +79,8 @@ impl Job {
         Ok(())
     }
 
-    /// Returns the feeds of each operation. Operations without a feed get the feed of another one.
+    /// Returns the feeds of each operation. A missing feed is replaced by the other feed of the operation, or else by the first feed that its steps
+    /// state, or else by the first one in the job.
     pub(super) fn feeds(&self) -> Vec<Feeds> {
         let own = |operation: &Operation| operation.steps.iter().find_map(JobStep::stated_feed);
         let any = self.operations.iter().find_map(own);

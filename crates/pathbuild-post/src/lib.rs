@@ -1,4 +1,4 @@
-//! Post-processors, which write programs for other machines. (book: program/posts)
+//! Post-processors, which write programs in the words of a machine's control. (book: program/posts)
 //!
 //! A [`Job`] is the input of a post; it is made from finished programs or from a parsed one. A [`PostDefinition`] is written in the language
 //! of CamBam or of CAD6; [`PostDefinition::write`] produces the text. This crate does no IO.

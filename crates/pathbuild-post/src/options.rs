@@ -18,7 +18,7 @@ pub struct PostOptions<'a> {
     pub macros: Vec<PostMacro>,
     /// Whether holes become canned cycles, if the target supports them.
     pub cycles: bool,
-    /// Name of the output file, for the macro that writes it and for the command that the definition asks to run.
+    /// Name of the output file, for the macro that expands to it and for the command that the definition asks to run.
     pub output: Option<Box<str>>,
     /// Whether the caller will run the command of the definition. If so, the command is returned; otherwise a note says that it was
     /// skipped.
@@ -29,7 +29,7 @@ pub struct PostOptions<'a> {
     pub dialect: Option<Box<str>>,
     /// Maximum size of the text in bytes. (`[limits] output-size`)
     pub most_bytes: usize,
-    /// Whether the user takes responsibility for output that cannot be read back.
+    /// Whether the user takes responsibility for the output, so that it is written even if it cannot be read back or differs from the job.
     pub unchecked: bool,
     /// Number of the program; `None` means the first number in its name.
     pub program_number: Option<u32>,

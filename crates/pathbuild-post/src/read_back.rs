@@ -23,7 +23,7 @@ use crate::{ambiguous, dwells, tools};
 /// The expectations that a text is checked against.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReadBackOptions<'a> {
-    /// The control that the text is for. Without a target, the text consists of RS274 words, possibly among others.
+    /// The control that the text is for. Without a target, the text that is checked is its translation to RS274.
     pub(super) target: Option<&'a Target>,
     /// Permitted deviation of the moves from the job. `None` if the user takes responsibility for the moves.
     pub(super) tolerance: Option<Tolerance>,
@@ -40,8 +40,8 @@ pub(super) struct ReadBackOptions<'a> {
     pub(super) milliseconds: bool,
 }
 
-/// Checks a text. Returns the errors by line: those reported by the reader of the target, or else the first deviation from the job and
-/// violations of the rules of `verify`. If there are no errors, returns warnings about doubtful constructs.
+/// Checks a text. Returns the errors: those reported by the reader of the target, or else the first deviation from the job and violations of the
+/// rules of `verify`. If there are no errors, returns warnings about doubtful constructs.
 pub(super) fn check(
     text: &[u8],
     job: &Job,
@@ -247,7 +247,7 @@ fn disputed_words_warning(translated: &TranslatedText) -> Option<Diagnostic> {
     Some(doubt.at_line(*line, None))
 }
 
-/// Warns about words that select a work offset or a tool length that the program specifies, because the job specifies neither.
+/// Warns about words that select a work offset other than G54, or a tool length other than that of a tool (G43.1), because the job specifies neither.
 fn work_offset_warnings(steps: &[Step]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for step in steps {
@@ -269,7 +269,8 @@ fn work_offset_warnings(steps: &[Step]) -> Vec<Diagnostic> {
 
 const MAX_OFFSET_WARNINGS: usize = 5;
 
-/// Checks the rules of `verify` that do not depend on the material. (book: program/reading)
+/// Checks the rules of `verify` that need to know at most the upper face of the material. Returns the errors and the warnings. (book:
+/// program/reading)
 fn broken_rules(
     steps: &[Step],
     job: &Job,
@@ -318,7 +319,7 @@ fn broken_rules(
     (broken, doubts)
 }
 
-/// Adds the line of the output and the part of the definition that produced it to a problem, because there will be no file to look at.
+/// Adds the line of the output and the part of the definition that produced it to a problem, because no file is written after an error.
 pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineOrigin]) -> Diagnostic {
     let Some(number) = problem.place.line.take() else { return problem };
     let index = usize::try_from(number).unwrap_or(usize::MAX).saturating_sub(1);

@@ -65,7 +65,8 @@ impl Target {
         Some(end.map_or(text.len(), |end| open + end + close.len()))
     }
 
-    /// Returns the length of the part of a line that contains code. In lines with M0 or M117, a text for the display follows the code.
+    /// Returns the length in bytes of the part of a line that contains code. If the line begins with a message code of the target, such as M117, a
+    /// text for the display follows it.
     pub(crate) fn code_length(&self, line: &str) -> usize {
         let digits = line
             .strip_prefix('M')
@@ -138,7 +139,7 @@ struct Checker<'a> {
     target: &'a Target,
     number: u64,
     line: &'a str,
-    /// Whether the previous word was M6.
+    /// Whether the previous word was M6, after which the target accepts a tool number without T.
     after_change: bool,
     errors: &'a mut Vec<Diagnostic>,
 }
@@ -190,7 +191,7 @@ impl Checker<'_> {
         self.report(Diagnostic::new(&posts::WORD_REJECTED).quoting("word", word), span);
     }
 
-    /// Checks a comment, because the control acts on some bytes even within a comment.
+    /// Checks a comment, because some controls act on certain bytes even within a comment.
     fn comment(&mut self, text: &str, start: usize) {
         let acts = |c: char| !c.is_ascii() || matches!(c, '!' | '?' | '~');
         if let Some((at, c)) =
@@ -359,13 +360,14 @@ impl<'a> TextInserter<'a> {
 /// Prefix for texts that a control would take for commands even within a comment.
 const TEXT_PREFIX: &str = "text: ";
 
-/// Replaces the mark that closes a comment within the comment's text. Definitions may use any mark.
+/// Replaces, in the text of a comment, all characters of the mark that would close the comment. Definitions may use any mark.
 fn without_closing_mark(text: &str, close: &str) -> String {
     let instead = if close.contains(' ') { "_" } else { " " };
     text.replace(|c| close.contains(c), instead)
 }
 
-/// Whether a text is harmless even outside a comment, because it contains no words.
+/// Whether a text is harmless even outside a comment, because it contains no words and none of the characters that controls use for parameters,
+/// expressions and commands.
 fn is_inert(text: &str, marks: &CommentMarks) -> bool {
     words(text, marks).words.is_empty()
         && !text.contains(['#', '[', ']', '%', '$', '{', '}', '"', '<', '>', '='])

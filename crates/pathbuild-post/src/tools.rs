@@ -57,14 +57,14 @@ struct Checker<'j> {
     last: Option<u32>,
     /// Whether the program has stopped for the operator since the last cut.
     has_stopped: bool,
-    /// Line of a stop since the last cut at which the spindle was turning.
+    /// Line of the first stop since the last cut, in a text without M6, if the spindle turned there: the operator changes the tool at it.
     spinning: Option<u32>,
     tip_height: TipHeight,
-    /// Line of the first move in the plane since the last cut that follows a stop, with no height stated between them.
+    /// Line of the first move in the plane after a stop since the last cut, if the text states no height between the stop and the move.
     moved_low: Option<u32>,
     /// For each step of the job, whether the spindle may turn during it if it is a stop; `None` for other steps.
     stops: Vec<Option<bool>>,
-    /// Number of the job's steps before the last cut.
+    /// Number of the job's steps up to and including the one to which the last cut belongs.
     reached: usize,
     /// Lines of the stops since the last cut at which the spindle turns.
     turning_stops: Vec<u32>,
@@ -75,15 +75,15 @@ struct Checker<'j> {
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 struct ToolWords {
-    /// Whether there are T words, with or without M6.
+    /// Whether there are words that select or change a tool: T or M6.
     has_selection: bool,
     /// Whether there are M6 words.
     has_change: bool,
-    /// Whether there are G43 words.
+    /// Whether a word switches a tool length on: G43, except with H0.
     has_length: bool,
     /// Whether tools are layers, the first of which applies from the beginning.
     has_layers: bool,
-    /// Whether T without M6 only remembers the number, so that the operator must change the tool at a stop.
+    /// Whether the text has no M6 although T only remembers the number, so that the operator must change the tool at a stop.
     needs_stop: bool,
 }
 
@@ -147,7 +147,7 @@ impl<'j> Checker<'j> {
         self.tip_height.step(step);
         self.tools.step(step);
         if matches!(step.action, Action::Stop { .. }) {
-            // The tool is changed at M6, or in a text without M6 at the first stop. Later stops are pauses.
+            // The tool is changed at M6 or, in a text without M6, at the first stop after a cut. Further stops before the next cut are pauses.
             let changes = !self.has_stopped && !self.words.has_change;
             let is_on = self.tools.spindle().turning.is_on();
             self.turning_stops.extend(is_on.then_some(step.line));
@@ -236,7 +236,8 @@ impl<'j> Checker<'j> {
         }
     }
 
-    /// Compares the spindle with the operation, as far as both the job and the text switch it.
+    /// Compares the spindle with the operation: its direction, if the program must switch it on, and its speed, if both the job and the text state
+    /// it.
     fn check_spindle(&mut self, line: u32, operation: &Operation) {
         let found = self.tools.spindle();
         let turning = operation.spindle.filter(|turning| turning.is_on() && !self.is_manual);

@@ -1,8 +1,8 @@
 //! Checks that a parsed text makes exactly the cuts of a job, and between them only moves that cannot touch material.
 //!
-//! The rapids of a post need not equal those of the job, although they must when a program is compared with its drawing (`verify
-//! --against`). A post may retract the tool higher, or omit moves in the air. A position is free of material if it is above all positions
-//! where the job itself moves by rapid, or above the clearance plane.
+//! The rapids of a post need not equal those of the job, although they must when a program is compared with its drawing (`verify --against`). A post
+//! may retract the tool higher, or omit moves in the air. A position is considered free of material if the job itself has a rapid at or directly
+//! below it, or if it is above the clearance plane.
 
 use std::collections::HashSet;
 
@@ -298,8 +298,8 @@ impl<'m> ExpectedTraverse<'m> {
         Box::new(diagnostic.at_line(line, None))
     }
 
-    /// Checks the moves after the last cut. There must be no further cuts, and the tool must end as high as in the job. As between two
-    /// cuts, a rapid of the job may be written at feed.
+    /// Checks the moves after the last cut. There must be no further cuts, and the tool must end as high as in the job, or at the clearance plane if
+    /// that is lower. As between two cuts, a rapid of the job may be written at feed.
     fn check_after_last_cut(&self, found: NumberedMoves<'_>, end: Option<Position>) -> TraverseResult<()> {
         let is_high = |movement: &Move| movement.from.z().min(movement.to.z()) >= self.clearance - self.slack;
         if let Some(cut) = found.iter().find(|(_, movement)| !is_rapid(movement) && is_high(movement)) {

@@ -299,8 +299,8 @@ impl<'a> Builder<'a> {
         Ok(Some(*movement))
     }
 
-    /// Completes the pending rapids. If they are within the material, they become elements of the contour; otherwise they lead to a new
-    /// contour, which may begin with a plunge.
+    /// Completes the pending rapids. If a contour is open and all of them are within the material, they become its elements; otherwise they lead to a
+    /// new contour, which may begin with a plunge.
     fn complete_rapids(&mut self, plunge: Option<(Point, Option<f64>)>) -> CallResult {
         if self.abilities.rapid {
             return Ok(());
@@ -337,7 +337,7 @@ impl<'a> Builder<'a> {
         count
     }
 
-    /// Returns the greatest height in mm that the pending rapids reach.
+    /// Returns the greatest height in mm that the pending rapids reach. Unless a contour is open, their start counts as well.
     fn highest(&self) -> f64 {
         let start = if self.is_open { f64::NEG_INFINITY } else { self.at[2] };
         self.ways.iter().map(|way| way[2]).fold(start, f64::max)

@@ -50,7 +50,7 @@ impl Definition {
         let definition = reader.definition(table.get_ref());
         let mut findings = reader.findings;
         if !findings.has_error {
-            for doubt in of(&definition, file) {
+            for doubt in likely_mistakes(&definition, file) {
                 findings.add(doubt);
             }
         }
@@ -350,7 +350,7 @@ impl Abilities {
 }
 
 /// Reports likely mistakes in a definition, including texts that no program calls, whose words would be missing from every program.
-pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
+fn likely_mistakes(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
     let uncalled = definition.texts().filter_map(|(kind, text)| {
         let diagnostic = match definition.uncalled_reason(kind)? {
             UncalledReason::Never => Diagnostic::new(&posts::TEXT_NEVER_CALLED),
@@ -360,10 +360,10 @@ pub(super) fn of(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
         };
         Some(locate(diagnostic, kind, text, 0..text.line_around(0).1.len(), file))
     });
-    uncalled.chain(definition.texts().flat_map(|(kind, text)| of_text(kind, text, file))).collect()
+    uncalled.chain(definition.texts().flat_map(|(kind, text)| mistakes_in_text(kind, text, file))).collect()
 }
 
-fn of_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Diagnostic> {
+fn mistakes_in_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     let mut statements = Statements::default();
     let mut rest = text.text.as_str();

@@ -13,7 +13,7 @@ use crate::PostFiles;
 const MAX_DEPTH: usize = 32;
 /// Maximum number of variables resolved per call.
 const MAX_VARIABLES: usize = 10_000;
-/// Maximum length in bytes of the text produced by one call. Lines of real programs are much shorter.
+/// Maximum length in bytes to which the values of variables may expand the text of one call. Lines of real programs are much shorter.
 const MAX_TEXT_BYTES: usize = 1 << 16;
 
 /// A control text with its variables replaced.

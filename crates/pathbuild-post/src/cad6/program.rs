@@ -206,7 +206,7 @@ impl Caller<'_, '_> {
         }
     }
 
-    /// Checks that the definition has the text for a move. A missing text is an error because it would omit the move, unless the user has
+    /// Checks that the definition has the text for a move. A missing text is an error, because the output would lack the move, unless the user has
     /// taken responsibility for unchecked output.
     fn require_move(&self, kind: ControlTextKind, operation: &Operation) -> RunResult {
         if self.unchecked { Ok(()) } else { self.require(kind, operation) }

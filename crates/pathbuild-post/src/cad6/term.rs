@@ -47,7 +47,7 @@ pub(super) fn evaluate(text: &str) -> Evaluated<Term> {
     Ok(Term { value, doubts: parser.doubts })
 }
 
-/// The operators from lowest to highest precedence. Where one is a prefix of another, the longer one is first.
+/// The operators from lowest to highest precedence. The parser always takes the longest operator that fits, of whatever level.
 pub(super) const LEVELS: [&[&str]; 6] =
     [&["||"], &["&&"], &["<=", ">=", "==", "!=", "<", ">", "&", "|", "^"], &["+", "-"], &["*", "/"], &["^^"]];
 

@@ -238,7 +238,8 @@ impl Variables {
         self.texts.get(text_of(c)?).map(|text| &**text)
     }
 
-    /// Replaces the placeholders of a value by their texts. The result is only compared or parsed as a number, never expanded.
+    /// Replaces the placeholders of a value by their texts. The result is only compared, parsed as a number or used as the name of an inserted file,
+    /// never expanded.
     pub(super) fn without_placeholders<'t>(&self, value: &'t str) -> Cow<'t, str> {
         if !value.contains(is_private) {
             return Cow::Borrowed(value);

@@ -64,7 +64,7 @@ impl UserMacros {
 const MAX_XML_ELEMENTS: u32 = 10_000;
 
 impl Definition {
-    /// Parses a definition. Elements that are not understood are returned as warnings.
+    /// Parses a definition. Also returns warnings, for example about unknown elements.
     pub(crate) fn parse(text: &str, file: &Utf8Path) -> Result<(Self, Vec<Diagnostic>), Vec<Diagnostic>> {
         let limits = ParsingOptions { nodes_limit: MAX_XML_ELEMENTS, ..ParsingOptions::default() };
         let document =
@@ -132,8 +132,8 @@ impl Definition {
         self.options.number_format.most_decimals()
     }
 
-    /// Returns the name of the first section whose text is empty or only a comment, of those for rapid moves and for feed moves; `None` if both texts
-    /// have words.
+    /// Returns the name of the section for rapid moves, or else of that for feed moves, if its text is empty or only a comment; `None` if both
+    /// sections write something.
     pub(crate) fn empty_motion(&self) -> Option<&'static str> {
         let is_mark = |what: &Macro| matches!(what, Macro::Section(Section::Comment | Section::EndComment));
         let is_empty = |section: &Section| {
@@ -366,7 +366,7 @@ fn user_macro(line: &str) -> Option<(&str, &str)> {
     (!name.is_empty() && !name.contains(['{', '}', '(', ')', '$'])).then_some((name, value.trim()))
 }
 
-/// Whether a macro with this name is built in, so that it cannot be redefined.
+/// Whether a macro with this name is built in and cannot be redefined. Built-in values that may be missing can be defined by the user.
 fn is_built_in(name: &str) -> bool {
     match Macro::parse(name) {
         Ok(Macro::User(_)) => false,

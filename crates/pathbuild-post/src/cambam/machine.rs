@@ -16,7 +16,7 @@ pub(super) struct Machine {
     motion: Option<u32>,
     /// The tool in the spindle, according to the last tool change.
     pub(super) tool: Option<u32>,
-    /// The number of a T word that has not yet been followed by M6.
+    /// The number of the last T word, which M6 inserts.
     selected: Option<u32>,
     pub(super) spindle: Option<Turning>,
     /// The spindle speed, from the last S word.

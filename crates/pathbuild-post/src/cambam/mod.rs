@@ -68,8 +68,8 @@ pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText 
     shadow.finish()
 }
 
-/// Adds a note if the job switches the coolant but the definition has no macro for this, and one if the definition has no macro that waits for the
-/// spindle.
+/// Adds a note if the job states the coolant but no template contains `{$coolant}`, and one if the spindle needs time to reach its speed but no
+/// template contains `{$spindle(up)}`.
 fn note_switches(output: &mut EngineOutput, plan: &Plan<'_>) {
     let cools = plan.job.operations.iter().any(|operation| operation.coolant.is_some());
     let mut macros = plan.templates().flat_map(Template::macros);

@@ -39,7 +39,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Writes any step except a canned cycle.
+    /// Writes a step. A hole is written as moves, not as a canned cycle.
     pub(super) fn step(&mut self, step: &JobStep) -> WriteResult {
         match step {
             JobStep::Move(movement) => self.move_to(movement),
@@ -95,7 +95,8 @@ impl Writer<'_> {
         if self.plan.options.milliseconds && has_choice { 1000.0 * seconds } else { seconds }
     }
 
-    /// Whether the control reads P as milliseconds. `{$move.p}` is still in seconds, for controls that have another letter for seconds.
+    /// Whether the control always reads P as milliseconds, not by a setting. `{$move.p}` is still in seconds, for controls that have another letter
+    /// for seconds.
     pub(super) fn counts_milliseconds(&self) -> bool {
         self.plan.target.is_some_and(|target| target.reader.rules().dwell.p == DwellUnit::Milliseconds)
     }
@@ -359,7 +360,7 @@ impl Writer<'_> {
 /// Maximum angle in radians of an arc written by its radius. Larger arcs are split.
 const MAX_ANGLE_BY_RADIUS: f64 = PI * 2.0 / 3.0;
 
-/// Registers that a control keeps only until the end of a canned cycle, so that the next cycle must write them again.
+/// Registers that the first canned cycle of a group must write even if they are unchanged. Controls keep R, P and Q only until the end of a cycle.
 const CYCLE_REGISTERS: [Register; 6] =
     [Register::X, Register::Y, Register::Z, Register::R, Register::P, Register::Q];
 

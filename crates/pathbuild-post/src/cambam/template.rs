@@ -59,7 +59,7 @@ impl Template {
         if errors.is_empty() { Ok(Self { section, pieces }) } else { Err(errors) }
     }
 
-    /// Whether the template can only produce blanks, because it contains no macros and no other characters.
+    /// Whether the template can only produce blanks, because it contains neither macros nor characters other than blanks.
     pub(super) fn is_blank(&self) -> bool {
         self.pieces
             .iter()

@@ -130,7 +130,8 @@ impl Writer<'_> {
         }
     }
 
-    /// Switches the spindle on and waits until it is up to speed, unless it already turns as the operation requires.
+    /// Switches the spindle as the operation requires and, if it turns then, waits until it is up to speed. Writes nothing if the spindle is in this
+    /// state already.
     pub(super) fn spindle_up(&mut self) -> WriteResult {
         let operation = self.operation();
         let Some(spindle) = operation.spindle.filter(|_| !self.plan.options.manual_spindle) else {

@@ -37,7 +37,8 @@ pub(super) struct Writer<'a> {
     pub(super) tool: &'a Tool,
     /// Whether the tool is below the stock surface.
     pub(super) is_cutting: bool,
-    /// Section of the last code macro that wrote nothing because this section is empty; `None` if there was no such macro since the last reset.
+    /// Section of the last code macro that wrote nothing because this section is empty; `None` if there was no such macro since the current canned
+    /// cycle began.
     pub(super) empty_code: Option<Section>,
     warnings: Vec<Diagnostic>,
     pub(super) line: Line,
