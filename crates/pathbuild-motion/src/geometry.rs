@@ -368,7 +368,8 @@ impl WrittenArc<'_> {
     /// third decimal of a millimetre (the fourth of an inch) up or down.
     ///
     /// # Errors
-    /// The written radii at both ends in the output unit, if no nearby centre makes them agree. An arc that is wrong before rounding is never adjusted.
+    /// The written radii at both ends in the output unit, if no nearby centre makes them agree. An arc that is wrong before rounding is never
+    /// adjusted.
     pub fn centre_correction(&self) -> Result<[f64; 2], [f64; 2]> {
         let nearest = self.radii([0.0; 2]);
         if difference(nearest) <= self.tolerance() {

@@ -1,4 +1,5 @@
-//! Generates the moves of milling chains, pass by pass from the nearest edge. (book: program/gcode)
+//! Generates the moves of milling chains. Next is always the nearest of the edges (segments at one of their depths) whose upper neighbours are done;
+//! a chain with W is milled back and forth without lifting. (book: program/gcode)
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -104,7 +105,8 @@ impl<P: FoldPaths> Fold<'_, P> {
         self.travel(Tip { at: end, z: place.sweep_height }, place.surface, place.sweep_height, place.feed);
     }
 
-    /// Mills back and forth in the groove without leaving it.
+    /// Mills a chain with W, for cutters that cannot leave their groove: every pass follows the whole chain and, if the chain is open, all passes but
+    /// the last also lead back. The tool is not lifted.
     fn mill_in_groove(&mut self, place: &PlacedPath<'_>, strands: &[ChainEdge<'_>]) {
         let runs = strands.iter().map(|strand| strand.depths.len()).max().unwrap_or(0);
         let (start, end) = (strands[0].curve.start(), strands[strands.len() - 1].curve.end());

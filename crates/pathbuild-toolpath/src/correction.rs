@@ -13,7 +13,7 @@ use crate::z_model::{Triangulation, ZModel};
 pub struct Correction {
     /// Model of the surface between the probes.
     pub model: ZModel,
-    /// Maximum length in mm of a part that is corrected as a whole; with 0, moves are never split.
+    /// Maximum length in mm of the parts into which moves are split, each with a corrected height of its own; with 0, moves are not split.
     pub longest: f64,
 }
 
@@ -65,8 +65,8 @@ impl Correction {
         self.model.lacks_slope(&places)
     }
 
-    /// Returns the point outside the area of the probes, and farthest from it, at which the program mills, if there is one. `None` as well for models
-    /// with reliable values outside that area.
+    /// Returns the point farthest outside the area of the probes (their convex hull) at which the program mills; `None` if it mills only inside, if
+    /// there are no probes, and for [`ZModel::Idw4`].
     pub fn farthest_unprobed_point(self, program: &Program) -> Option<UnprobedPoint> {
         if program.probes.is_empty() || self.model == ZModel::Idw4 {
             return None;
@@ -138,7 +138,7 @@ pub(crate) struct ToolPosition {
 /// deviation.
 const MAX_CHORD_DEPARTURE: f64 = 0.01;
 
-/// Relative increase in length that rounding may cause for a move of an exact number of parts.
+/// Largest rounding error in the number of parts: a move of exactly n maximum lengths is not divided into n + 1 parts.
 const ROUNDING: f64 = 1e-9;
 
 /// A move and the number of parts it is split into.

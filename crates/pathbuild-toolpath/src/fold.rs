@@ -308,7 +308,8 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
         self.step(PlannedMove::Lift { z: Height { z: to, at } }, count, Tip { z: to, ..self.tip });
     }
 
-    /// Adds `G00 X Y`. Of several sweeps separated only by comments, only the last one is kept, provided that there cannot be obstacles.
+    /// Adds `G00 X Y`. Of several sweeps separated only by comments, only the last one is kept if they are so high that there cannot be obstacles,
+    /// and always in compatible mode.
     pub(crate) fn sweep(&mut self, to: Xy, length: f64) {
         if let Some(index) = self.mergeable.take() {
             self.steps.remove(index);

@@ -79,7 +79,7 @@ impl BarPlan {
             return None;
         }
         let pitch = length / count;
-        // The slopes have 45 degrees, but they are steeper if they would not fit into the gap or would be longer than half a bar.
+        // The slopes rise at 45 degrees, or more steeply if they would otherwise not fit into the gap or be longer than half a bar.
         let room = ((pitch - bars.length - tool) / 2.0).max(0.0);
         let slope = (bars.top - bottom).min(bars.length / 2.0).min(room);
         let edge = bars.length / 2.0 + tool / 2.0;
@@ -146,13 +146,13 @@ struct Circle {
     centre: Xy,
     radius: f64,
     feed: f64,
-    /// The vector from the point where full circles begin and end to the centre.
+    /// The vector to the centre from the point where full circles begin and end.
     to_centre: Vector2<f64>,
 }
 
 impl Circle {
-    /// Returns a circle that begins at its lowest point.
-    fn from_lowest_point(centre: Xy, radius: f64, feed: f64) -> Self {
+    /// Returns a circle that begins at its point with the least Y.
+    fn from_least_y(centre: Xy, radius: f64, feed: f64) -> Self {
         Self { centre, radius, feed, to_centre: Vector2::new(0.0, radius) }
     }
 
@@ -195,11 +195,12 @@ impl<P: FoldPaths> Fold<'_, P> {
         self.sweep(circle.centre, circle.radius);
     }
 
-    /// Returns the circle of a helix. The lowest point of a circle with support bars, from which they are distributed, is that in its drawing: the
-    /// bars turn with the path. All other circles begin at their lowest point in the program, as those of PathDxf2GCode do.
+    /// Returns the circle of a helix. A circle with support bars begins at the point with the least Y in its drawing, so that the bars, which are
+    /// distributed from there, turn with the path. All other circles, and those in compatible mode, begin at the point with the least Y in the
+    /// program, as in PathDxf2GCode.
     fn placed_circle(&self, place: &PlacedPath<'_>, helix: &Helix) -> Circle {
         let (centre, feed) = (place.placement.place(helix.centre), self.feed_or_default(helix.feed));
-        let circle = Circle::from_lowest_point(centre, helix.axis_radius(place.path.tool), feed);
+        let circle = Circle::from_least_y(centre, helix.axis_radius(place.path.tool), feed);
         if helix.bars.is_none() || self.compatible {
             return circle;
         }
@@ -266,7 +267,7 @@ impl<P: FoldPaths> Fold<'_, P> {
 
 /// Returns the full circle on which the cutter's axis moves, in the coordinates of its drawing.
 pub(crate) fn axis_circle(helix: &Helix, tool: f64) -> Curve {
-    Circle::from_lowest_point(helix.centre, helix.axis_radius(tool), 0.0).curve()
+    Circle::from_least_y(helix.centre, helix.axis_radius(tool), 0.0).curve()
 }
 
 /// Returns the last turns of a helix and, if it has support bars, the circle that leaves them, as if each were milled in a single pass. Uses the

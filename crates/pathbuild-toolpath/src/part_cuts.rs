@@ -191,8 +191,8 @@ impl BarPlace {
         let middle = if to - from > MAX_WEAK_BRIDGE {
             Some(self.curve.section(from, to))
         } else {
-            // A whole segment is drawn for its bar alone, so the cuts that leave nothing of it are to be found. Within a run of bars, it stands
-            // however short it is.
+            // A segment that is a bar from end to end keeps its middle, however short it is: a single one was drawn for its bar, so cuts that leave
+            // nothing of the bar must be found; one between other such segments stands anyway.
             (is_at_end == [true; 2] && is_whole[0] == is_whole[1]).then_some(self.curve)
         };
         StandingBar { middle, foot, top: self.top }

@@ -106,8 +106,8 @@ impl Scatter {
         short > COLLINEAR_RATIO * COLLINEAR_RATIO * long && !self.is_point()
     }
 
-    /// Returns the matrix that converts a position to the contribution of each point to the slope: the inverse of the moments. For collinear points
-    /// it only has a component along the line, and for a single point it is zero.
+    /// Returns the matrix that converts the position of a point, relative to the mean, to what the point adds to the slope per mm of height: the
+    /// inverse of the moments. For collinear points it only has a component along the line, and for a single point it is zero.
     fn inverse(&self) -> Matrix2<f64> {
         if self.is_point() {
             return Matrix2::zeros();
@@ -183,7 +183,7 @@ const WEIGHT_TOLERANCE: f64 = 1e-12;
 /// The model of PathDxf2GCode ([`ZModel::Idw4`]): the four nearest probes, weighted by the inverse of their distance. (book: language/probes)
 #[derive(Clone, Debug)]
 pub(super) struct NearestProbes {
-    /// Positions with the indices of their probes. Only the first few at the same position can be used.
+    /// Positions with the indices of their probes, at most [`PROBES_PER_POINT`] at each: no more can be used.
     places: RTree<GeomWithData<[f64; 2], Vec<usize>>>,
 }
 
@@ -224,12 +224,12 @@ impl NearestProbes {
 
 // Finds probes that do not fit their neighbours. (PB607)
 //
-// Each probe is compared with the plane through all the others. It is odd if its distance from that plane exceeds [`MIN_ODD_DISTANCE`] and also
-// [`MIN_ODD_RATIO`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on which all probes
-// scatter, has no odd probes, but a single typing error stands out. This requires five probes: three others always lie on a plane,
+// Each probe is compared with the best-fitting plane (least squares) of all the others. It is odd if its distance from that plane exceeds
+// [`MIN_ODD_DISTANCE`] and also [`MIN_ODD_RATIO`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on
+// which all probes scatter, has no odd probes, but a single typing error stands out. This requires five probes: three others always lie on a plane,
 // so that with four it is impossible to tell which one is wrong.
 
-/// Distance in mm below which a probe is never odd, however well the others fit.
+/// Distance in mm up to which a probe is never odd, however well the others fit.
 const MIN_ODD_DISTANCE: f64 = 0.1;
 
 /// Minimum ratio of a probe's distance from the plane to the scatter of the other probes.
@@ -242,7 +242,7 @@ const PLANE_DEGREES_OF_FREEDOM: f64 = 3.0;
 pub struct OddProbe {
     /// Index of the probe, in the given order.
     pub probe: usize,
-    /// Height of the probe above the plane through the others, in mm.
+    /// How much higher the probe was measured than the best-fitting plane of the others, in mm.
     pub off: f64,
 }
 
@@ -286,8 +286,8 @@ impl PlaneFit {
         off - self.mean - self.slope.dot(&(place - self.scatter.middle))
     }
 
-    /// Returns the distance of a probe from the plane through the others, if the probe is odd. That plane need not be fitted: it follows from the
-    /// influence of the probe on the plane through all probes.
+    /// Returns the distance of a probe from the best-fitting plane of the others, if the probe is odd. That plane need not be computed: it follows
+    /// from the influence of the probe on the plane of all probes.
     fn distance_if_odd(&self, probe: (Xy, f64)) -> Option<f64> {
         let place = probe.0 - self.scatter.middle;
         if !self.scatter.without(probe.0).is_wide() {
@@ -379,7 +379,7 @@ impl Triangulation {
         let area = ab.perp(&ac);
         let (of_b, of_c) = (ap.perp(&ac) / area, ab.perp(&ap) / area);
         let parts = [1.0 - of_b - of_c, of_b, of_c];
-        // A triangle without area contains nothing, because the coordinates are NaN.
+        // A triangle without area contains nothing, because at least one of the coordinates is NaN or negative infinity.
         parts.iter().all(|part| *part >= -ROUNDING).then_some(parts)
     }
 
