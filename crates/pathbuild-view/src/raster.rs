@@ -30,7 +30,7 @@ static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// Renders a scene as PNG. The scene is dropped first: a large one takes more memory than its picture.
+/// Renders a scene as PNG. The scene is dropped before its picture is rendered, because a large scene takes more memory than its picture.
 ///
 /// # Errors
 /// The picture is too large for memory. Any other error is a bug.
@@ -47,7 +47,7 @@ pub fn png(scene: Scene, shown: VisibleParts) -> Result<Vec<u8>, Value> {
     pixels.encode_png().map_err(Value::foreign)
 }
 
-/// Renders a scene as PDF. The scene is dropped first, as for a PNG.
+/// Renders a scene as PDF. The scene is dropped before its picture is rendered, as for a PNG.
 ///
 /// # Errors
 /// An error is always a bug.

@@ -127,7 +127,8 @@ pub struct ScenePath {
     pub moves: Vec<SceneMove>,
     /// Lengths and times of the program; `None` if the path has no program.
     pub totals: Option<Totals>,
-    /// The G-code as written by `emit`, with LF as line ends.
+    /// The G-code whose lines the moves refer to, with LF as line ends: the text that `emit` writes, the native text if there is no other, or the
+    /// program that was read.
     pub gcode: Option<String>,
     /// Path of the file that `emit` writes; `None` if it writes none.
     pub written: Option<String>,
@@ -368,7 +369,7 @@ pub struct FinishedPart {
     pub tolerance: f64,
     /// Material that the path leaves at the outline.
     pub left: Vec<LeftMaterial>,
-    /// For each ring, the index of the opening that contains it, or its own index if no other opening does.
+    /// For each ring, the index of the outermost opening that contains it, or its own index if none does.
     #[serde(skip)]
     pub nests: Vec<usize>,
     /// Stretches of the outline that the cutter does not reach.
@@ -606,7 +607,7 @@ pub struct SceneMove {
     pub way: motion::Move,
     /// Length of the move in mm.
     pub length: f64,
-    /// Element that the move mills, as an index into [`ScenePath::elements`](crate::scene::ScenePath::elements).
+    /// Element from which the move comes, as an index into [`ScenePath::elements`](crate::scene::ScenePath::elements).
     pub element: Option<u32>,
     /// Line of the move in the G-code, counted from 1.
     pub line: Option<u32>,

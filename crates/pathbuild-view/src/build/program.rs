@@ -184,7 +184,7 @@ impl Builder {
     }
 }
 
-/// Returns the full circle of a cutter's centre, clockwise from its lowest point.
+/// Returns the full circle on which a cutter's centre moves, clockwise from the point with the least Y.
 fn circle(centre: Xy, radius: f64) -> Curve {
     let low = Xy::new(centre.x, centre.y - radius);
     Curve::Arc(Arc { centre, radius, start: low, end: low, clockwise: true, degrees: 360.0 })

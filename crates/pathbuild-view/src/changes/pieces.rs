@@ -8,18 +8,19 @@ use pathbuild_motion::{Axes, Move, MoveShape, Plane, Position};
 use super::is_rapid;
 use crate::scene::{Point, SceneMove};
 
-/// Distance in mm up to which two ends are the same. Programs round to three or four decimals; a difference of 2 µm is drawn.
+/// Distance in mm up to which two ends are the same. Coordinates in programs are rounded to three or four decimals, so the same end may differ by 1
+/// µm; a difference of 2 µm is intended.
 pub(super) const END_TOLERANCE: f64 = 0.0011;
 
 /// Distance in mm up to which two points between ends are the same. The centre of an arc is the sum of two rounded numbers, and the far side of a
 /// circle moves twice as far as its centre.
 pub(super) const CURVE_TOLERANCE: f64 = 3.0 * END_TOLERANCE;
 
-/// Number of pieces of two programs in addition to the number of their moves. Beyond it, moves stay whole, so that many long moves on top of each
+/// Maximum number of pieces that dividing adds to the moves of two programs. Beyond it, moves stay whole, so that many long moves on top of each
 /// other take no more time and memory than others.
 const MAX_ADDITIONAL_PIECES: usize = 1_000_000;
 
-/// Number of cells and points that are searched for ends on moves. Beyond it, moves stay whole.
+/// Maximum number of cells and points that are searched for ends on moves. Beyond it, moves stay whole.
 const MAX_SEARCHED: usize = 20_000_000;
 
 /// Assigns the same number to points that are the same within a tolerance.

@@ -22,8 +22,8 @@ struct OpenPath {
     count: usize,
 }
 
-/// Maximum number of paths in one element. One element for each takes ten times the memory when the picture is rendered; a single element for all
-/// would take as much again for its edges.
+/// Maximum number of paths in one element. With an element for each path, rendering the picture takes ten times the memory; a single element for all
+/// paths would take as much, for its edges.
 const MAX_MERGED_PATHS: usize = 1000;
 
 /// The part of a text that is placed at the text's point.

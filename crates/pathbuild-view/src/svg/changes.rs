@@ -156,7 +156,7 @@ const DOT_PATTERN: &str = " stroke-dasharray=\"1 4\"";
 
 /// Width of lines in px, except for removed moves.
 const LINE_WIDTH: f64 = 2.0;
-/// Width of removed moves in px, so that they remain visible beneath the moves that replace them.
+/// Width of removed moves in px: they are wider, so that they remain visible beneath the moves that replace them.
 const REMOVED_WIDTH: f64 = 6.0;
 
 /// The stroke of an entry of the legend and its moves.

@@ -62,7 +62,7 @@ pub(super) struct PageTransform {
 }
 
 impl Frame {
-    /// Returns the frame around paths and clamps, or around other layers if there are no paths.
+    /// Returns the frame around the paths (or the other layers, if the paths have no extent), the clamps and the places of findings.
     pub(super) fn of(scene: &Scene) -> Self {
         let mut corners: Option<[Point; 2]> = None;
         for path in &scene.paths {
@@ -119,7 +119,7 @@ impl Frame {
         (self.high[1] - self.low[1]) * self.scale + 2.0 * MARGIN
     }
 
-    /// Returns the area in px in which texts may be placed: everything except for a thin margin.
+    /// Returns the area in px in which texts may be placed: everything except for a thin strip at the bottom.
     pub(super) fn area(&self) -> [Point; 2] {
         [[0.0, 0.0], [Self::WIDTH, self.bottom() - MARGIN / 4.0]]
     }

@@ -307,7 +307,7 @@ fn first_findings(findings: &[Finding], shown: VisibleParts) -> (Vec<(Option<&Fi
     (all, findings.len())
 }
 
-/// Returns the lines of a finding. Only the first line refers to the finding, because the finding's number is drawn before that line.
+/// Returns the lines of a finding. Only the first line refers to the finding: it is drawn bold and in the finding's colour.
 fn lines<'a>(finding: &'a Finding, shown: VisibleParts) -> Vec<(Option<&'a Finding>, String)> {
     let pick = |text: &'a crate::scene::BilingualText| match shown.lang {
         Lang::En => text.en.as_str(),

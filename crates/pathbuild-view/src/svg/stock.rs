@@ -43,7 +43,8 @@ const EDGE_WIDTH: f64 = 0.7;
 /// Width in px of a colour of the legend, with the gap before its meaning.
 const SWATCH_WIDTH: f64 = 17.0;
 
-/// Approximate maximum number of strokes of the level round cuts of a picture. Cuts of a program with more have coarser steps.
+/// Approximate maximum number of strokes into which the level cuts of round cutters are divided in one picture. If a program needs more, the steps of
+/// its round cuts are coarser.
 const MAX_ROUND_STROKES: f64 = 200_000.0;
 
 /// Maximum number of strokes that are combined to one SVG path. The time for rendering a path grows with the square of its strokes, and
@@ -84,7 +85,7 @@ impl<'s> MilledStock<'s> {
             count += 1;
         }
         blanks.sort_by(|one, other| one.1.total_cmp(&other.1));
-        // A rapid move below every upper face runs through material wherever the stock reaches that far.
+        // Extend the stock to the rapid moves below every upper face: if the real stock reaches that far, they run through material.
         if let Some((blank, top)) = blanks.first_mut() {
             for extent in low_rapids(scene, *top).filter_map(|rapid| rapid.extent()) {
                 *blank = joined(*blank, extent);

@@ -287,8 +287,8 @@ const MIN_NUMBER_DISTANCE: f64 = 11.0;
 /// Distance from the picture to the dimension lines, in units.
 const DIMENSION_DISTANCE: f64 = 22.0;
 
-/// Draws the dimensions of the removed material: its size, and the distance of its edges from X0 Y0. They are placed to the left of and
-/// below a corner of the page.
+/// Draws the dimensions of the removed material: its size, and the coordinates of its edges. The dimension lines are to the left of `left` and below
+/// `bottom`, which are positions on the page.
 pub(super) fn draw(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransform, [left, bottom]: Point) {
     let ([x0, y1], [x1, y0]) = (place.to_page(low), place.to_page(high));
     canvas.open(&format!("id=\"measures\" fill=\"none\" stroke=\"{INK_COLOUR}\" stroke-width=\"0.7\""));

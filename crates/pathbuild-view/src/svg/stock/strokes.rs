@@ -101,7 +101,7 @@ pub(super) fn sort(strokes: &mut [Stroke]) {
     });
 }
 
-/// Number of levels of cuts from which the picture is that of a relief.
+/// Number of levels of cuts above which the picture counts as that of a relief.
 const RELIEF_LEVELS: usize = 16;
 
 /// Height in mm up to which a step has no edge.
@@ -175,7 +175,7 @@ pub(super) fn cuts(scene: &Scene) -> impl Iterator<Item = Cut<'_>> {
     moves(scene).filter(|cut| cut.movement.kind.cuts())
 }
 
-/// Returns the rapid moves below an upper face.
+/// Returns the rapid moves that go below both this upper face and the upper face of the stock that applies to them.
 pub(super) fn low_rapids(scene: &Scene, top: f64) -> impl Iterator<Item = Cut<'_>> {
     moves(scene).filter(move |cut| {
         matches!(cut.movement.kind, MoveKind::Sweep | MoveKind::Lift)
@@ -245,7 +245,7 @@ pub(super) struct StrokeBuilder {
 
 impl StrokeBuilder {
     /// Adds the strokes that a cut paints. A slope is divided into pieces, each of which has the height of its upper end; so is an arc that bulges up
-    /// or down. Only level cuts have an edge: those of neighbouring slopes would cover each other's surfaces.
+    /// or down. Only level cuts and plunges have an edge: the edges of neighbouring slopes would cover each other's surfaces.
     pub(super) fn cut(&mut self, at: MovePiece, way: &Move, setting: &CuttingConditions) {
         let step = self.step;
         let [from, to] = [way.from.z(), way.to.z()];
