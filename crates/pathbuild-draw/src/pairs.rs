@@ -86,7 +86,8 @@ pub fn identify(record: &mut Record<'_>, code: i32, handle: Option<u64>, owner: 
     record.splice(1..1, handle.into_iter().chain(owner));
 }
 
-/// Removes unwanted output of the crate from an entity: empty names and dangling pointers.
+/// Removes unwanted output of the crate from an entity: dangling pointers (347, 390), an empty colour name (430), transparency (440), shadow mode
+/// (284), and a line weight that is only that of the layer (370).
 pub fn remove_unwanted_pairs(record: &mut Record<'_>) {
     record.retain(|pair| match pair.code {
         347 | 390 | 430 | 440 | 284 => false,
@@ -99,7 +100,7 @@ pub fn remove_unwanted_pairs(record: &mut Record<'_>) {
 const MTEXT: [i32; 25] =
     [0, 5, 330, 100, 67, 8, 6, 62, 48, 60, 10, 20, 30, 40, 41, 71, 72, 3, 1, 7, 73, 44, 210, 220, 230];
 
-/// Reduces an MTEXT to its usual groups and those of its direction. The crate writes a second group 50 for columns, which is dropped.
+/// Reduces an MTEXT to its usual groups and the given groups of its direction. The crate writes further groups 50 for columns, which are dropped.
 pub fn reduce_mtext(record: &mut Record<'_>, direction: &[i32]) {
     let mut is_first = true;
     record.retain(|pair| {

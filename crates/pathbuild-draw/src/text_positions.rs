@@ -203,7 +203,8 @@ impl<'a> TextPositions<'a> {
             && pieces.all(|piece| piece.clearance(centre) > 1.1 * radius + 0.05)
     }
 
-    /// Whether the rules assign the text to the target when texts are read in order, even if the estimated size of the text is slightly off.
+    /// Whether the rules assign the text to the target when texts are read in order, even if the estimated size of the text is slightly off. If the
+    /// target takes no text: whether the circle overlaps it, and the rules assign the text to no element.
     fn is_assigned_by_rules(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
         let near = |factor: f64| self.matched_element(layer, centre, factor * radius);
         if self.candidates[target].takes_text {
