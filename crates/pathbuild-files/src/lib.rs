@@ -112,7 +112,8 @@ pub trait System: Debug + Send + Sync {
     /// The reason why it cannot be removed.
     fn remove(&self, path: &Utf8Path) -> Result<(), Value>;
 
-    /// Returns the current time, for time limits. `None` if there is no clock: then the caller itself must stop work that takes too long.
+    /// Returns the current time, for time limits. `None` if there is no clock: then pathbuild enforces no time limits, and the program that embeds it
+    /// must stop work that takes too long.
     fn now(&self) -> Option<Instant> {
         Some(Instant::now())
     }

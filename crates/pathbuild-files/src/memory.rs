@@ -101,7 +101,8 @@ fn files_below<'a>(
     from.map(|(path, _)| path).take_while(move |path| path.starts_with(directory))
 }
 
-/// Another system with one file added or replaced in memory, to see the effect of writing it. Only reads see the replacement.
+/// Another system with one file added or replaced in memory, to see the effect of writing it. Reads, [`list`](System::list) and
+/// [`kind`](System::kind) show the replacement; all other operations are those of the system below.
 #[derive(Debug)]
 pub struct OverlaySystem {
     below: Arc<dyn System>,
@@ -153,7 +154,7 @@ impl System for OverlaySystem {
         directory: &Utf8Path,
         take: &mut dyn FnMut(Entry<'_>) -> ControlFlow<()>,
     ) -> Result<(), ReadError> {
-        // The overlaid file is not added: the listing shows what is on disk.
+        // The overlaid file is not added: the entries are those of the system below.
         self.below.each_entry(directory, take)
     }
 
