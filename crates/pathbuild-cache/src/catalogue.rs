@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 /// Results with all their inputs. Files, directories and lookups that several results share are stored once.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Catalogue {
-    /// Every file that was read or written to obtain the results.
+    /// Every file that was read to obtain the results, and every output.
     pub files: Vec<FileFact>,
     /// Every directory that was listed to obtain the results.
     pub directories: Vec<DirectoryFact>,
@@ -19,14 +19,15 @@ pub struct Catalogue {
     pub records: Vec<Record>,
 }
 
-/// A file as it was when it was read.
+/// A file that was read to obtain results, or an output of them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FileFact {
-    /// Path of the file, spelled as in the run that read it.
+    /// Path of the file, spelled as in the run that read or wrote it.
     pub path: Utf8PathBuf,
-    /// The file's metadata when it was read.
+    /// The file's metadata at a moment when it had the content of `hash`; [`Stamp::UNKNOWN`] if there is no such stamp to be trusted.
     pub stamp: Stamp,
-    /// The blake3 hash of the file's bytes; `None` if it could not be read.
+    /// The blake3 hash of the bytes that were read; for an output, of the bytes that it should have, without the parts that users may edit. `None` if
+    /// the file could not be read, or if it is unclear which of its contents the results are of.
     pub hash: Option<[u8; 32]>,
 }
 
@@ -37,8 +38,8 @@ pub struct DirectoryFact {
     pub path: Utf8PathBuf,
     /// The names of the drawings in the directory, sorted.
     pub names: Vec<Box<str>>,
-    /// Canonical paths of the directory and of the target of each symbolic link in it, relative to the configuration's directory if inside
-    /// it. They decide whether two files are the same.
+    /// Canonical paths of the directory and of the target of each drawing in it that is a symbolic link, relative to the configuration's directory if
+    /// inside it. They decide whether two files are the same.
     pub canonical: Box<str>,
     /// Whether lookups in this directory are always repeated: names may be missing, or the directory changed while it was read.
     pub is_doubtful: bool,

@@ -1,6 +1,6 @@
-//! Stores results in a directory named after the tree's real path in the user's cache directory, so that no repository can bring its own cache; or in
-//! a directory that the user named. Any number of processes may read and write in this directory: files are replaced atomically, so every file is
-//! complete, and the last writer wins. (book: reference/configuration)
+//! Stores results in a directory that is named by a hash of the tree's real path, in the user's cache directory, so that no repository can bring its
+//! own cache; or in a directory that the user named. Any number of processes may read and write in this directory: files are replaced atomically, so
+//! every file is complete, and the last writer wins. (book: reference/configuration)
 
 #![expect(clippy::disallowed_methods, reason = "these are the cache's own files; no result depends on them")]
 
@@ -57,8 +57,8 @@ impl TreeStore {
         &self.directory
     }
 
-    /// Returns the reason why the store must not be used, if there is one: its directory is a symbolic link, belongs to another user, or holds other
-    /// files.
+    /// Returns the reason why the store must not be used, if there is one: for example, its directory is a symbolic link, belongs to another user,
+    /// can be written by every user, or holds files of other programs.
     pub fn refusal(&self) -> Option<&'static Text> {
         let holds_others = || entry_names(&self.directory).any(|name| !is_ours(&self.directory, &name));
         let is_right = || match private::read(&self.directory.join(TAG_FILE), MAX_TAG_BYTES) {
