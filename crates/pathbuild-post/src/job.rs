@@ -119,8 +119,8 @@ impl Job {
         }
     }
 
-    /// Makes the centres of arcs equidistant from both ends if they almost are. Programs in inches are rounded to 0.0025 mm, which exceeds
-    /// the tolerance for arcs in millimetres.
+    /// Makes the centres of arcs equidistant from both ends where the rounding of a program in inches has displaced them. Such programs are rounded
+    /// to multiples of 0.0025 mm, which exceeds the tolerance for arcs in millimetres.
     pub fn centre_arcs(&mut self) {
         for step in self.operations.iter_mut().flat_map(|operation| &mut operation.steps) {
             if let JobStep::Move(movement) = step {
