@@ -1,4 +1,4 @@
-//! Support bars that other cuts take away. (book: language/part)
+//! Support bars that cuts of their own path or of another one take away. (book: language/part)
 
 use std::collections::BTreeMap;
 

@@ -23,11 +23,12 @@ use crate::keep_out::widened_box;
 pub struct PartFindings {
     /// The outlines that no path cuts out: for each, the index of its part, and of the ring in the part.
     pub uncut: Vec<(usize, usize)>,
-    /// The outlines in openings along which support bars stand as for a part, likewise.
+    /// The outlines in openings that are cut out like parts, with support bars or a cut all round; with the same indices as `uncut`.
     pub inner: Vec<(usize, usize)>,
     /// The findings about each path, by the index of the path.
     pub of_paths: Vec<Vec<Diagnostic>>,
-    /// The indices of the parts that each path cuts out or into, by path.
+    /// For each path, the indices of the parts that may belong to it and to which it comes within O, and of those into which it cuts right through
+    /// the plate.
     pub parts: Vec<Vec<usize>>,
     /// The material that each path leaves at outlines, by path.
     pub left: Vec<Vec<LeftMaterial>>,
@@ -149,8 +150,8 @@ impl<'s> PartCheck<'s> {
         (0..rings.len()).filter(move |ring| rings[*ring].nest == *ring && !is_cut(*ring))
     }
 
-    /// Returns the rings in openings that paths cut as parts: support bars or cuts all round stand along their outside. Those at the edge of a ring
-    /// around them hold or clear the waste of that ring.
+    /// Returns the rings in openings that paths cut out like parts: support bars stand along their outside, or cuts follow it all round. Bars and
+    /// cuts at the edge of a ring around them do not count, because they hold or clear the waste of that ring.
     fn inner_parts(&self) -> impl Iterator<Item = usize> {
         let rings = self.part.part.rings.iter().enumerate();
         let inner = rings.filter(|(ring, drawn)| drawn.nest != *ring);
@@ -204,7 +205,7 @@ impl<'s> PartCheck<'s> {
             && !around.iter().any(is_at_edge)
     }
 
-    /// Whether a cut through the plate lies in a ring, and in no other ring in that one.
+    /// Whether a cut through the plate lies in a ring, but in none of the rings inside that ring.
     fn is_directly_in(&self, ring: usize, judged: &ClassifiedCut<'_>) -> bool {
         let Side::Openings(around) = &judged.side else { return false };
         let is_in_ring = |inner: &usize| {
@@ -271,8 +272,8 @@ impl<'s> PartCheck<'s> {
         found
     }
 
-    /// Returns PB217 if the part is cut out all round: reported in the first of its paths, or at the cut of another path that separates it from
-    /// the plate.
+    /// Returns PB217 if the part is cut out all round: reported at a cut of its own paths or, if those alone do not suffice, at the cut of another
+    /// path that separates it from the plate.
     fn loose_part_finding(&self) -> Option<(usize, Diagnostic)> {
         if self.settings.is_held_otherwise {
             return None;

@@ -37,7 +37,8 @@ impl<'s> Enclosure<'s> {
         Self { part, cuts, own, beside }
     }
 
-    /// If the own cuts suffice to close a ring, returns the first of those within O of the rim, or else the first of all.
+    /// If the cuts of the paths that cut the part out close a ring on their own, returns the first of these cuts within O of the rim, or else the
+    /// first of all.
     pub(super) fn own_cut(&self) -> Option<&'s IndexedCut<'s>> {
         let through = self.own_cuts();
         if !self.is_closed(&through) {
@@ -48,8 +49,9 @@ impl<'s> Enclosure<'s> {
         Some(cut)
     }
 
-    /// Returns the cut of another path that closes a ring, if the own cuts alone do not: of the first other path that suffices, the cut that is
-    /// nearest to the rim. If several other paths are needed to close the ring, the nearest of all their cuts.
+    /// Returns the cut of another path that closes a ring, if the cuts of the paths that cut the part out do not close one on their own: of the first
+    /// other path that suffices, the cut that is nearest to the rim. If several other paths are needed to close the ring, the nearest of all their
+    /// cuts.
     pub(super) fn severing_cut(&self) -> Option<&'s IndexedCut<'s>> {
         if self.beside.is_empty() {
             return None;

@@ -16,7 +16,7 @@ pub(super) struct ClassifiedCut<'c> {
     /// Number of the cut in the index.
     number: usize,
     pub(super) cut: &'c IndexedCut<'c>,
-    /// The section that goes through the plate, or the whole curve if the cut ends above the plate.
+    /// The section that goes through the plate, or the whole curve if the cut does not go through it.
     pub(super) curve: Curve,
     /// The side of the part on which the middle of the curve lies.
     pub(super) side: Side,
@@ -39,7 +39,7 @@ pub(super) struct Gouge {
 }
 
 /// Determines the side of the part on which each cut lies, and where the cut goes into the part. `numbers` are the numbers of the cuts to examine, in
-/// ascending order. A cut that ends above the plate is included only at the lowest depth of its element, where it may shape the outline.
+/// ascending order. A cut that does not go through the plate is included only at the lowest depth of its element, where it may shape the outline.
 pub(super) fn classify_cuts<'c>(
     part: &PreparedPart<'_>,
     index: &'c CutIndex<'c>,

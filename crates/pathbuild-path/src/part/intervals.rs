@@ -88,7 +88,7 @@ pub(crate) fn at(curve: &Curve, along: f64) -> Xy {
     }
 }
 
-/// Sorts stretches and joins those that touch.
+/// Sorts stretches and joins those that overlap or are at most `gap` mm apart.
 pub(crate) fn join_stretches(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stretch> {
     stretches.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
     stretches.dedup_by(|next, last| {

@@ -36,7 +36,7 @@ pub(super) struct Leftover {
     pub(super) to: Xy,
     /// The length of the stretch in mm, along the outline.
     pub(super) length: f64,
-    /// The largest distance in mm between the outline and the cut.
+    /// The largest distance in mm, at some samples, between the outline and the edge of the nearest cut; O for a sweep.
     pub(super) thickness: f64,
     pub(super) beside: Beside,
     pub(super) material: LeftMaterial,
@@ -56,7 +56,7 @@ pub(super) enum Beside {
 pub struct LeftMaterial {
     /// The stretch of the outline.
     pub outline: Vec<Curve>,
-    /// Distance in mm that the material extends from the outline.
+    /// Distance in mm from the outline to which the material extends.
     pub reach: f64,
 }
 
@@ -97,7 +97,7 @@ pub(super) struct LeftoverSearch<'s> {
     /// For each path, whether it cuts the part out.
     contours: &'s [bool],
     tolerance: f64,
-    /// The elements, with their paths, that enter the part above the plate: grooves, which have no influence on the part's outline.
+    /// The elements, with their paths, that cut into the part but not through the plate: grooves, which have no influence on the part's outline.
     grooves: BTreeSet<(usize, u32)>,
     /// Whether the cuts and support bars of the paths that cut the part out close a ring round it, so that the edge of the plate is nowhere the edge
     /// of the part. Computed when first needed.
@@ -244,8 +244,8 @@ impl<'s> LeftoverSearch<'s> {
         is_near.then_some(all)
     }
 
-    /// Adds the gaps that through cuts leave on a curve: gaps with leftover material are added to `uncut`, the others to the stretches of the ring.
-    /// The curve begins at `all.length` along the ring.
+    /// Sorts the gaps that through cuts leave on a curve, except those beside support bars: gaps near a cut go to `uncut`, or to `all.unreachable`
+    /// where the cutter does not fit; gaps that no cut comes near go to `all.never`. The curve begins at `all.length` along the ring.
     fn add_gaps(
         &self,
         curve: &RingCurve<'_>,
@@ -585,8 +585,8 @@ impl<'s> LeftoverSearch<'s> {
         near.or_else(|| self.nearest_of((0..self.cuts.cuts.len()).collect(), ring, at))
     }
 
-    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that ends above the plate is only considered where it
-    /// reaches the ring.
+    /// Returns the cut beside the part with the edge nearest to a point of a ring. A cut that does not go through the plate is only considered where
+    /// it reaches the ring.
     fn nearest_of(&self, near: Vec<usize>, ring: usize, at: Xy) -> Option<&'s IndexedCut<'s>> {
         let point = Curve::Line(Line { start: at, end: at });
         let curve = RingCurve { ring, curve: &point, near };
@@ -600,8 +600,8 @@ impl<'s> LeftoverSearch<'s> {
         nearest.map(|judged| judged.cut)
     }
 
-    /// Returns the first through cut that a straight way meets that leaves the part at a right angle to the ring. Cuts farther than O from the part
-    /// are not classified; they lie outside of it.
+    /// Returns the first through cut on the straight line that leaves the part at a right angle to the ring. Cuts farther than O from the part are
+    /// not classified; they lie outside it.
     fn first_cut_outwards(&self, ring: usize, along: f64, whole: f64) -> Option<&'s IndexedCut<'s>> {
         let (curve, along) = self.ring_place(ring, along, whole);
         let is_beside =
@@ -644,7 +644,7 @@ impl<'s> LeftoverSearch<'s> {
         at_along(curve, along)
     }
 
-    /// Returns the curve of a ring at such a distance, and the distance along that curve.
+    /// Returns the curve of a ring at a distance along the ring, as in [`Self::ring_point`], and the distance along that curve.
     fn ring_place(&self, ring: usize, along: f64, whole: f64) -> (&'s Curve, f64) {
         let curves = &self.part.part.rings[ring].curves;
         let mut along = if along < 0.0 { along + whole } else { along };

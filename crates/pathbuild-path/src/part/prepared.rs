@@ -124,7 +124,7 @@ impl<'p> PreparedPart<'p> {
         self.side(at) == Side::Material
     }
 
-    /// Returns the distance from a point to the nearest ring, or to the given ring; infinite beyond `reach`.
+    /// Returns the distance in mm from a point to the nearest ring, or to the given ring; a result above `reach` may be too large, or infinite.
     fn distance(&self, at: Xy, ring: Option<usize>, reach: f64) -> f64 {
         let curves = self.curves_near(square(at, reach));
         let of_ring = curves.filter(|(own, _)| ring.is_none_or(|ring| ring == *own));

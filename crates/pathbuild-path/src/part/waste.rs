@@ -37,8 +37,8 @@ pub struct WasteCut {
 const MIN_STRETCH: f64 = 0.01;
 
 impl PlacedCuts<'_> {
-    /// Returns the first of some cuts of another path in the waste of an opening of this path's parts, if the earlier cuts in that opening leave
-    /// nothing that holds the waste. A cut where they have removed the waste does not count. `cuts` are indices into
+    /// Returns the first cut of the path `later` that lies in the waste of an opening of this path's parts after the earlier cuts in that opening
+    /// have left nothing that holds the waste. A cut where they have removed the waste does not count. `cuts` are the cuts to check, as indices into
     /// [`PathCuts::cuts`](super::PathCuts::cuts).
     pub fn cut_in_loose_waste(
         &self,
@@ -60,7 +60,7 @@ impl PlacedCuts<'_> {
         })
     }
 
-    /// Returns some cuts where they are below a height in the program, as placed, each with its element.
+    /// Returns the sections of these cuts below a height in the program, as placed, each with its element.
     fn curves_below(&self, cuts: Range<usize>, height: f64) -> impl Iterator<Item = (u32, Curve)> {
         self.cuts.cuts.iter().take(cuts.end).skip(cuts.start).filter_map(move |cut| {
             let below = cut.way.part_below(height - self.raised)?;

@@ -90,7 +90,7 @@ impl<'d> Texts<'d> {
     }
 
     /// Reports PB116 for each text if an element without a text, on another layer of the path, is nearer than the text's own element. Texts on tilde
-    /// layers are on purpose apart from the elements of other layers.
+    /// layers are exempt: they are kept apart from the elements of other layers on purpose.
     fn check_other_layers(&self, given: &[GivenText<'_>], path: &mut PathCollector<'_>) {
         let budget = SearchBudget::new(MAX_EXAMINED_FOR_HINTS);
         for GivenText { text, found } in given {

@@ -22,7 +22,8 @@ use crate::read::rings::{
 /// larger gaps.
 const MAX_RELATIVE_GAP: f64 = 0.1;
 
-/// Minimum share of the length of crossing chains that is between their crossings if they were meant as an outline, with overlong ends.
+/// Minimum share of the length of crossing chains that must lie between their crossings, so that the chains are taken for an outline with overlong
+/// ends.
 const MIN_CHAIN_SHARE: f64 = 0.9;
 
 /// An outline that cannot be compared with cuts.
@@ -213,8 +214,8 @@ struct OpenHalf {
 
 type NumberedPoint = GeomWithData<[f64; 2], usize>;
 
-/// Returns the open halves of outlines. Such a half is attached to the ring on both sides of the gap and lies outside the ring; inside the ring,
-/// there are only lines across the part.
+/// Returns the open halves of outlines. Such a half is attached to the ring on both sides of the gap and lies outside the ring; chains inside the
+/// ring are taken for lines across the part.
 fn open_halves(rings: &[NumberedCurves], hanging: &[NumberedCurves]) -> Vec<OpenHalf> {
     if hanging.is_empty() {
         return Vec::new();
@@ -352,7 +353,7 @@ impl EnclosedArea {
         Self(Outline::new(curves))
     }
 
-    /// Whether the whole ring lies inside the border.
+    /// Whether a ring lies inside the border, judged by four points of each of its curves.
     fn encloses(&self, ring: &[Curve]) -> bool {
         let extent = self.0.extent();
         let quarters =

@@ -30,7 +30,7 @@ pub(crate) enum Owner {
     Probe(usize),
     /// An element of the path, by its index.
     Element(usize),
-    /// An element with errors of its own.
+    /// An element that takes a text without storing it: one with errors, an ignored probe, or a proxy line.
     Faulty,
 }
 
@@ -63,7 +63,7 @@ enum OverlapKind {
 #[derive(Clone, Copy)]
 pub(crate) struct AssignedCandidate {
     pub(crate) candidate: usize,
-    /// The distance in mm by which the text belongs to the candidate.
+    /// The distance in mm from the centre of the text's circle to the centre of a circle, or to the arc or line.
     pub(crate) distance: f64,
     /// The second best candidate of the same kind, and how much farther away it is in mm.
     pub(crate) rival: Option<(usize, f64)>,
@@ -81,7 +81,7 @@ impl SearchBudget {
         Self(Cell::new(most))
     }
 
-    /// Whether the budget was exceeded, so that results since then are unreliable.
+    /// Whether the budget is used up, so that the last results are unreliable.
     pub(crate) fn is_exhausted(&self) -> bool {
         self.0.get() == 0
     }

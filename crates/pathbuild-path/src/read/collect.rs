@@ -556,7 +556,8 @@ impl PathCollector<'_> {
         Some(marker)
     }
 
-    /// Returns a circle that is not a start marker but has the text of one, and is then no other marker. Reports PB101 at the circle.
+    /// Returns a circle that is another marker or has no meaning, but has the text of a start marker. It then no longer counts as the other marker.
+    /// Reports PB101 at the circle.
     fn circle_with_path_text(&mut self, texts: &Texts<'_>) -> Option<Marker> {
         let unclear = self.unclear.iter();
         let unclear = unclear.map(|circle| (&circle.marker, circle.shape.radius().unwrap_or_default()));

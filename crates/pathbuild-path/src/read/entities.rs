@@ -71,7 +71,7 @@ impl<'d> AnyText<'d> {
     }
 }
 
-/// The circle of a text, in mm.
+/// The circle around a text that determines the text's element, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(missing_docs, reason = "a circle's parts")]
 pub struct TextCircle {

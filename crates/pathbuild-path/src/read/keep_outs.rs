@@ -229,7 +229,7 @@ impl ClampReader<'_> {
         points.iter().find(|point| !near(point.z, 0.0)).copied()
     }
 
-    /// Returns the closed outlines, and the boxes around all other outlines, for which PB117 is reported.
+    /// Returns the closed outlines, and the boxes around the open ones. Reports PB117 for open outlines and for branches.
     fn outlines(&mut self, entities: &[usize]) -> (Vec<ClosedOutline>, Vec<[Xy; 2]>) {
         let (mut outlines, mut parts, mut broken) = (Vec::new(), Vec::new(), Vec::new());
         for number in entities {

@@ -175,7 +175,7 @@ impl Graph {
         if half_edge.is_multiple_of(2) { curve } else { curve.reversed() }
     }
 
-    /// Returns the faces of the kept curves, each on the left of its half-edges.
+    /// Returns the faces of these curves, each on the left of its half-edges.
     fn faces_of(&self, curves: &(impl Iterator<Item = usize> + Clone)) -> Vec<Vec<usize>> {
         let half_edges = || curves.clone().flat_map(|curve| [2 * curve, 2 * curve + 1]);
         let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -222,7 +222,7 @@ impl Graph {
     }
 }
 
-/// Groups of curves without rings.
+/// The curves with the same face on both sides, which form trees.
 struct Forest<'g> {
     graph: &'g Graph,
     /// The node at which each half-edge begins.

@@ -28,7 +28,7 @@ pub(super) struct Start {
     pub(super) origin: Origin,
 }
 
-/// Hints at the place where the text of a path's start was drawn instead of on its start marker.
+/// Hints about where the text of a path's start was drawn, if not on its start marker.
 #[derive(Default)]
 pub(super) struct StartHints {
     /// A text with O and T that does not belong to the start marker, and its position.

@@ -49,7 +49,7 @@ pub fn may_be_stray_text(text: &[u8]) -> bool {
 /// Maximum length in bytes of a text that is taken for that of a probe. Longer ones are remarks.
 const MAX_PROBE_TEXT: usize = 24;
 
-/// Whether the undecoded bytes of a text may be the text of a probe, such as `LA T2.5`. Z alone is tested elsewhere.
+/// Whether the undecoded bytes of a text may be the text of a probe, such as `LA T2.5`: a short text that consists of values for L, T, H and Z.
 fn may_be_probe_text(text: &[u8]) -> bool {
     let is_parameter = |word: &[u8]| match word {
         [b'L', value, ..] => value.is_ascii_uppercase() || value.is_ascii_digit(),

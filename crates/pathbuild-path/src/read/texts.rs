@@ -14,7 +14,7 @@ use crate::read::candidates::{AssignedCandidate, Candidate, CandidateIndex, Owne
 use crate::read::entities::{AnyText, FoundText, TextCircle};
 use crate::text::{ParameterTexts, without_percent_codes};
 
-/// Texts and candidates on the layers of a path. Tilde layers are separate: their texts and elements only match each other.
+/// Texts and candidates on the layers of a path. A text only matches elements on exactly its own layer.
 #[derive(Default)]
 pub(crate) struct Texts<'d> {
     pub(super) layers: Vec<LayerTexts<'d>>,
