@@ -48,7 +48,7 @@ pub enum Item {
 pub struct Chain {
     /// Infeed (I) in mm.
     pub infeed: f64,
-    /// W in mm: the depth from which milling is sweepless.
+    /// W: Z in mm of the first pass of a chain that is milled without lifting; `None` for ordinary milling. (book: language/sweepless)
     pub first_depth: Option<f64>,
     /// Range of the chain's members in [`WalkedPath::members`]; never empty.
     pub(crate) members: Range<usize>,
@@ -184,9 +184,9 @@ fn is_new(diagnostics: &[Diagnostic], doubt: &Diagnostic) -> bool {
 }
 
 impl Chain {
-    /// Returns PB211 if W is outside of the material that the chain removes.
+    /// Returns PB211 if W is above the material or below the bottom of the chain.
     fn doubtful_first_depth(&self, path: &Path, members: &[ChainSegment]) -> Option<Diagnostic> {
-        // Other values of W are reported as out of range.
+        // A W of 0 or less is reported as out of range (PB203).
         let depth = self.first_depth.filter(|depth| above(*depth, 0.0))?;
         let first = members.first()?;
         let bottom = members.iter().map(|member| member.cut(path).bottom).fold(f64::INFINITY, f64::min);

@@ -14,7 +14,7 @@ pub struct PathOptions {
     pub feed: Option<f64>,
     /// `--sweep-height`: S of the emitted path in mm. Paths that need it must not be folded without it.
     pub sweep_height: Option<f64>,
-    /// `--probe-feed`: Z in mm/min. Without this option, Z defaults to a feed: F of the path or `--feed`.
+    /// `--probe-feed`: Z in mm/min. Without this option, Z defaults to a feed: F of the path (not in compatible mode) or `--feed`.
     pub probe_feed: Option<f64>,
     /// Whether to follow `PathDxf2GCode` even where it deviates from its manuals. (book: program/compatible)
     pub compatible: bool,
@@ -68,8 +68,8 @@ pub(crate) struct Texts<'v, 't> {
 }
 
 impl PathNumbers {
-    /// Returns the sweep height (S) for a path that does not give it: the value of `--sweep-height`, or the default. `None` if the option is needed
-    /// but missing, or if O or T, from which the default follows, is unknown.
+    /// Returns the sweep height (S) for a path that does not give it: the value of `--sweep-height` for an emitted path, or the default for an
+    /// embedded one. `None` if the option is needed but missing, or if O or T, from which the default follows, is unknown.
     pub(crate) fn sweep_height(self, options: &PathOptions, role: PathRole) -> Option<f64> {
         fallback(Letter::S, ElementClass::PathStart, self, options, role).map(|(height, _)| height)
     }
@@ -166,7 +166,8 @@ fn use_of(class: ElementClass, letter: Letter) -> LetterUse {
     }
 }
 
-/// Returns the value of a letter that no text gives, and its origin, which is [`Provider::Path`] if it follows from another letter of the path.
+/// Returns the value of a letter that no text gives, and its origin: an option, [`Provider::Path`] where the path's F serves as Z, or
+/// [`Provider::Default`], also where the default follows from the path's O and T.
 pub fn fallback(
     letter: Letter,
     class: ElementClass,

@@ -197,7 +197,8 @@ impl ElementClass {
     }
 }
 
-/// Tolerance in mm within which a circle has the cutter's diameter, or that of a marker: numbers with three decimals cannot distinguish the two.
+/// Largest difference in mm between diameters that count as equal, of circles, cutters and markers: numbers with three decimals do not show a smaller
+/// one.
 const DIAMETER_TOLERANCE: f64 = 0.001;
 
 /// Whether a circle of this radius in mm has the same diameter as one of another radius.

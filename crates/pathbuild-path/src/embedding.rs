@@ -28,7 +28,7 @@ pub struct PathHeader {
     pub is_sound: bool,
     /// The definitions of the path's variables, in the order written.
     pub definitions: Vec<Definition>,
-    /// The path of the same drawing that @ names, whose parameters the path has.
+    /// The path of the same drawing that @ names and whose parameters this path borrows.
     pub lender: Option<PathName>,
 }
 
@@ -53,7 +53,7 @@ pub struct PathSignature {
     pub embeds_only: Option<SmolStr>,
     /// The distance from the path's start to its end.
     pub size: f64,
-    /// Whether the path needs `--feed`: it gives no F, and at least one of its elements depends on that.
+    /// Whether the path needs `--feed`: it gives no F, and at least one of its elements uses the path's F.
     pub needs_feed: bool,
     /// Whether the path has Z-probes of its own.
     pub has_probes: bool,
@@ -137,8 +137,8 @@ impl PathSignature {
         }
     }
 
-    /// The sweep height (S) of the path in a role: its own, or else the value of `--sweep-height`, or the default. `None` if the option is required
-    /// but missing.
+    /// The sweep height (S) of the path in a role: its own, or else the value of `--sweep-height` for an emitted path, or the default for an embedded
+    /// one. `None` if the option is required but missing.
     pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
         let numbers = PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: None };
         self.sweep_height.or_else(|| numbers.sweep_height(options, role))

@@ -132,8 +132,7 @@ type IndexedPiece = GeomWithData<Rectangle<[f64; 2]>, OutlinePiece>;
 #[derive(Clone, Copy, Debug)]
 struct OutlinePiece {
     curve: Curve,
-    /// The range of Y in which the piece is a side of the outline. Consecutive pieces adjoin exactly, without the gap that rounding would
-    /// leave.
+    /// Y at the start and end of the piece. `from` is `to` of the previous piece, so that rounding leaves no gap between them.
     from: f64,
     to: f64,
 }

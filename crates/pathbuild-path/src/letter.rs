@@ -152,9 +152,9 @@ pub enum LetterUse {
     Needed,
     /// `o`: from the element, or else from the path; optional.
     Allowed,
-    /// `C`: required by a chain; given by its first segment, without effect on the others.
+    /// `C`: required by a chain: from its first segment, or else from the path; without effect on the other segments.
     ChainNeeded,
-    /// `c`: given by the first segment of a chain, without effect on the others.
+    /// `c`: like `C`, but optional.
     Chain,
     /// `-`: permitted without effect, PB210.
     Ignored,

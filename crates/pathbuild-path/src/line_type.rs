@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-/// The eight line types with a meaning, by their usual names.
+/// The line types with a meaning, by their usual names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the meaning depends on the entity: book: language/line-types")]
 pub enum LineType {

@@ -14,7 +14,7 @@ use crate::names::CaseSensitiveName;
 use crate::raw::{DrawnElements, Faults};
 use crate::text::TextId;
 
-/// A path with all parameters present and within their limits.
+/// A path with all parameters present and within their limits, unless it has [faults](Self::has_faults).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// Name of the path, in the spelling of its layer.
@@ -153,7 +153,7 @@ pub struct CutParameters {
 pub struct ChainParameters {
     /// I: infeed per pass.
     pub infeed: Option<f64>,
-    /// W: first depth of sweepless milling.
+    /// W: Z of the first pass of a chain that is milled without lifting. (book: language/sweepless)
     pub first_depth: Option<f64>,
 }
 
@@ -279,8 +279,8 @@ impl Path {
         self.sweep_height(&PathOptions::default(), PathRole::Embedded).unwrap_or_default()
     }
 
-    /// The sweep height (S) of the path in a role: its own, or else the value of `--sweep-height`, or the default. `None` if the option is required
-    /// but missing.
+    /// The sweep height (S) of the path in a role: its own, or else the value of `--sweep-height` for an emitted path, or the default for an embedded
+    /// one. `None` if the option is required but missing.
     pub fn sweep_height(&self, options: &PathOptions, role: PathRole) -> Option<f64> {
         self.sweep_height.or_else(|| self.numbers().sweep_height(options, role))
     }
@@ -290,7 +290,7 @@ impl Path {
         PathNumbers { tool: Some(self.tool), thickness: Some(self.thickness), feed: self.feed }
     }
 
-    /// Whether the path needs `--feed`: it gives no F, and at least one of its elements depends on that.
+    /// Whether the path needs `--feed`: it gives no F, and at least one of its elements uses the path's F.
     pub fn needs_feed(&self) -> bool {
         self.feed.is_none()
             && self.segments.iter().any(|segment| match &segment.kind {

@@ -73,7 +73,7 @@ fn values(raw: &RawPath, proxy: Option<&ProxyLine>) -> Bindings {
     Bindings::new(raw.definitions.iter().filter_map(value))
 }
 
-/// A planned path of a Q-project, for everything milled with one cutter.
+/// A planned path of a Q-project, which embeds all paths that are milled with the same cutter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QProject {
     /// T, O and M of the path: T is the maximum of the embedded paths.

@@ -67,7 +67,7 @@ pub(crate) enum ValueKind {
 }
 
 impl ParameterTexts {
-    /// Adds a text as drawn: its lines are joined and its `%%` codes replaced.
+    /// Adds a text as drawn: lines that end in `~` are joined with the next ones, and `%%` codes are replaced.
     pub(crate) fn push_drawn(&mut self, text: &str) -> TextId {
         // Texts with the same content are usually near each other.
         let is_same = |known: &&Text| self.string[range(&known.string)] == *text;
@@ -220,8 +220,8 @@ impl<'t> ParameterText<'t> {
         TextFault::new(self.string, 0..self.string.len())
     }
 
-    /// Returns the problems that do not depend on variables: PB202, PB204 to PB206, and PB210 as a warning, without places. Texts that are ignored
-    /// have none.
+    /// Returns the problems that do not depend on variables, without places: PB202, PB204 to PB206, and as warnings PB210 and PB211. Texts that are
+    /// ignored have none.
     pub fn problems(self, class: ElementClass) -> Vec<Diagnostic> {
         if class == ElementClass::Unread {
             return Vec::new();
@@ -280,8 +280,8 @@ impl<'t> ParameterText<'t> {
         self.unseparated_parameter_problem(letter, piece, class)
     }
 
-    /// Returns PB211 for a text value that contains what looks like a parameter of the element: `Qslot,B1`. Every other value with such an ending is
-    /// an error.
+    /// Returns PB211 for a text value that contains what looks like a parameter of the element: `Qslot,B1`. A number that runs on like this is an
+    /// error in itself.
     fn unseparated_parameter_problem(
         self,
         letter: Letter,
@@ -551,8 +551,7 @@ fn parameters_in(word: &str, class: ElementClass) -> Option<Vec<&str>> {
     (starts[0] == 0 && parts.len() > 1 && are_numbers).then_some(parts)
 }
 
-/// Recognises remarks: words or numbers of pieces without any effective parameter, such as `Deckel links`, `Halter rechts, 2 Stück` or
-/// `3x M3`.
+/// Recognises remarks: words or numbers of workpieces without any effective parameter, such as `Deckel links`, `Halter rechts, 2 Stück` or `3x M3`.
 fn remark_mistake(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let counts = |piece: &LetterValue| piece.letter.is_some_and(|letter| class.use_of(letter).counts());
     let is_word = |piece: &LetterValue| {
@@ -648,7 +647,7 @@ pub(crate) fn is_variable_without_value(
         && text.value(piece).chars().count() == 1
 }
 
-/// Recognises the intended meaning of a piece without a letter: a zero instead of O, or a path name without `>`.
+/// Recognises the intended meaning of a piece without a letter, such as a zero instead of O, or a path name without `>`.
 fn mistake_in_piece(text: ParameterText<'_>, piece: &LetterValue, class: ElementClass) -> Option<Diagnostic> {
     let value = text.value(piece);
     let before = text.pieces().iter().take_while(|other| *other != piece).last();

@@ -322,7 +322,7 @@ impl LimitCheck<'_> {
         if above(high, low) {
             return;
         }
-        // The message is about the letter that can be corrected in this text.
+        // `NOT_ABOVE` blames the upper value, `NOT_BELOW` the lower one.
         let says_upper = *message == messages::NOT_ABOVE;
         let (subject, limit) = if says_upper { (upper, lower) } else { (lower, upper) };
         let (subject_value, limit_value) = if says_upper { (high, low) } else { (low, high) };

@@ -80,8 +80,8 @@ fn moving_parameters(row: &ElementParameters) -> impl Iterator<Item = &Parameter
     row.parameters.iter().filter(|parameter| can_move(parameter.letter))
 }
 
-/// Whether the value of a letter can change moves. The others are comments, labels, names of materials and files, and permissions; variables
-/// change moves only by the values that they are given.
+/// Whether the value of a letter can change moves. Not those of comments (Q), labels (L), materials (M), names of files (R) and permissions (E), nor
+/// @: the parameters that it borrows are compared themselves.
 fn can_move(letter: Letter) -> bool {
     !matches!(letter, Letter::E | Letter::L | Letter::M | Letter::Q | Letter::R | Letter::At)
 }
@@ -98,7 +98,7 @@ impl Item<'_> {
         (self.role.map(comparable_role), values.collect())
     }
 
-    /// Returns the line types of both versions, if they have different meanings.
+    /// Returns the line types of both versions, if they have different meanings, or if nothing else explains a different effect on the moves.
     pub(super) fn line_type_change(&self, new: &Self) -> Option<[&'static str; 2]> {
         let (old_role, new_role) = (self.role?, new.role?);
         let is_changed = comparable_role(old_role) != comparable_role(new_role)

@@ -1,4 +1,4 @@
-//! The drawn differences between two versions of a path, as far as they can change its program. (book: program/comparing)
+//! The drawn differences between two versions of a path, as far as they can change the moves of its program. (book: program/comparing)
 //!
 //! Elements are paired by kind and place first, then by handle, and then by those parts of their geometry that did not change. Their order and
 //! their numbers in the file do not matter, nor does the place of the whole path on its sheet.
@@ -32,7 +32,7 @@ pub struct DrawnSide<'a> {
 /// The drawn differences between two versions of a path.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawnChanges {
-    /// The changes that can affect the program, each with all elements that it applies to, ordered by place.
+    /// The changes that can affect the moves, each with all elements that it applies to, ordered by place.
     pub changes: Vec<DrawnChange>,
     /// Whether only the order of the elements in the file has changed. It decides between segments that the walk could traverse equally well.
     pub is_reordered: bool,
@@ -87,7 +87,7 @@ pub enum ElementChange {
     Text([String; 2]),
 }
 
-/// Compares two versions of a path. Changes that cannot affect its program are left out: comments, materials, texts or line types with the same
+/// Compares two versions of a path. Changes that cannot affect its moves are left out: comments, materials, texts or line types with the same
 /// meaning, and the place of the whole path.
 pub fn drawn_changes(old: DrawnSide<'_>, new: DrawnSide<'_>) -> DrawnChanges {
     let (old_items, new_items) = (items(old), items(new));

@@ -36,7 +36,7 @@ impl PairedElements<'_> {
 }
 
 impl Frame {
-    /// Determines the shift that most elements share, provided that the start was moved. Otherwise there is no shift.
+    /// Determines the most frequent shift of elements if the start was moved and at least two elements share the shift. Otherwise there is no shift.
     pub(super) fn between(old: &[Item<'_>], new: &[Item<'_>]) -> Self {
         let start =
             |items: &[Item<'_>]| items.iter().find(|item| item.kind == ElementKind::Start).map(Item::at);
@@ -49,7 +49,7 @@ impl Frame {
     }
 }
 
-/// Returns the most frequent shift between elements of the same form, if at least two share it.
+/// Returns the most frequent shift between elements of the same form and text, if at least two share it; the shortest of several.
 fn common_shift(old: &[Item<'_>], new: &[Item<'_>]) -> Option<Vector2<f64>> {
     let mut by_form: BTreeMap<_, [Vec<Xy>; 2]> = BTreeMap::new();
     for (side, items) in [old, new].into_iter().enumerate() {

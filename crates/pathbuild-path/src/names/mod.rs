@@ -32,7 +32,7 @@ pub struct PathPattern(Pattern);
 pub struct PathLayer {
     /// Name of the path.
     pub path: PathName,
-    /// Whether the layer is a tilde layer (`2916.1P~A`): its texts and elements only match each other.
+    /// Whether the layer is a tilde layer (`2916.1P~A`), which keeps its texts apart from the elements of the path's other layers.
     pub tilde: bool,
 }
 
@@ -110,7 +110,7 @@ impl PathPattern {
         self.0.matches(name)
     }
 
-    /// Returns the path name that a text is with points instead of underscores and commas.
+    /// Returns the path name that a text becomes if its underscores and commas are replaced by points; `None` if that is no path name.
     pub(crate) fn meant_by(&self, text: &str) -> Option<PathName> {
         let meant = text.replace(['_', ','], ".");
         self.matches(&meant).then(|| PathName(meant.into()))
@@ -149,7 +149,8 @@ impl PathName {
         if self.0.is_ascii() { self.0.to_ascii_uppercase() } else { self.0.to_uppercase() }
     }
 
-    /// Whether a text without spaces has letters or digits beside the name, so that it means another name, or a parameter that is not separated.
+    /// Whether a text without spaces contains letters or digits before or after the name, so that it means another name, or a parameter follows
+    /// without a space.
     pub(crate) fn is_part_of(&self, text: &str) -> bool {
         let is_meant = |rest: &str| rest.contains(char::is_alphanumeric);
         text.split_once(self.as_str()).is_some_and(|(before, behind)| is_meant(before) || is_meant(behind))

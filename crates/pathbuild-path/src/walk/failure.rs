@@ -51,7 +51,7 @@ impl Walker<'_> {
         self.segment_through(begin).map(|_| (segment, begin))
     }
 
-    /// Whether the remaining segments branch off at a point that the walk has already passed.
+    /// Whether the nearest remaining segment branches off at a point that the walk has already passed, and no segment is drawn twice.
     fn is_dead_end(&self) -> bool {
         let Some((_, end, _)) = self.nearest_end(self.at) else { return false };
         self.is_passed(end) && self.duplicate_segment().is_none()
@@ -140,7 +140,7 @@ impl Walker<'_> {
         if is_told { problem } else { self.with_duplicate(problem) }
     }
 
-    /// Returns a segment that passes through a point without ending there.
+    /// Returns a traversed segment that passes through a point without ending there.
     fn segment_through(&self, point: Xy) -> Option<usize> {
         let at = TextCircle { centre: point, radius: 0.0 };
         let is_on = |curve: Curve| {

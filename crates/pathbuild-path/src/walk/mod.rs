@@ -189,7 +189,7 @@ impl<'a> Walker<'a> {
         (!is_unclear).then(|| problem(self).into())
     }
 
-    /// Whether there are several end markers, so that the segments beyond the end are unknown.
+    /// Whether there are several end markers, so that it is unknown where the path ends.
     fn has_several_ends(&self) -> bool {
         self.path.faults.as_ref().is_some_and(|faults| faults.ends.len() > 1)
     }
