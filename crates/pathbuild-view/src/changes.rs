@@ -5,7 +5,7 @@
 mod phrases;
 mod pieces;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 use imara_diff::{Algorithm, Diff, InternedInput, Interner};
@@ -70,13 +70,16 @@ pub enum ChangeKind {
     Reordered,
 }
 
+/// Ranges of moves in the old and in the new program.
+type Rows = (Range<usize>, Range<usize>);
+
 const ORIGIN: Point = [0.0; 2];
 
 /// Compares two programs.
 ///
-/// Equal moves are ignored. Among the others, a run of moves that occurs at another place is shifted. All other cuts are divided where cuts end on
-/// them, unless they are too many, and each piece is classified by comparing the final depth, the feed and the number of passes along its line in the
-/// plane.
+/// Equal moves are ignored, except for the deepest pass along a line whose other passes changed. Among the others, a run of moves that occurs at
+/// another place is shifted. All other cuts are divided where cuts end on them, unless they are too many, and each piece is classified by comparing the
+/// final depth, the feed and the number of passes along its line in the plane.
 pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
     let mut identities = Identities::default();
     let rows = differing_runs(&mut identities, old, new);
@@ -96,6 +99,7 @@ pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
         milling = milled(&mut divider);
     }
     divider.restart();
+    let rows = with_deepest_passes(rows, &milling);
     let mut comparison = Comparison {
         sides,
         milled: milling,
@@ -110,6 +114,24 @@ pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
     comparison.copy_unchanged([old.len(), new.len()]);
     unite_slopes(&mut comparison.result.changes);
     ComparedMoves { has_undivided_moves, ..comparison.result }
+}
+
+/// Adds the moves that are in both programs, but are the deepest pass of the new one along a line whose result changed. Without them, a program from
+/// which the deepest passes were removed would have no changed move.
+fn with_deepest_passes(mut rows: Vec<Rows>, [old, new]: &[Milled; 2]) -> Vec<Rows> {
+    let is_altered = |line, is| old.lines.get(line).is_some_and(|was| was.change(is).is_some());
+    let altered = new.lines.iter().filter(|(line, is)| is_altered(*line, *is));
+    let deepest: BTreeSet<usize> = altered.map(|(_, is)| is.deepest).collect();
+    let equal = |number: usize| {
+        let before = rows.partition_point(|(_, is)| is.start <= number);
+        let (old, new) = rows[..before].last().map_or((0, 0), |(was, is)| (was.end, is.end));
+        let old = old + number.checked_sub(new)?;
+        Some((old..old + 1, number..number + 1))
+    };
+    let added: Vec<Rows> = deepest.into_iter().filter_map(equal).collect();
+    rows.extend(added);
+    rows.sort_unstable_by_key(|(was, is)| (is.start, was.start));
+    rows
 }
 
 /// Gives alterations along slopes that differ only in their heights the same range of heights: on a relief, each move would be a kind of its own.
@@ -136,11 +158,7 @@ fn unite_slopes(changes: &mut [Change]) {
 }
 
 /// Returns the runs of moves in which two programs differ, as pairs of ranges in the old and the new one.
-fn differing_runs(
-    identities: &mut Identities,
-    old: &[SceneMove],
-    new: &[SceneMove],
-) -> Vec<(Range<usize>, Range<usize>)> {
+fn differing_runs(identities: &mut Identities, old: &[SceneMove], new: &[SceneMove]) -> Vec<Rows> {
     // Moves before the first fully known position depend on the machine and are not compared.
     let begin = |moves: &[SceneMove]| {
         moves.iter().take_while(|movement| !movement.way.from.known.has(Axes::ALL)).count()
@@ -152,11 +170,7 @@ fn differing_runs(
 }
 
 /// Returns the ranges in which two sequences of moves differ.
-fn hunks(
-    identities: &mut Identities,
-    old: &[SceneMove],
-    new: &[SceneMove],
-) -> Vec<(Range<usize>, Range<usize>)> {
+fn hunks(identities: &mut Identities, old: &[SceneMove], new: &[SceneMove]) -> Vec<Rows> {
     let interner = Interner::new(old.len() + new.len());
     let mut input = InternedInput { before: Vec::new(), after: Vec::new(), interner };
     input.update_before(old.iter().map(|movement| identities.of(movement, ORIGIN)));
@@ -235,6 +249,9 @@ impl Comparison<'_> {
                 kinds[1][index] = Some(self.kind_of_new(&moves[1][index]));
             }
         }
+        for (kind, piece) in kinds[1].iter_mut().zip(&pieces[1]) {
+            *kind = kind.or_else(|| self.kind_of_equal(piece));
+        }
         for (side, (pieces, kinds)) in pieces.into_iter().zip(kinds).enumerate() {
             self.add_pieces(side, &pieces, &kinds);
         }
@@ -308,13 +325,18 @@ impl Comparison<'_> {
             let is_milled = self.milled[0].reaches(piece, &mut self.identities);
             return if is_milled { ChangeKind::Reordered } else { ChangeKind::Added };
         };
-        let raised = was.raised(is);
-        let feed = ((is.feed - was.feed).abs() > END_TOLERANCE).then_some([was.feed, is.feed]);
-        let passes = (is.passes != was.passes).then_some([was.passes, is.passes]);
-        match (feed, passes) {
-            (None, None) if raised == [0.0; 2] => ChangeKind::Reordered,
-            _ => ChangeKind::Altered { raised, feed, passes },
+        was.change(is).unwrap_or(ChangeKind::Reordered)
+    }
+
+    /// Returns the kind of change of a new piece that is in the old program too: if it is the deepest pass along its line, that of the line's result.
+    fn kind_of_equal(&mut self, piece: &ComparedMove) -> Option<ChangeKind> {
+        if is_rapid(&piece.movement) {
+            return None;
         }
+        let line = self.identities.line(&piece.movement);
+        let [was, is] = &self.milled;
+        let is = is.lines.get(&line).filter(|is| is.deepest == piece.number)?;
+        was.lines.get(&line)?.change(is)
     }
 }
 
@@ -483,10 +505,21 @@ struct MillingResult {
     bottom: [f64; DEPTHS],
     /// Feed in mm/min of the pass that is deepest in the middle.
     feed: f64,
+    /// Number of the first move that is deepest in the middle.
+    deepest: usize,
     passes: u32,
 }
 
 impl MillingResult {
+    /// Returns the change to a new result along the same line; `None` if nothing changed.
+    fn change(&self, new: &Self) -> Option<ChangeKind> {
+        let raised = self.raised(new);
+        let feed = ((new.feed - self.feed).abs() > END_TOLERANCE).then_some([self.feed, new.feed]);
+        let passes = (new.passes != self.passes).then_some([self.passes, new.passes]);
+        let is_equal = raised == [0.0; 2] && feed.is_none() && passes.is_none();
+        (!is_equal).then_some(ChangeKind::Altered { raised, feed, passes })
+    }
+
     /// Returns the least and the greatest height in mm by which a new result is higher.
     fn raised(&self, new: &Self) -> [f64; 2] {
         let raised = std::array::from_fn::<f64, DEPTHS, _>(|place| {
@@ -508,9 +541,9 @@ struct Milled {
 impl Milled {
     fn of(moves: &[SceneMove], divider: &mut Divider, identities: &mut Identities) -> Self {
         let mut milled = Self::default();
-        for movement in moves.iter().filter(|movement| !is_rapid(movement)) {
+        for (number, movement) in moves.iter().enumerate().filter(|(_, movement)| !is_rapid(movement)) {
             for piece in divider.divide(movement) {
-                milled.add(&piece, identities);
+                milled.add(number, &piece, identities);
             }
         }
         let Self { lines, points } = &mut milled;
@@ -523,7 +556,7 @@ impl Milled {
         milled
     }
 
-    fn add(&mut self, piece: &SceneMove, identities: &mut Identities) {
+    fn add(&mut self, number: usize, piece: &SceneMove, identities: &mut Identities) {
         let way = &piece.way;
         let line = identities.line(piece);
         let [from, to] = [&way.from, &way.to].map(|end| identities.point(end));
@@ -544,10 +577,11 @@ impl Milled {
             }
         }
         let feed = way.pace.feed().unwrap_or_default();
-        let milled = self.lines.entry(line).or_insert(MillingResult { bottom, feed, passes: 0 });
+        let first = MillingResult { bottom, feed, deepest: number, passes: 0 };
+        let milled = self.lines.entry(line).or_insert(first);
         milled.passes += 1;
         if bottom[DEPTHS / 2] < milled.bottom[DEPTHS / 2] {
-            milled.feed = feed;
+            (milled.feed, milled.deepest) = (feed, number);
         }
         milled.bottom = std::array::from_fn(|place| milled.bottom[place].min(bottom[place]));
     }
@@ -748,6 +782,25 @@ mod tests {
         // The intermediate heights differ, but the final depth is the same.
         let other = described(&groove(&["-1", "-2"]), &groove(&["-0.5", "-2"]));
         assert!(other[0].starts_with("the same in the end"), "{other:?}");
+    }
+
+    /// The moves that remain are in both programs; still, what was changed is the line that they follow.
+    #[test]
+    fn removed_passes_change_the_pass_that_is_now_deepest() {
+        let path = |levels: &[&str]| {
+            let pass = |z: &&str| format!("G1 Z{z} F150\nG1 X10\nG1 Y10\nG1 X0\nG1 Y0\n");
+            format!("{}G0 Z5\n", levels.iter().map(pass).collect::<String>())
+        };
+        let changes = |old: &[&str], new: &[&str]| described(&path(old), &path(new));
+        let raised = changes(&["-1", "-2"], &["-1"]);
+        assert!(raised[0].starts_with("1 mm higher, passes: 1 instead of 2 5 "), "{raised:?}");
+        let lowered = changes(&["-1"], &["-1", "-2"]);
+        assert!(lowered[0].starts_with("1 mm deeper, passes: 2 instead of 1 5 "), "{lowered:?}");
+        let fewer = changes(&["-0.5", "-1", "-1.5", "-2"], &["-1", "-2"]);
+        assert!(fewer[0].starts_with("passes: 2 instead of 4 6 "), "{fewer:?}");
+        let part = format!("{}{OTHER}", path(&["-1", "-2"]));
+        let raised = described(&part, &format!("{}{OTHER}", path(&["-1"])));
+        assert!(raised.iter().all(|line| !line.contains("the same in the end")), "{raised:?}");
     }
 
     #[test]
