@@ -300,6 +300,45 @@ fn a_program_whose_modes_differ_has_other_moves() {
     }
 }
 
+/// The way to the first cut counts from the first move, as do lines that say nothing of a position.
+#[test]
+fn a_program_that_begins_otherwise_has_other_moves() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    let name = "components/1234_Milling.gcode";
+    let ours = place.read(name);
+    let is_current = |text: String| {
+        assert_ne!(text, ours);
+        fs::write(place.path().join(name), text).unwrap();
+        place.run("emit --check --moves 1234.1P").status
+    };
+    let lines = [
+        "G92 Z5",
+        "G92 Z0",
+        "G10 L2 P1 Z-5",
+        "G10 L20 P1 Z0",
+        "G00 Z-20",
+        "G00 Z0",
+        "G01 Z-1 F100",
+        "G00 X50",
+        "G00 X50 Y50",
+        "G38.2 Z-5 F10",
+        "%",
+        "#1=5",
+        "O100",
+    ];
+    for line in lines {
+        assert_eq!(is_current(ours.replacen("G00 ", &format!("{line}\nG00 "), 1)), Some(1), "{line}");
+    }
+    for line in ["%", "#1=5", "M30"] {
+        assert_eq!(is_current(ours.replacen("G01 ", &format!("{line}\nG01 "), 1)), Some(1), "{line}");
+    }
+    let lines: Vec<&str> = ours.lines().collect();
+    let first = lines.iter().position(|line| line.starts_with("G00 ")).unwrap();
+    let without_retract = [&lines[..first], &lines[first + 1..]].concat().join("\n");
+    assert_eq!(is_current(without_retract), Some(1));
+}
+
 #[test]
 fn comparing_moves_needs_no_rapid_feed() {
     let place = library("rapid = 1000", "");

@@ -163,16 +163,33 @@ fn missing_and_surplus_moves_are_told_apart() {
 }
 
 #[test]
-fn the_way_to_the_first_place_does_not_count() {
+fn the_way_to_the_first_place_must_be_the_same_if_all_moves_count() {
     let start = |program: &str| {
         interpret(format!("G21 G90 G17\n{program}\nG1 X10 F5\nM30\n").as_bytes(), Native, &Options::default())
             .moves()
     };
-    let tolerance = Tolerance::of_decimals(3);
-    assert_eq!(compare(&start("G0 Z5\nG0 X1 Y1"), &start("G0 X1 Y1\nG0 Z5"), &tolerance), None);
-    assert_eq!(compare(&start("G0 Z5\nG0 X0 Y0\nG0 X1 Y1"), &start("G0 Z5\nG0 X1 Y1"), &tolerance), None);
-    assert_eq!(compare(&start("G0 Z5\nG0 X1 Y1"), &start("G0 Z5\nG0 X0 Y0\nG0 X1 Y1"), &tolerance), None);
-    assert!(compare(&start("G0 Z5\nG0 X1 Y1"), &start("G0 Z5\nG0 X2 Y1"), &tolerance).is_some());
+    let is_same = |found: &str, expected: &str| {
+        compare(&start(found), &start(expected), &Tolerance { ends: Ends::All, ..Tolerance::of_decimals(3) })
+            .is_none()
+    };
+    let usual = "G0 Z5\nG0 X1 Y1";
+    assert!(is_same("G0 Z5.0005\nG0 X1 Y1", usual));
+    let is_placed_alike =
+        |found: &str| compare(&start(found), &start(usual), &Tolerance::of_decimals(3)).is_none();
+    assert!(is_placed_alike("G0 X1 Y1\nG0 Z5"));
+    assert!(!is_placed_alike("G0 Z5\nG0 X2 Y1"));
+    for other in [
+        "G0 X1 Y1\nG0 Z5",
+        "G0 X1 Y1 Z5",
+        "G0 Z-5\nG0 Z5\nG0 X1 Y1",
+        "G0 Z5\nG0 X0 Y0\nG0 X1 Y1",
+        "G0 Z5\nG0 X2 Y1\nG0 X1",
+        "G1 Z5 F100\nG0 X1 Y1",
+        "G53 G0 Z-1\nG0 Z5\nG0 X1 Y1",
+    ] {
+        assert!(!is_same(other, usual), "{other}");
+        assert!(!is_same(usual, other), "{other}");
+    }
 }
 
 #[test]

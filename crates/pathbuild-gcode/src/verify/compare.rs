@@ -25,8 +25,10 @@ pub struct Tolerance {
 /// Selection of the rapid moves that are compared at the ends of programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
-    /// All rapid moves, once the position is known.
+    /// All moves. As long as the position is not fully known, each move must be the same.
     All,
+    /// Moves once the position is known, because the axes become known in an order that the other program does not state.
+    Placed,
     /// Rapid moves between the first and the last cut, because the beginning and the end of a program written by a post depend on the machine.
     Cutting,
 }
@@ -35,7 +37,7 @@ impl Tolerance {
     /// Returns the tolerance for numbers with this number of decimals: half a unit of the last digit, plus the error of doubles.
     pub fn of_decimals(decimals: i32) -> Self {
         let half = 0.5 * libm::pow(10.0, f64::from(-decimals)) * (1.0 + 1e-6);
-        Self { place: half, feed: half, chord: 0.0, ends: Ends::All }
+        Self { place: half, feed: half, chord: 0.0, ends: Ends::Placed }
     }
 }
 
@@ -68,6 +70,11 @@ pub enum DifferenceKind {
 
 /// Compares the moves found with those expected. Returns `None` if they are equal.
 pub fn compare(found: &[(u32, Move)], expected: &[(u32, Move)], tolerance: &Tolerance) -> Option<Difference> {
+    if tolerance.ends == Ends::All
+        && let Some(difference) = compare_unplaced(found, expected, tolerance)
+    {
+        return Some(difference);
+    }
     let (found, expected) = (counting_moves(found, tolerance.ends), counting_moves(expected, tolerance.ends));
     let (mut found, mut expected) = (Walker::new(&found), Walker::new(&expected));
     if let Err(kind) = begin_together(&mut found, &mut expected, tolerance) {
@@ -177,8 +184,10 @@ fn diagnostic_of_kind(kind: DifferenceKind, found: &(u32, Move), expected: &(u32
     }
 }
 
+/// Formats the axes that are known at a position.
 fn place(at: &Position) -> String {
-    format!("X{:.3} Y{:.3} Z{:.3}", at.x(), at.y(), at.z())
+    let known = (0..3).filter(|axis| at.known.has(Axes::of(*axis)));
+    known.map(|axis| format!("{}{:.3}", ['X', 'Y', 'Z'][axis], at.at[axis])).collect::<Vec<_>>().join(" ")
 }
 
 fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -> Difference {
@@ -189,14 +198,44 @@ fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -
     Difference { kind, found: shown(found, expected), expected: shown(expected, found) }
 }
 
-/// Selects the moves to be compared: those to known positions, and at both ends of the program only those that `ends` requires.
+/// Compares the moves from or to positions that are not fully known, such as the approach, one by one.
+fn compare_unplaced(
+    found: &[(u32, Move)],
+    expected: &[(u32, Move)],
+    tolerance: &Tolerance,
+) -> Option<Difference> {
+    let is_unplaced = |(_, movement): &&(u32, Move)| !movement.is_known();
+    let mut found = found.iter().filter(is_unplaced).copied();
+    let mut expected = expected.iter().filter(is_unplaced).copied();
+    loop {
+        let (found, expected) = (found.next(), expected.next());
+        let kind = match (&found, &expected) {
+            (None, None) => return None,
+            (Some((_, ours)), Some((_, theirs))) => check_unplaced(ours, theirs, tolerance).err(),
+            _ => Some(DifferenceKind::Place),
+        };
+        if let Some(kind) = kind {
+            return Some(Difference { kind, found, expected });
+        }
+    }
+}
+
+fn check_unplaced(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> Result<(), DifferenceKind> {
+    check_pace(ours, theirs, tolerance)?;
+    // An axis that is not known is at a coordinate of the machine, or at 0.
+    let is_same = ours.to.known == theirs.to.known
+        && ours.named == theirs.named
+        && is_near(&ours.to.at, &theirs.to.at, tolerance.place);
+    if is_same { Ok(()) } else { Err(DifferenceKind::Place) }
+}
+
+/// Selects the moves to be compared along their course: those to known positions, and at both ends of the program only those that `ends` requires.
 fn counting_moves(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
     let is_known = |(_, movement): &(u32, Move)| movement.to.known == Axes::ALL;
     let is_cut = |movement: &(u32, Move)| is_known(movement) && movement.1.pace != Pace::Rapid;
     let (first, end) = match ends {
-        // The position becomes known axis by axis, in an order that does not matter.
-        Ends::All => {
-            let begins = |movement: &(u32, Move)| is_known(movement) && movement.1.from.known == Axes::ALL;
+        Ends::All | Ends::Placed => {
+            let begins = |(_, movement): &(u32, Move)| movement.is_known();
             (moves.iter().position(begins), moves.len())
         }
         Ends::Cutting => {
@@ -220,9 +259,10 @@ fn begin_together(
 ) -> Result<(), DifferenceKind> {
     let (Some(here), Some(there)) = (found.place(), expected.place()) else { return Ok(()) };
     let is_there = |a: &[f64; 3], b: &[f64; 3]| is_near(a, b, tolerance.place);
+    let may_skip = tolerance.ends != Ends::All;
     if is_there(&here, &there)
-        || expected.skip_rapids_to(|at| is_there(at, &here))
-        || found.skip_rapids_to(|at| is_there(at, &there))
+        || may_skip && expected.skip_rapids_to(|at| is_there(at, &here))
+        || may_skip && found.skip_rapids_to(|at| is_there(at, &there))
     {
         return Ok(());
     }
@@ -398,7 +438,7 @@ impl<'m> Walker<'m> {
     }
 
     /// Advances over rapid moves to the first position that satisfies the condition. Returns false, without advancing, if there is none.
-    pub(super) fn skip_rapids_to(&mut self, will_do: impl Fn(&[f64; 3]) -> bool) -> bool {
+    fn skip_rapids_to(&mut self, will_do: impl Fn(&[f64; 3]) -> bool) -> bool {
         let rapids = self.moves[self.index..].iter().take_while(|(_, movement)| movement.pace == Pace::Rapid);
         let found = rapids.clone().position(|(_, movement)| will_do(&movement.to.at));
         self.index += found.map_or(0, |passed| passed + 1);
@@ -479,7 +519,7 @@ pub(super) fn are_alike(one: f64, other: f64, slack: f64) -> bool {
 /// Whether two programs have the same lines that determine moves: the same words, with numbers within one unit of the third decimal, and
 /// with equal G words.
 ///
-/// Comments (including correction formulas), blanks, leading zeros, line breaks, and lines without X, Y, Z, G and M are ignored.
+/// Comments (including correction formulas), blanks, leading zeros, line breaks, and lines with only T and S are ignored.
 pub fn same_move_lines(found: &str, expected: &str) -> bool {
     let (mut found, mut expected) = (move_lines(found), move_lines(expected));
     loop {
@@ -499,7 +539,7 @@ const LAST_DIGIT_UNIT: f64 = 0.001 * (1.0 + 1e-6);
 /// Returns the words of each line that moves the tool or sets a mode; `None` for a line that cannot be read.
 fn move_lines(text: &str) -> impl Iterator<Item = Option<Vec<Word>>> {
     let is_move = |words: &Option<Vec<Word>>| {
-        let counts = |(letter, _): &Word| matches!(letter, 'X' | 'Y' | 'Z' | 'G' | 'M');
+        let counts = |(letter, _): &Word| !matches!(letter, 'T' | 'S');
         words.as_ref().is_none_or(|words| words.iter().any(counts))
     };
     text.lines().map(words).filter(is_move)
@@ -507,13 +547,14 @@ fn move_lines(text: &str) -> impl Iterator<Item = Option<Vec<Word>>> {
 
 fn words(line: &str) -> Option<Vec<Word>> {
     let plain = without_comments(line);
-    let mut rest = plain.trim_start_matches('%');
+    let mut rest = plain.as_str();
     let mut words = Vec::new();
     while let Some(letter) = rest.chars().next() {
         let digits = &rest[letter.len_utf8()..];
         let end =
             digits.find(|digit: char| !matches!(digit, '0'..='9' | '.' | '+' | '-')).unwrap_or(digits.len());
-        words.push((letter.to_ascii_uppercase(), digits[..end].parse().ok()?));
+        let number = if letter == '%' && end == 0 { 0.0 } else { digits[..end].parse().ok()? };
+        words.push((letter.to_ascii_uppercase(), number));
         rest = &digits[end..];
     }
     Some(words)

@@ -23,6 +23,8 @@ const NATIVE_SAMPLE: &[u8] =
 pub struct PostWords {
     /// G and M words other than motions; codes are times ten.
     codes: BTreeSet<(char, u16)>,
+    /// The changes that its programs make and later positions do not show: see [`unfollowed_change`].
+    changes: BTreeSet<String>,
     /// The words that the post writes before the first move: codes (times ten) by group.
     pub(super) lead: BTreeMap<Group, u16>,
     /// Whether the post writes T.
@@ -106,6 +108,7 @@ impl PostWords {
                 self.rapid_feed = Some(self.rapid_feed.map_or(*feed, |known| known.max(*feed)));
             }
             Action::Change(Change::Corners(Corners::Rounded(None))) => self.rounds_freely = true,
+            Action::Change(change) => self.changes.extend(unfollowed_change(change)),
             _ => {}
         }
     }
@@ -291,6 +294,12 @@ pub fn foreign_modes(steps: &[Step], words: &PostWords, dialect: Dialect) -> Vec
                     problems.add_at_line(&say::NOT_IN_DRAWING, step.line, |d| d.quoting("word", word));
                 }
             }
+            Action::Change(change) => {
+                let word = unfollowed_change(change).filter(|word| !words.changes.contains(word));
+                if let Some(word) = word {
+                    problems.add_at_line(&say::NOT_IN_DRAWING, step.line, |d| d.quoting("word", word));
+                }
+            }
             _ => {}
         }
     }
@@ -303,6 +312,15 @@ pub fn foreign_modes(steps: &[Step], words: &PostWords, dialect: Dialect) -> Vec
 fn report_missing(missing: &mut BTreeMap<Group, u16>, line: u32, problems: &mut Problems) {
     for code in std::mem::take(missing).into_values() {
         problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", code_name('G', code)));
+    }
+}
+
+/// Returns the name of a change that later positions do not show: a zero that only the machine knows, or a parameter.
+fn unfollowed_change(change: &Change) -> Option<String> {
+    match change {
+        Change::Offsets { code, is_followed: false, .. } => Some(code_name('G', *code)),
+        Change::Parameter => Some("#".to_owned()),
+        _ => None,
     }
 }
 

@@ -13,7 +13,6 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, interpret};
 use pathbuild_gcode::provenance::is_same_program;
 use pathbuild_gcode::verify::{self, Ends, PostWords, Tolerance};
-use pathbuild_motion::{Pace, Step};
 
 use super::build::{BuiltProgram, Output, build};
 use super::options::OutputSettings;
@@ -217,47 +216,23 @@ fn compare(
         return (State::Outdated, Vec::new());
     }
     // If the dialect cannot be read, only bytes can be compared.
-    let Some(reading) = ComparisonSettings::of(post_processor) else { return (State::Outdated, Vec::new()) };
-    let problems = difference(&present, &output.text, &reading);
+    let dialect = post_processor.map_or(Some(Dialect::Native), PostProcessor::reader);
+    let Some(dialect) = dialect else { return (State::Outdated, Vec::new()) };
+    let problems = difference(&present, &output.text, dialect);
     let problems = problems.into_iter().map(|problem| problem.in_file(&output.path)).collect::<Vec<_>>();
     let state = if problems.is_empty() { State::Current } else { State::Outdated };
     (state, problems)
 }
 
-struct ComparisonSettings {
-    dialect: Dialect,
-    tolerance: Tolerance,
-}
-
-impl ComparisonSettings {
-    fn of(post_processor: Option<&PostProcessor>) -> Option<Self> {
-        let Some(post_processor) = post_processor else {
-            return Some(Self { dialect: Dialect::Native, tolerance: LAST_DIGIT_TOLERANCE });
-        };
-        let dialect = post_processor.reader()?;
-        Some(Self { dialect, tolerance: Tolerance { ends: Ends::Cutting, ..LAST_DIGIT_TOLERANCE } })
-    }
-
-    /// Returns the steps of a program that are compared. If the end of the program depends on the machine, these are only the steps up to the last
-    /// cut.
-    fn compared_steps<'s>(&self, steps: &'s [Step]) -> &'s [Step] {
-        let is_cut = |step: &Step| step.as_move().is_some_and(|(_, movement)| movement.pace != Pace::Rapid);
-        match self.tolerance.ends {
-            Ends::All => steps,
-            Ends::Cutting => &steps[..steps.iter().rposition(is_cut).map_or(0, |last| last + 1)],
-        }
-    }
-}
-
 /// Compares a program on disk with the expected one. Returns the problems that make its moves uncertain, or else its words that change the meaning of
 /// moves, or else the first move that differs. Lines are compared before moves: numbers that differ by one unit of their last digit are equal however
 /// they are interpreted, even where rounding turns a very short arc into a full circle. Only programs with different lines are interpreted.
-fn difference(present: &[u8], expected: &[u8], reading: &ComparisonSettings) -> Vec<Diagnostic> {
+fn difference(present: &[u8], expected: &[u8], dialect: Dialect) -> Vec<Diagnostic> {
     let [found_text, expected_text] = [present, expected].map(String::from_utf8_lossy);
     if verify::same_move_lines(&found_text, &expected_text) {
         return Vec::new();
     }
-    let read = |text| interpret(text, reading.dialect, &interpret::Options::default());
+    let read = |text| interpret(text, dialect, &interpret::Options::default());
     let (found, written) = (read(present), read(expected));
     let is_new = |problem: &Diagnostic| {
         let is_written = || written.problems.iter().any(|known| known.message == problem.message);
@@ -275,12 +250,12 @@ fn difference(present: &[u8], expected: &[u8], reading: &ComparisonSettings) -> 
             .map(|problem| Diagnostic { severity: Severity::Error, ..problem })
             .collect();
     }
-    let words = PostWords::of_programs([expected], reading.dialect);
-    let modes = verify::foreign_modes(reading.compared_steps(&found.steps), &words, reading.dialect);
+    let words = PostWords::of_programs([expected], dialect);
+    let modes = verify::foreign_modes(&found.steps, &words, dialect);
     if !modes.is_empty() {
         return modes;
     }
-    let difference = verify::compare(&found.moves(), &written.moves(), &reading.tolerance);
+    let difference = verify::compare(&found.moves(), &written.moves(), &LAST_DIGIT_TOLERANCE);
     difference.iter().map(verify::Difference::diagnostic).collect()
 }
 
