@@ -79,6 +79,18 @@ fn accepting_again_replaces_the_reason_and_keeps_the_rest() {
     assert_eq!(text.lines().filter(|line| !line.starts_with('#')).count(), 2, "{text}");
 }
 
+/// Its reasons and dates would be lost.
+#[test]
+fn a_baseline_that_cannot_be_read_is_not_rewritten() {
+    let place = place();
+    assert_eq!(accept(&place, &["--baseline", "known.txt"]).status, Some(0));
+    let ansi = [&place.read("known.txt").into_bytes()[..], b"# gepr\xfcft\n"].concat();
+    std::fs::write(place.path().join("known.txt"), &ansi).unwrap();
+    let run = place.run("check --baseline known.txt --update-baseline");
+    assert!(run.status == Some(2) && run.stderr.contains("known.txt"), "{run}");
+    assert_eq!(std::fs::read(place.path().join("known.txt")).unwrap(), ansi);
+}
+
 #[test]
 fn what_cannot_be_accepted_is_wrong_usage() {
     let place = place();

@@ -307,11 +307,24 @@ impl Entry {
     /// Whether the name is a relative path that stays below the root on this system, and outside `.git`. A name that is not UTF-8 does not count as
     /// one.
     pub fn is_plain(&self) -> bool {
-        let is_foreign = |part: &str| cfg!(windows) && part.contains(['\\', ':']);
+        let is_foreign = |part: &str| cfg!(windows) && is_other_on_windows(part);
         let is_special = |part: &str| matches!(part, "" | "." | "..") || part.eq_ignore_ascii_case(".git");
         !self.name.contains('\u{fffd}')
             && !self.name.split('/').any(|part| is_special(part) || is_foreign(part))
     }
+}
+
+/// Whether Windows would open something else under this name: it has two separators, drops final dots and blanks, gives `.git` a short name, and opens
+/// devices.
+fn is_other_on_windows(part: &str) -> bool {
+    let stem = part.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
+    let is_port = |prefix| stem.strip_prefix(prefix).is_some_and(|number: &str| number.chars().count() == 1);
+    part.contains(['\\', ':'])
+        || part.ends_with(['.', ' '])
+        || stem == "GIT~1"
+        || matches!(&*stem, "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$")
+        || is_port("COM")
+        || is_port("LPT")
 }
 
 /// Refuses the name of a revision that Git would take for an option.
@@ -365,4 +378,21 @@ fn read_blob(
 /// Removes the prefix of long Windows paths, which Git does not understand.
 fn without_verbatim_prefix(path: &Utf8Path) -> &str {
     path.as_str().strip_prefix(r"\\?\").unwrap_or(path.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_other_on_windows;
+
+    #[test]
+    fn names_that_windows_gives_another_meaning() {
+        for name in
+            ["a\\b", "c:", ".git.", ".. ", "GIT~1", "git~1", "nul.dxf", "NUL", "aux .dxf", "com1.dxf", "LPT9"]
+        {
+            assert!(is_other_on_windows(name), "{name}");
+        }
+        for name in ["8001.1P.dxf", "a b.dxf", "null.dxf", "com.dxf", "com10.dxf", "console", "git~2"] {
+            assert!(!is_other_on_windows(name), "{name}");
+        }
+    }
 }

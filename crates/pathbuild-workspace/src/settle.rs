@@ -74,16 +74,14 @@ impl Workspace {
         }
     }
 
-    /// Rewrites the baseline, even if it cannot be read. Lines without a fingerprint are dropped. A depth, reason or date that cannot be parsed is an
-    /// error.
+    /// Rewrites the baseline. Lines without a fingerprint are dropped. A baseline, depth, reason or date that cannot be read is an error.
     fn update_baseline(
         &self,
         file: &Utf8Path,
         findings: &[Diagnostic],
         coverage: &Coverage,
     ) -> Result<Settled, Failure> {
-        let baseline = self.read_or_new_baseline(file);
-        let (baseline, mut faults) = baseline.unwrap_or_else(|_| (Baseline::new(file), Vec::new()));
+        let (baseline, mut faults) = self.read_or_new_baseline(file).map_err(Failure::Refused)?;
         faults.retain(|fault| fault.message.key != messages::BASELINE_LINE.key);
         if !faults.is_empty() {
             return Err(Failure::Refused(faults));
