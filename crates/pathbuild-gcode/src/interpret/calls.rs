@@ -426,7 +426,8 @@ impl<'r, 'i> Runner<'r, 'i> {
 
 /// Returns the name of an O word, or its number without leading zeros.
 fn name_of_o_word(block: &Block<'_>, word: OWord) -> Box<str> {
-    name_of(block, word.name).trim_start_matches('0').into()
+    let name = name_of(block, word.name);
+    if name.bytes().all(|byte| byte.is_ascii_digit()) { name.trim_start_matches('0').into() } else { name }
 }
 
 fn definitions(mut reader: BlockReader<'_>) -> HashMap<SubprogramName, Definition> {

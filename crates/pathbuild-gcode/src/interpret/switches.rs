@@ -349,7 +349,7 @@ pub(super) fn is_jump(m_code: u16) -> bool {
 
 /// Whether the interpreter executes an M code: stops, tools, spindle, coolant.
 pub(super) fn is_followed_m(m_code: u16) -> bool {
-    !has_no_step(m_code) && m_code != 190
+    !has_no_step(m_code)
 }
 
 /// Whether no kind of [`Action`] stands for an M code, which then becomes a [`Change::Switch`].

@@ -162,16 +162,16 @@ impl<'a> Library<'a> {
         checked_files: &[SourceFile],
     ) -> Update {
         let (mut update, mut concerned) = (Update::default(), HashSet::new());
-        let is_passed = |result: &DrawingResult| result.diagnostics.iter().any(is_transient);
+        let may_pass = |result: &DrawingResult| result.diagnostics.iter().any(is_transient);
         let system = &*self.session.workspace().system;
         let is_missing = |path: &Utf8PathBuf| system.kind(path) == FileKind::Missing;
-        let has_missing = self.drawings.iter().any(|(path, result)| is_passed(result) && is_missing(path));
+        let has_missing = self.drawings.iter().any(|(path, result)| may_pass(result) && is_missing(path));
         // A drawing may have been removed before its directory was watched, so that no event reports it.
         if has_missing || self.problems.iter().any(is_transient) {
             self.find_drawings(&mut concerned, &mut update);
         }
         let db = self.session.db();
-        let unsure = self.drawings.iter().filter(|(_, result)| is_passed(result));
+        let unsure = self.drawings.iter().filter(|(_, result)| may_pass(result));
         let unsure: Vec<SourceFile> = unsure.map(|(path, _)| db.file(path)).collect();
         let found = self.drawings.values().flat_map(|result| &result.diagnostics);
         let found = found.filter(|found| is_transient(found)).filter_map(|found| found.file.as_ref());
@@ -182,7 +182,7 @@ impl<'a> Library<'a> {
             // A diagnostic about a directory means that the directory could not be listed.
             for path in &files {
                 self.session.touch_file(path);
-                let directory = or_dot(path);
+                let directory = without_dot(path);
                 if self.names.has(directory) {
                     self.relist_names(directory, &mut concerned);
                 } else {
@@ -332,7 +332,7 @@ impl<'a> Library<'a> {
             .filter_map(|problem| problem.file.as_ref())
             .collect();
         let is_unsure =
-            |drawing: &Utf8PathBuf| unlisted.iter().any(|place| drawing.starts_with(or_dot(place)));
+            |drawing: &Utf8PathBuf| unlisted.iter().any(|place| drawing.starts_with(without_dot(place)));
         let is_gone = |drawing: &Utf8PathBuf| !existing.contains(drawing) && !is_unsure(drawing);
         // Drawings may have been removed before they were checked for the first time.
         let unchecked = self.open.extract_if(.., |drawing, _| is_gone(drawing));
@@ -441,7 +441,7 @@ fn has_other_content(before: &DrawingResult, now: &DrawingResult) -> bool {
 }
 
 /// Returns the directory that a diagnostic names; the empty path for `.`, the working directory.
-fn or_dot(directory: &Utf8Path) -> &Utf8Path {
+fn without_dot(directory: &Utf8Path) -> &Utf8Path {
     if directory == "." { Utf8Path::new("") } else { directory }
 }
 
