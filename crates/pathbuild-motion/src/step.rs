@@ -456,7 +456,7 @@ impl Move {
         }
     }
 
-    /// Returns the maximum share of each axis in the speed of the move, from 0 to 1.
+    /// Returns the maximum share of each axis in the speed of the move, from 0 to 1; for an arc, an upper bound.
     pub fn axis_shares(&self) -> [f64; 3] {
         let length = self.length();
         if length == 0.0 {
@@ -468,7 +468,7 @@ impl Move {
             libm::fabs(way) / length
         });
         if let MoveShape::Arc(arc) = self.shape {
-            // At some point an arc is parallel, or almost parallel, to each axis of its plane.
+            // An arc may be parallel to either axis of its plane at some point.
             let across = shares[arc.plane.third()];
             for axis in arc.plane.axes() {
                 shares[axis] = libm::sqrt((1.0 - across * across).max(0.0));

@@ -1,4 +1,4 @@
-//! Clamps: the layers that hold them, their outlines and heights, and the search for those that the tool hits. (book: language/keep-outs)
+//! Clamps: their outlines and heights, and the search for those that the tool hits. (book: language/keep-outs)
 
 use pathbuild_diagnostic::Diagnostic;
 use rstar::primitives::{GeomWithData, Rectangle};

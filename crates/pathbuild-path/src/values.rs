@@ -250,7 +250,8 @@ const MIN_FEED: f64 = 0.0005;
 /// Letters that must be positive on paths and on elements with bars.
 const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
 
-/// Returns findings about the values that `own` gives. Values that it does not give come from the path.
+/// Returns findings about values of `own` that are outside their limits. If such a limit is another letter that `own` does not give, the path's value
+/// counts.
 pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementClass) -> Vec<Diagnostic> {
     let mut limits = LimitCheck { own, path, class, problems: Vec::new() };
     let is_known =

@@ -151,7 +151,7 @@ pub(crate) struct SplitMove {
 }
 
 impl SplitMove {
-    /// Divides a move from `from`; `longest` is the maximum length of a part in mm, with 0 for not splitting at all.
+    /// Divides a move from `from`; `longest` is the maximum length of a part in mm; with 0, the move stays whole.
     pub(crate) fn new(from: ToolPosition, to: PlannedMove, count: Count, longest: f64) -> Self {
         let parts = match to {
             _ if longest <= 0.0 => 1.0,

@@ -381,7 +381,7 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
     }
 }
 
-/// Returns the distance of two positions in space, in mm.
+/// Returns the distance between two positions in space, in mm.
 pub(crate) fn distance(a: Tip, b: Tip) -> f64 {
     let (plane, height) = ((b.at - a.at).norm_squared(), b.z - a.z);
     libm::sqrt(plane + height * height)

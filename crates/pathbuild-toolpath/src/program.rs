@@ -164,7 +164,8 @@ pub struct Height {
 pub struct Count {
     /// The label under which the move is counted.
     pub class: MoveClass,
-    /// Length in mm as PathDxf2GCode counts it: in the plane, except for sweeps, which include the difference in height.
+    /// Length in mm as PathDxf2GCode counts it: in the plane for milling, the difference in height for plunges and lifts, and the distance in space
+    /// for sweeps from one element to the next.
     pub length: f64,
     /// Feed in mm/min used to calculate the time; `None` is the rapid feed.
     pub feed: Option<f64>,

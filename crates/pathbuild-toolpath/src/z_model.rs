@@ -222,7 +222,7 @@ impl NearestProbes {
     }
 }
 
-// Finds probes that do not fit their neighbours. (PB607)
+// Finds probes that do not fit the others. (PB607)
 //
 // Each probe is compared with the best-fitting plane (least squares) of all the others. It is odd if its distance from that plane exceeds
 // [`MIN_ODD_DISTANCE`] and also [`MIN_ODD_RATIO`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on
@@ -237,7 +237,7 @@ const MIN_ODD_RATIO: f64 = 4.0;
 
 const PLANE_DEGREES_OF_FREEDOM: f64 = 3.0;
 
-/// A probe that does not fit its neighbours.
+/// A probe that does not fit the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OddProbe {
     /// Index of the probe, in the given order.

@@ -69,7 +69,7 @@ struct Binder<'a> {
     holes: Vec<Hole>,
     helices: Vec<Helix>,
     problems: Vec<Diagnostic>,
-    /// Indices of the diagnostics about each text.
+    /// For each text, the indices of the diagnostics about it in `problems`.
     by_text: HashMap<TextId, Vec<usize>>,
     /// Keys of the messages that doubt values of the path itself: each is reported only once.
     doubted_at_start: Vec<&'static str>,
@@ -87,7 +87,7 @@ struct UnknownValues {
     infeed: bool,
     /// Whether N of some segment is unknown, and therefore its order among the segments that meet at a point.
     order: bool,
-    /// Whether a value that every path requires is unknown.
+    /// Whether a value that the path or one of its elements requires is unknown.
     needed: bool,
 }
 

@@ -34,7 +34,7 @@ pub struct DrawnSide<'a> {
 pub struct DrawnChanges {
     /// The changes that can affect the moves, each with all elements that it applies to, ordered by place.
     pub changes: Vec<DrawnChange>,
-    /// Whether only the order of the elements in the file has changed. It decides between segments that the walk could traverse equally well.
+    /// Whether only the order of the elements in the file has changed, which decides between segments that the walk could traverse equally well.
     pub is_reordered: bool,
 }
 

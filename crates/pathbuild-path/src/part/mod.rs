@@ -1,4 +1,5 @@
-//! Finished parts: their outlines, and the check that the cuts of a drawing leave them as drawn. (book: language/part)
+//! Finished parts: their outlines, and the check that the cuts of a drawing leave them as drawn. In this module, the plate is the material from which
+//! parts are cut, with its lower face at Z 0, and not the machine's plate below it. (book: language/part)
 
 mod bars;
 mod boxes;

@@ -19,7 +19,7 @@ pub(crate) struct PreparedPart<'p> {
     curve_boxes: BoxIndex,
 }
 
-/// A ring with its outline, which is computed only if the side of some point is not obvious.
+/// A ring with its outline, which is computed only when a point in the ring's box is looked up.
 struct PreparedRing {
     extent: AABB<[f64; 2]>,
     outline: OnceCell<Outline>,

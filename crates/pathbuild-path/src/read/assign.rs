@@ -18,7 +18,7 @@ use crate::read::entities::{FoundText, TextCircle};
 use crate::read::texts::{LayerTexts, MAX_EXAMINED_ELEMENTS, MAX_SEARCHED_LAYERS, Texts};
 use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 
-/// Maximum number of layers that a finding about a text lists as those on which the text would find an element.
+/// Maximum number of other layers with a suitable element that the finding about a text without an element lists.
 const MAX_LISTED_LAYERS: usize = 3;
 
 /// Upper bound on the elements that are examined for hints about texts without an element, in addition to those examined to assign texts.

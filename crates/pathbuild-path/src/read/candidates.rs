@@ -386,7 +386,7 @@ mod tests {
         (0..count).map(|_| candidate((line, false))).collect()
     }
 
-    /// The budget has one unit for each candidate, and one more.
+    /// A result is only trusted if the budget has more units than there are candidates.
     #[test]
     fn what_is_found_when_the_looks_are_over_is_not_trusted() {
         for count in [10, 200] {

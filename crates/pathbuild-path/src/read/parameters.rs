@@ -160,8 +160,8 @@ impl PathCheck<'_> {
 }
 
 impl PathCheck<'_> {
-    /// Reports PB210 for each variable that no text of the path refers to. Nothing is reported if errors may hide a reference. Not for drawings
-    /// whose paths borrow texts from each other, since the variable may be meant for one of them.
+    /// Reports PB210 for each variable that no text of the path refers to. Nothing is reported if errors may hide a reference. Not called for
+    /// drawings whose paths borrow texts from each other, since the variable may be meant for one of them.
     fn check_uses(&mut self) {
         let faults = &self.raw.faults;
         let may_be_hidden = faults.has_broken_entity || faults.stray_letters != Letters::default();
@@ -195,8 +195,8 @@ const LETTERS_OF_CUTS: [Letter; 8] =
     [Letter::A, Letter::B, Letter::C, Letter::D, Letter::I, Letter::P, Letter::U, Letter::W];
 
 impl PathCheck<'_> {
-    /// Reports PB210 for letters of the path's start that none of its elements uses: W without a chain, and everything about cutting in a path
-    /// that only embeds others. Not for drawings whose paths borrow texts from each other.
+    /// Reports PB210 for letters of the path's start that none of its elements uses: W without a chain, and everything about cutting in a path that
+    /// only embeds others. Not called for drawings whose paths borrow texts from each other.
     fn check_letters_of_cuts(&mut self) {
         let drawn = Arc::clone(&self.raw.drawn);
         let faults = &self.raw.faults;
