@@ -115,8 +115,8 @@ impl<'a> Builder<'a> {
         after
     }
 
-    /// Combines the steps that drill a hole into a single one and returns the steps after it. Returns `None` if they are not a hole, because
-    /// the tool does not come from above the material or continues from the bottom.
+    /// Combines the steps that drill a hole into a single one and returns the steps after it. Returns `None` if they do not form a hole: the tool
+    /// must come from above the material, and must be retracted from the bottom.
     fn hole(&mut self, peck: Option<f64>, steps: &'a [ProgramStep]) -> Option<&'a [ProgramStep]> {
         let (remarks, steps) = comments(steps);
         let (retract, steps) = match steps.split_first()? {
@@ -128,7 +128,7 @@ impl<'a> Builder<'a> {
         else {
             return None;
         };
-        // The retract itself belongs to the next step, which finds the tool already at its target.
+        // The retract remains in the steps after the hole, where it has no effect: the tool is already at its end.
         let exit = match comments(rest).1.first() {
             None => self.program.sweep_height,
             Some(ProgramStep::Move { to: PlannedMove::Lift { z }, .. }) => z.z,
@@ -158,7 +158,7 @@ impl<'a> Builder<'a> {
         Some(rest)
     }
 
-    /// Adds a planned move. `length` is its length in mm.
+    /// Adds a planned move of this length in mm. A very short arc becomes a line.
     fn add_planned_move(&mut self, to: &PlannedMove, length: f64) {
         let mut movement = self.tool.make_move(to, length);
         if length < MIN_ARC_LENGTH {
@@ -205,7 +205,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Splits `steps` after the comments at its beginning.
+/// Splits `steps` into the comments at the beginning and the remaining steps.
 fn comments(steps: &[ProgramStep]) -> (Vec<&Comment>, &[ProgramStep]) {
     let comments: Vec<&Comment> = steps.iter().map_while(as_comment).collect();
     let rest = &steps[comments.len()..];
@@ -244,8 +244,8 @@ pub struct ToolEntry {
     pub name: Box<str>,
     /// Cutter diameter (O) in mm.
     pub diameter: f64,
-    /// The paths that the tool is for, if several cutters have the same diameter (S and T cutters). The pattern may match anywhere in the
-    /// name of a path, so use `T$` for an ending.
+    /// The paths that the tool is for, by their names, if several cutters have the same diameter. The pattern may match anywhere in a name: `S$`
+    /// matches names that end in S.
     pub paths: Option<Regex>,
     /// Number in T words. Entries without one get the free numbers, in the order of the entries.
     pub index: Option<u32>,

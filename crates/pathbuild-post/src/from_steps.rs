@@ -117,7 +117,7 @@ struct Builder {
     was_changed_low: bool,
     at: Position,
     clearance: f64,
-    /// Whether the last operation has cut something.
+    /// Whether the last operation has cut or probed.
     has_cut: bool,
     /// Names of the open operations, outermost first.
     names: Vec<Box<str>>,
@@ -278,7 +278,7 @@ impl Builder {
         if self.at.known == Axes::ALL { Entry::At(self.at.at) } else { Entry::Clearance }
     }
 
-    /// Whether the settings of the last operation are final, because it has cut something or stopped with the spindle off.
+    /// Whether the settings of the last operation are final, because it has cut or probed, or has stopped or waited with the spindle off.
     fn is_settled(&self) -> bool {
         self.has_cut || self.is_spindle_kept_off
     }
@@ -357,7 +357,8 @@ impl Builder {
         }
     }
 
-    /// Keeps the spindle off during a stop or a dwell. The moves after it belong to another operation, which switches it on again.
+    /// Keeps the spindle off during a stop or a dwell, if the program switches it on anywhere. The cuts after it belong to another operation, which
+    /// switches it on again.
     fn keep_spindle_off(&mut self) {
         if !self.starts_spindle || self.is_spindle_kept_off {
             return;

@@ -92,7 +92,7 @@ impl Job {
         self.operations.iter().map(feeds).collect()
     }
 
-    /// Returns the operation of each step, in the order of all steps.
+    /// Returns, for each step of the job in order, the operation that it belongs to.
     pub(super) fn operations_by_step(&self) -> Vec<&Operation> {
         self.operations.iter().flat_map(|operation| operation.steps.iter().map(move |_| operation)).collect()
     }

@@ -9,8 +9,8 @@ use pathbuild_gcode::interpret::{DisputedWords, UnionWord, code_name, union_word
 use crate::job::Units;
 use crate::line_words::{LineWords, Word};
 
-/// The RS274 translation of a program, built line by line. It makes the same moves and switches the same functions as the lines passed to
-/// it.
+/// The RS274 translation of a program, built line by line. It makes the same moves and switches the same functions as the lines passed to it, as far
+/// as controls agree on the meaning of their words.
 #[derive(Debug)]
 pub(crate) struct Rs274Translation {
     text: String,
@@ -37,8 +37,8 @@ struct ModeWords {
 }
 
 impl ModeWords {
-    /// Reports modes that a line depends on if neither it nor an earlier line states them. Lines before the first motion word are ignored,
-    /// because they are not in RS274.
+    /// Reports modes that a line depends on if neither it nor an earlier line states them. Lines before the first motion word are ignored: a text
+    /// without motion words is not in the words of RS274.
     fn line(&mut self, number: u32, line: &LineWords, motion: Option<u32>) {
         let mut codes: Vec<i64> = line.words.iter().filter(|word| word.letter == 'G').map(tenths).collect();
         codes.extend(motion.map(|code| 10 * i64::from(code)));
@@ -69,7 +69,7 @@ impl ModeWords {
 pub struct TranslatedText {
     /// The translation, to be read in the dialect `LinuxCnc`.
     pub text: String,
-    /// Words that the translation omits, each with its first occurrence.
+    /// Words with an effect that the translation lacks, each with its first occurrence. Their number is limited.
     pub doubtful: Vec<DoubtfulWord>,
     /// Words whose meaning differs between controls, with the line number of the first one.
     pub disputed: Option<(u32, Vec<String>)>,
@@ -166,7 +166,7 @@ impl Rs274Translation {
         self.end_line();
     }
 
-    /// Reports constructs that may change where the tool goes, or which lines are run, without being G or M words.
+    /// Reports constructs that may change where the tool goes, or which lines are run, and that cannot be recognised by a G or M word alone.
     fn report_dangerous(&mut self, line: &LineWords) {
         if let Some(sign) = line.formula {
             self.report(sign.to_string(), Doubt::Dangerous);

@@ -55,8 +55,8 @@ pub(crate) fn check(
     }
 }
 
-/// Returns the number (line or step) of the first cut from or to an unknown position, which cannot be compared. Only the machine knows where a
-/// probe has stopped, so the move away from there is compared by its end alone.
+/// Returns the number of the first cut from or to an unknown position, which cannot be compared. Only the machine knows where a probe has stopped, so
+/// the move away from there is compared by its end alone.
 fn first_unknown_cut(moves: NumberedMoves<'_>) -> Option<u32> {
     let mut has_probed = false;
     for (number, movement) in moves {
@@ -266,7 +266,7 @@ impl<'m> ExpectedTraverse<'m> {
         Box::new(describe(&Difference { kind: DifferenceKind::Place, found, expected }))
     }
 
-    /// Checks that each move is one of the job's own rapids, a retract, or free of obstacles.
+    /// Checks that each move is one of the job's own rapids, a straight lift to a machine position, or free of obstacles.
     fn check(&self, found: NumberedMoves<'_>) -> TraverseResult<()> {
         let mut is_home = false;
         for &(line, movement) in found {

@@ -16,7 +16,7 @@ use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Units};
 
 type CallResult = Result<(), Box<Diagnostic>>;
 
-/// Returns the calls for a job, except those at its start and end.
+/// Returns the calls for a job, except those for the start and the end of the program.
 pub(super) fn calls<'a>(job: &'a Job, definition: &Definition) -> Result<Vec<Call<'a>>, Box<Diagnostic>> {
     let mut builder = Builder::new(job, definition);
     builder.begin();

@@ -389,8 +389,8 @@ impl Evaluator<'_> {
         Ok(result.into_iter().map(|line| line.text).collect::<Vec<_>>().join("\n"))
     }
 
-    /// Evaluates the first or the second branch of a condition. The second branch is optional. The branch that is not taken has no effect
-    /// at all, not even errors.
+    /// Evaluates the first or the second branch of a condition. The second branch is optional. The branch that is not taken is skipped, so errors in
+    /// it are not reported.
     fn branches(&mut self, takes_first: bool) -> Evaluated<()> {
         self.blanks();
         if !self.rest().starts_with('{') {

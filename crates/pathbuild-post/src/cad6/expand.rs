@@ -177,7 +177,7 @@ pub(super) fn read(name: &str, files: &dyn PostFiles) -> Result<Vec<u8>, Value> 
     Ok(content)
 }
 
-/// Returns the path if it stays below the current directory. Backslashes are separators, as on Windows.
+/// Returns the path of a file name that is relative and does not contain `..`; `None` for any other. Backslashes are separators, as on Windows.
 pub(super) fn path_below(name: &str) -> Option<Utf8PathBuf> {
     let path = Utf8PathBuf::from(name.replace('\\', "/"));
     let is_drive = name.contains(':');

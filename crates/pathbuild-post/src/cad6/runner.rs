@@ -1,4 +1,4 @@
-//! Executes control texts: sets their variables, runs both phases, and collects the lines that they produce.
+//! Executes control texts: runs both phases, and collects the lines that they produce. The caller sets the variables.
 
 use std::ops::Range;
 

@@ -12,7 +12,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Text};
 use super::numbers::bits;
 use super::variables::is_mark;
 
-/// Maximum nesting depth of parentheses and signs.
+/// Maximum nesting depth of parentheses, signs and arguments of functions.
 const MAX_DEPTH: usize = 64;
 
 /// The value of a term, together with the doubtful constructs in it.

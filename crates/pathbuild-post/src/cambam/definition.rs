@@ -260,7 +260,7 @@ impl<'a> CbppReader<'a> {
         }
     }
 
-    /// Reports elements nested in a text element, which are ignored.
+    /// Reports the elements within an element of the definition. They and their texts are ignored.
     fn notice_nested(&mut self, element: Node<'_, '_>) {
         for nested in element.children().filter(Node::is_element) {
             let line = self.lines.line(nested.range().start);

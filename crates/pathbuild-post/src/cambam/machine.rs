@@ -7,7 +7,7 @@ use crate::VelocityMode;
 use crate::line_words::{LineWords, Word};
 use crate::number::NumberFormat;
 
-/// State of the machine as far as it is known. `None` means unknown, as every field is at the beginning.
+/// State of the machine as far as it is known. `None` means unknown. At the beginning nothing is known, but coordinates count as absolute.
 #[derive(Debug, Default)]
 pub(super) struct Machine {
     /// The last number of each register as text, so that two numbers are equal if they would be written in the same way.
@@ -59,8 +59,7 @@ impl Machine {
         self.spindle = None;
     }
 
-    /// Updates the state by a line. `code` is the motion of a macro in that line; it applies even if the macro's section writes other
-    /// words.
+    /// Updates the state after a line. `code` is the motion of a macro in that line; it applies even if the macro's section writes other words.
     pub(super) fn read(&mut self, line: &LineWords, code: Option<Code>, format: NumberFormat) {
         if let Some((number, _)) = code {
             self.motion = Some(number * 10);
@@ -130,7 +129,8 @@ impl Machine {
             self.set(register, known.then(|| format.format(word.number)));
         }
         if moved && self.motion.is_some_and(|motion| motion == 730 || (810..=890).contains(&motion)) {
-            // For the post, a cycle leaves the tool at R, whatever the control does afterwards.
+            // The Z of a cycle is the bottom of the hole, where the tool does not stay. The state places the tool at R, although a control may
+            // retract it higher (G98).
             let retract = self.last_text(Register::R).map(str::to_owned);
             self.set(Register::Z, retract);
         }

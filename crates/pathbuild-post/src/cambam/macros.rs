@@ -45,7 +45,7 @@ pub(super) enum Macro {
 /// A coordinate passed to `{$check}`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Argument {
-    /// Any coordinate: this axis is not compared.
+    /// Any coordinate: this axis is neither compared nor moved.
     Any,
     /// The coordinate of the current move.
     Own,

@@ -194,7 +194,7 @@ impl Writer<'_> {
         format.round(self.scaled(z)) < format.round(self.scaled(self.operation().surface))
     }
 
-    /// Converts the coordinate perpendicular to the cylinder's axis to an angle around it.
+    /// Converts the coordinate perpendicular to the cylinder's axis to an angle around it, if the definition wraps paths around a cylinder.
     fn wrap_around_cylinder(&mut self, to: [Option<f64>; 3]) -> WriteResult {
         let rotary = self.plan.definition.options.rotary;
         if !rotary.wrap {
