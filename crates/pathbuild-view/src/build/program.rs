@@ -22,7 +22,7 @@ pub struct ProgramSource<'a> {
     pub trace: &'a Trace<usize>,
     /// The path and the paths that it embeds, as drawn and with all parameters bound.
     pub parts: &'a [(DrawnSource<'a>, &'a Path)],
-    /// Native text of the program, written without splitting moves; `None` to omit it.
+    /// Native text of the program, in which moves are not split for the correction of heights; `None` to omit it.
     pub native: Option<&'a str>,
     /// Text of the program as written by `emit`; `None` to omit it.
     pub emitted: Option<EmittedText<'a>>,

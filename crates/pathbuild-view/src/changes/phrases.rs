@@ -4,7 +4,7 @@ use pathbuild_diagnostic::{Lang, Number, counted};
 
 use super::{ChangeKind, Group};
 
-/// Describes the change of a group of moves, for example "0.5 mm deeper, feed 150 instead of 300".
+/// Describes the change of a group of moves, for example "0.5 mm deeper, slower: F150 instead of F300".
 pub fn phrase(group: &Group, lang: Lang) -> String {
     let choose = |en, de| lang.choose(en, de);
     match group.kind {

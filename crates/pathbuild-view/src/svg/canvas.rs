@@ -1,4 +1,4 @@
-//! Writes SVG in few colours. All text from drawings passes through [`escaped`].
+//! Writes SVG, and defines the colours of the pictures. All text from drawings passes through [`escaped`].
 
 use std::fmt::Write;
 

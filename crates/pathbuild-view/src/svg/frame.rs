@@ -145,7 +145,8 @@ impl PageTransform {
     }
 }
 
-/// Returns the bounding boxes of everything in a path, including the removed material, in coordinates of the drawing.
+/// Returns the bounding boxes of the elements, the texts and the removed material of a path, in coordinates of the drawing; those of rapid moves only
+/// if the path has no elements.
 fn corners_of(path: &ScenePath) -> Vec<[Point; 2]> {
     let moved = |corners: [Point; 2]| corners.map(|[x, y]| [x + path.zero[0], y + path.zero[1]]);
     let shapes = path.elements.iter().map(|element| element.shape.extent());
@@ -207,7 +208,7 @@ impl OccupiedSpace {
         self.taken.extend(self.cells(rectangle));
     }
 
-    /// Occupies the first of the rectangles that is free, and returns its index.
+    /// Occupies the first of the rectangles that is free, and returns its index; `None` if none of them is.
     pub(super) fn occupy_first_free(&mut self, candidates: &[Rectangle]) -> Option<usize> {
         let found = candidates.iter().position(|rectangle| self.occupied_cells(*rectangle) == 0)?;
         self.occupy(candidates[found]);

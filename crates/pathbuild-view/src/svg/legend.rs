@@ -71,7 +71,7 @@ impl<'a> Legend<'a> {
         self.top + self.overhang + 5.0 * LINE_HEIGHT + self.findings.len() as f64 * LINE_HEIGHT
     }
 
-    /// Draws the legend. `hidden` are the numbers of elements that do not fit in the picture.
+    /// Draws the legend. `hidden` are the numbers of the cutting order for which the picture has no room.
     pub(super) fn draw(&self, canvas: &mut Canvas, hidden: &[u32]) {
         canvas.open(&format!("id=\"legend\" fill=\"{INK_COLOUR}\""));
         canvas.text(
@@ -181,7 +181,7 @@ impl<'a> Legend<'a> {
 /// Width in px of the depth scale with its labels.
 const DEPTHS_WIDTH: f64 = 380.0;
 
-/// Draws the numbers of elements that do not fit in the picture, if there are any.
+/// Lists the numbers of the cutting order for which the picture has no room, if there are any.
 pub(super) fn draw_hidden_numbers(
     canvas: &mut Canvas,
     numbers: &[u32],
@@ -209,8 +209,8 @@ pub(super) fn ranges(numbers: &[u32]) -> String {
     runs.map(run).collect::<Vec<_>>().join(", ")
 }
 
-/// Draws the kinds of lines that occur in the picture, from `left` to `right` and continuing on further lines. Returns the position of the
-/// last line.
+/// Draws the kinds of lines that occur in the picture, from `left` to `right` and continuing on further lines. Returns the y coordinate of the last
+/// line in px.
 pub(super) fn draw_line_kinds(
     canvas: &mut Canvas,
     scene: &Scene,

@@ -45,7 +45,7 @@ pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.finish()
 }
 
-/// Draws the drawing and the moves of a scene. Returns the numbers of elements that do not fit in the picture.
+/// Draws the drawing and the moves of a scene. Returns the numbers of the cutting order for which there is no room.
 fn drawing(
     canvas: &mut Canvas,
     scene: &Scene,
@@ -65,7 +65,7 @@ fn drawing(
     hidden
 }
 
-/// Draws the stock of a scene. The page is empty if the stock is unknown.
+/// Draws the stock of a scene. If the stock is unknown, the picture has only a legend and the findings.
 fn stock_svg(scene: &Scene, shown: VisibleParts) -> String {
     let stock = MilledStock::of(scene);
     let frame = Frame::around(stock.extent());

@@ -125,7 +125,8 @@ fn deeper(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     a.into_iter().chain(b).reduce(f64::min)
 }
 
-/// Returns a key that is equal for moves along the same line. It contains the ends, in either order, and for arcs the centre.
+/// Returns a key that is equal for moves along the same line, in either direction. It contains the ends and, for arcs, the centre and the side on
+/// which the arc runs.
 fn line_of(movement: &SceneMove) -> Vec<i64> {
     let mut ends = [movement.from(), movement.to()].map(|end| end.map(micrometres));
     ends.sort_unstable();

@@ -254,7 +254,7 @@ impl<'s> MilledStock<'s> {
         swept_area(&self.paths, at)
     }
 
-    /// Whether the shape of a cutter, and so the section of its cuts, is unknown.
+    /// Whether the shape of any cutter, and so the cross-section of its cuts, is unknown.
     fn has_unknown_tip(&self) -> bool {
         cuts(self.scene).any(|cut| cut.setting.tip == Tip::Unknown)
     }
@@ -271,7 +271,7 @@ impl<'s> MilledStock<'s> {
         }
     }
 
-    /// Draws the meaning of the colours, from `left` to `right` and continuing on further lines.
+    /// Draws the meaning of the colours, from `at` to `right` and continuing on further lines.
     pub(super) fn legend(&self, canvas: &mut Canvas, shown: VisibleParts, at: Point, right: f64) {
         for LegendEntry { at: [x, y], color, name } in self.legend_entries(shown, at, right) {
             let mut left = x;
@@ -394,7 +394,8 @@ pub enum StockChange {
 /// Draws the material that a change additionally removes from the stock, or additionally leaves. Returns `None` if there is none, or if
 /// the stock is unknown.
 pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, lang: Lang) -> Option<String> {
-    // Programs are compared in their own coordinates, wherever the path is in the drawing, and by the areas that their cutters sweep.
+    // Programs are compared in their own coordinates, wherever the path is in the drawing, and by the areas that their cutters sweep, whatever the
+    // shapes of the tips.
     let [old, new] = [old, new].map(|path| {
         let mut path = ScenePath { zero: [0.0; 2], parts: Vec::new(), tip: Tip::Flat, ..path.clone() };
         path.tools.iter_mut().for_each(|tool| tool.tip = Tip::Flat);

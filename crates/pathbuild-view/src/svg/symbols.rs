@@ -95,7 +95,8 @@ fn other_text(canvas: &mut Canvas, place: &PageTransform, text: &str, at: Point,
     canvas.text([x, y], size, Anchor::Middle, &style, text);
 }
 
-/// Draws the shapes above the moves: elements, texts, support bars, probes and markers. Returns the numbers of elements that do not fit.
+/// Draws the shapes above the moves: elements, support bars, texts, markers, probes, numbers, and names of embedded paths. Returns the numbers for
+/// which there is no room.
 pub(super) fn draw_above_moves(
     canvas: &mut Canvas,
     path: &ScenePath,
@@ -308,7 +309,7 @@ fn probe_radius(place: &PageTransform) -> f64 {
 const LEADER_LENGTHS: [f64; 4] = [18.0, 26.0, 36.0, 48.0];
 const LEADER_DIRECTIONS: u32 = 12;
 
-/// Draws the numbers of the cutting order, on each element or beside it with a leader line. Returns the numbers that do not fit.
+/// Draws the numbers of the cutting order, on each element or beside it with a leader line. Returns the numbers for which there is no room.
 pub(super) fn draw_order_numbers(
     canvas: &mut Canvas,
     path: &ScenePath,

@@ -1,4 +1,5 @@
-//! The picture on a setup sheet. It is true to scale if it fits on the paper; otherwise it has a round scale, which is stated.
+//! The picture on a setup sheet. It has its true size if that fits on the paper, and is enlarged if it would be very small; otherwise it is reduced.
+//! The scale is always round, and stated.
 
 use pathbuild_diagnostic::Lang;
 
