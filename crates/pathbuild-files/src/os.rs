@@ -159,8 +159,8 @@ impl From<io::Error> for ReadError {
     }
 }
 
-/// Opens a file for reading, without waiting. The caller must read it only if it is a regular file: reading a pipe may block, and a device may never
-/// end.
+/// Opens a file for reading, without waiting for the writer of a pipe. The caller must read it only if it is a regular file: reading a pipe may
+/// block, and a device may never end.
 ///
 /// # Errors
 /// If the file does not exist or cannot be opened.
