@@ -54,7 +54,7 @@ impl ElementPart {
         }
     }
 
-    /// Returns centres at which a text circle of this radius overlaps this part of the element, those that look best first.
+    /// Returns candidates for the centre of a text circle of this radius that is to overlap this part of the element, those that look best first.
     fn text_positions(&self, radius: f64) -> Vec<Point> {
         const LENGTH_FRACTIONS: [f64; 11] = [0.5, 0.35, 0.65, 0.2, 0.8, 0.42, 0.58, 0.28, 0.72, 0.1, 0.9];
         const SIDE_OFFSETS: [f64; 3] = [0.6, -0.6, 0.0];
@@ -191,7 +191,7 @@ impl<'a> TextPositions<'a> {
         seat
     }
 
-    /// Whether the circle overlaps the target and keeps well clear of everything else.
+    /// Whether the circle overlaps the target and keeps well clear of all other elements on the layer that take texts.
     fn is_clear_of_others(&self, target: usize, layer: &str, centre: Point, radius: f64) -> bool {
         let others = self
             .candidates
