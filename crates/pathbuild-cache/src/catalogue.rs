@@ -137,7 +137,7 @@ pub struct Key {
 pub enum CacheFault {
     /// The file is incomplete, altered, or not a results file.
     Damaged,
-    /// The file was written by another build of the program, or for another query.
+    /// The file was written by another build of the program, or for another query or other settings.
     Foreign,
 }
 
@@ -147,7 +147,7 @@ const MAGIC: &[u8; 16] = b"pathbuild cache\x05";
 const HEADER_BYTES: usize = 16 + 32 + 32 + 32;
 
 impl Key {
-    /// Creates the key by hashing the build and the query.
+    /// Creates the key by hashing the build, and the question: query, settings and further inputs.
     pub fn new(build: &str, question: &str) -> Self {
         let hash = |text: &str| *blake3::hash(text.as_bytes()).as_bytes();
         Self { build: hash(build), question: hash(question) }

@@ -32,7 +32,7 @@ pub struct Verdict {
     pub files: Vec<FileState>,
     /// The current state of each directory of the catalogue.
     pub directories: Vec<DirectoryFact>,
-    /// Whether every stamp and every directory is unchanged, so that the catalogue need not be rewritten.
+    /// Whether every compared stamp and every directory is unchanged, so that the catalogue need not be rewritten.
     pub is_current: bool,
 }
 
