@@ -123,7 +123,7 @@ pub struct ScenePath {
     pub parts: Vec<FinishedPart>,
     /// Z-probes of the program, in measuring order.
     pub probes: Vec<ProbeMark>,
-    /// The tool's moves, in order. Empty if the path has errors, unless the only errors are cuts into its own part.
+    /// The tool's moves, in order. Empty if the path has errors, unless all of them are about cuts into a part or through a support bar.
     pub moves: Vec<SceneMove>,
     /// Lengths and times of the program; `None` if the path has no program.
     pub totals: Option<Totals>,

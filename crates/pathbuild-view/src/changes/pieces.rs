@@ -36,7 +36,7 @@ impl Snapper {
         Self { tolerance, points: Vec::new(), cells: HashMap::new() }
     }
 
-    /// Returns the number of a point: that of the first earlier point within the tolerance, or a new one.
+    /// Returns the number of a point: that of an earlier point within the tolerance, or a new one.
     pub(super) fn number(&mut self, point: [f64; 3]) -> u32 {
         let cell = |offset: f64| point.map(|at| floor((at + offset) / (8.0 * self.tolerance)));
         let [low, high] = [cell(-self.tolerance), cell(self.tolerance)];

@@ -21,11 +21,11 @@ pub struct Sheet {
     pub drawings: Vec<String>,
     /// The names of the programs, in the order in which the machine runs them.
     pub programs: Vec<String>,
-    /// Path of the file in which the operator writes measured heights.
+    /// Name of the file in which the operator writes measured heights; `None` without Z-probes.
     pub values: Option<String>,
     /// Two lines of the programs' headers: the provenance, and the title.
     pub head: [String; 2],
-    /// The hashes in the line of provenance.
+    /// The hashes in the line of provenance that identify the program.
     pub hashes: String,
     /// The scene, in coordinates of the program.
     pub scene: Scene,
