@@ -112,8 +112,8 @@ impl PostDefinition {
         }
     }
 
-    /// Returns the dialect in which the output is read back: `named`, or else the one that the definition declares. `None` if neither
-    /// names a known dialect.
+    /// Returns the dialect in which the output is read back: `named`, or else the one that the definition declares. `None` if neither is given, or if
+    /// its name is unknown.
     pub fn reader(&self, named: Option<&str>) -> Option<Dialect> {
         Target::of(named.or(self.dialect())?).map(|target| target.reader)
     }
