@@ -59,7 +59,7 @@ struct BinaryGroups<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Section {
     Other,
-    /// The last pair was `0/SECTION`.
+    /// The last pair, apart from comments, was `0/SECTION`.
     Begun,
     Entities,
     AfterEntities,
@@ -148,7 +148,7 @@ enum ValueType {
     Short,
     Long,
     LongLong,
-    /// Bytes preceded by their count.
+    /// Bytes preceded by their count. The reader needs none of them, so they become an empty value.
     Chunk,
     Unknown,
 }
@@ -168,7 +168,7 @@ fn value_type(code: i16) -> ValueType {
     }
 }
 
-/// Whether the input ends with `0/EOF`, apart from a short padding.
+/// Whether a value `EOF` occurs near the end of the file. A short padding may follow it.
 fn ends_with_eof(rest: &[u8]) -> bool {
     let tail = &rest[rest.len().saturating_sub(SEARCHED_BYTES)..];
     memmem::find(tail, b"\0EOF\0").is_some()

@@ -16,7 +16,7 @@ pub(crate) fn may_hold_wanted<'a>(
 ) -> bool {
     let (line_end, begin) = (blocks.line_end(), blocks.consumed());
     let bytes = &blocks.bytes()[begin..];
-    // Line numbers continue from the previous query, since a file may name a million layers.
+    // Lines are counted on from the previous new layer, not from the start, since a file may name a million layers.
     let mut counted = *blocks;
     any_digit(b'8', bytes, |eight| {
         let Some(at) = line_after_code(bytes, eight, line_end) else { return false };

@@ -156,8 +156,8 @@ impl<'a> Blocks<'a> {
         Ok(wanted)
     }
 
-    /// Returns the names of the layers, wanted or not, on which a block and the blocks nested in it draw more than texts and annotations. Layer `0`,
-    /// which stands for the layer of the insertion, is left out.
+    /// Returns the names of the layers, wanted or not, on which a block and the blocks nested in it draw more than texts, hatches and
+    /// annotations. Layer `0`, which stands for the layer of the insertion, is left out.
     pub(crate) fn drawn_layers(
         &mut self,
         block: BlockId,

@@ -117,7 +117,7 @@ impl<'d> Collector<'d> {
         }
     }
 
-    /// Adds an entity with this shape, or records the fault because of which it has none.
+    /// Adds an entity with this shape, or records the fault if it has none.
     #[inline(always)]
     pub(crate) fn add(
         &mut self,

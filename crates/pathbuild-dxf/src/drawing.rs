@@ -50,14 +50,15 @@ pub struct Drawing {
     pub layers: Vec<Layer>,
     /// Broken entities on wanted layers.
     pub faults: Vec<Fault>,
-    /// Unsupported curves on wanted layers (PB111).
+    /// Unsupported curves and insertions on wanted layers (PB111).
     pub left_out: Vec<OmittedCurve>,
     /// The places of the hatches on wanted layers, which draw nothing themselves. The point of a place is on the hatch's boundary, or is the centre
     /// of one of its arcs.
     pub hatches: Vec<Place>,
-    /// Findings about the file as a whole. If one of them is an error, there are no entities.
+    /// Findings about the file, and warnings that are given only once per layer, block or drawing. If one of them is an error, there are no
+    /// entities.
     pub diagnostics: Vec<Diagnostic>,
-    /// Whether a text on an unwanted layer, or any line of a block that may be inserted, satisfied [`Options::note_text`].
+    /// Whether a text on an unwanted layer satisfied [`Options::note_text`]. If the drawing has insertions, the texts of all blocks are tested.
     pub has_noted_text: bool,
 }
 
@@ -101,7 +102,7 @@ pub struct Fault {
     pub diagnostic: Diagnostic,
 }
 
-/// An unsupported curve on a wanted layer.
+/// An unsupported curve on a wanted layer, or an insertion whose block is missing, scaled differently in x and y, or drawn on other layers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OmittedCurve {
     /// Index into [`Drawing::layers`].
@@ -110,8 +111,8 @@ pub struct OmittedCurve {
     pub kind: EntityKind,
     /// First point of the entity, if known.
     pub point: Option<Point>,
-    /// If the entity inserts a block that draws only on unwanted layers, the names of those layers; otherwise empty. If one of them is read for
-    /// another purpose, nothing is missing.
+    /// If the entity inserts a block that draws only on unwanted layers, the names of those layers; otherwise empty. A caller that
+    /// reads one of them for another purpose, for example as clamps, need not report the insertion.
     pub layers: sync::Arc<[SmolStr]>,
     /// PB111, with line and handle.
     pub diagnostic: Diagnostic,
@@ -170,9 +171,9 @@ pub struct Arc {
     pub centre: Point3,
     /// Radius in mm, positive.
     pub radius: f64,
-    /// Start angle in degrees as in the file, mirrored if the entity is mirrored.
+    /// Start angle in degrees, in world coordinates. It may lie outside of 0 to 360.
     pub start_angle: f64,
-    /// End angle in degrees.
+    /// End angle in degrees, which may be smaller than the start angle.
     pub end_angle: f64,
     /// Whether the arc runs clockwise from start to end, as mirrored arcs and negative bulges do.
     pub clockwise: bool,

@@ -211,7 +211,7 @@ fn iso_8859(part: u32) -> CodePage {
 /// Replacement for an escape that does not denote a character.
 const REPLACEMENT: char = char::REPLACEMENT_CHARACTER;
 
-/// Decodes all escapes; those that denote no character become U+FFFD. Also returns whether all escapes denote a character.
+/// Decodes the escapes `\U+XXXX` and `\M+nXXXX`; those that denote no character become U+FFFD. Also returns whether all escapes denote a character.
 fn unescape(text: Cow<'_, str>) -> (Cow<'_, str>, bool) {
     let bytes = text.as_bytes();
     if !memchr_iter(b'\\', bytes).any(|at| matches!(bytes[at..], [_, b'U' | b'M', b'+', ..])) {
@@ -283,7 +283,7 @@ fn hexadecimal(digits: &str) -> Option<u16> {
     u16::from_str_radix(digits, 16).ok().filter(|_| all_digits)
 }
 
-/// Decodes the caret codes of a one-line text: `^I` is a tab, `^J` and `^M^J` a line feed, `^ ` a caret. Others stay as they are.
+/// Decodes the caret codes of a one-line text: `^I` is a tab, `^J`, `^M` and `^M^J` a line feed, `^ ` a caret. Others stay as they are.
 pub(crate) fn without_carets(text: Cow<'_, str>) -> Cow<'_, str> {
     if !text.contains('^') {
         return text;

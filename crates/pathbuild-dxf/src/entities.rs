@@ -118,8 +118,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
-    /// Reads to the next record in the block, wanted or not, that is more than a text or an annotation. Returns its layer and, if it is an INSERT,
-    /// the block's name.
+    /// Reads to the next record in the block, wanted or not, that is more than a text, hatch or annotation. Returns its layer and, if it is an
+    /// INSERT, the block's name.
     pub(crate) fn next_element(
         &mut self,
         records: &mut Records<'a>,
@@ -410,7 +410,7 @@ impl RecordKind {
         matches!(self, Self::Vertex | Self::SequenceEnd)
     }
 
-    /// Whether a record of this kind draws more than texts and annotations.
+    /// Whether a record of this kind draws something other than a text or a hatch. Annotations have no kind.
     fn is_element(self) -> bool {
         !(self.is_part() || self.is_template() || matches!(self, Self::Text | Self::MText | Self::Hatch))
     }
@@ -420,7 +420,7 @@ impl RecordKind {
         self == Self::Foreign(EntityKind::AttDef)
     }
 
-    /// Returns a bit mask of the codes below 80 that this kind repeats.
+    /// Returns a bit mask of the codes below 64 that this kind repeats.
     #[inline]
     fn repeated_codes(self) -> u64 {
         const fn bits(codes: &[u32]) -> u64 {

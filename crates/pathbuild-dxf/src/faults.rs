@@ -74,7 +74,7 @@ pub(crate) enum EntityError<'a> {
     Tilted,
     /// Coordinates too large to compute with: PB002.
     TooLarge,
-    /// A shape that cannot be milled: PB111.
+    /// An unsupported shape or insertion, which is left out: PB111.
     LeftOut {
         /// The message, which gives the reason.
         message: &'static Message,

@@ -1,7 +1,7 @@
 //! The groups of one entity, kept as bytes until the entity turns out to be wanted.
 //!
-//! Each code below 80 has a slot; groups that an entity repeats (points of a polyline, chunks of a text) are also kept in order. Storing them
-//! allocates no memory per entity.
+//! Each code that the reader needs has a slot, by its [`Role`]; groups that an entity repeats (points of a polyline, chunks of a text) are also
+//! kept in order. Storing them allocates no memory per entity.
 
 use pathbuild_diagnostic::Handle;
 

@@ -97,7 +97,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Reads header variables after the end of HEADER, with an end of their own, as written by dxflib 2.0.
+    /// Reads header variables that follow the end of HEADER and have an ENDSEC of their own, as written by dxflib 2.0.
     fn variables_after_header(&mut self, first: Pair<'a>) -> Result<Pair<'a>, Fatal> {
         let end = self.header.read_on(first, &mut self.pairs).map_err(|stop| stop_error(stop, "HEADER"))?;
         if !end.is("ENDSEC") {

@@ -1,6 +1,6 @@
 //! Fast iteration over the pairs of entities. Unusual pairs are left to [`Pairs`], which is careful rather than fast.
 //!
-//! Lines of a DXF file are only a few bytes long, and their lengths vary. A new search for each line would cost more than the line itself
+//! Lines of a DXF file are only a few bytes long, and their lengths vary. A new search for each line would cost more than reading the line
 //! and would have to wait for the previous search, so all line ends of a stretch of bytes are found at once.
 
 use wide::u8x16;
@@ -223,7 +223,7 @@ impl<'a> ScannedPairs<'a> {
         if value_ends == 0 {
             return None;
         }
-        // `at` is always smaller; the remainder proves it to the compiler.
+        // `at` is always within the window; the remainder proves it to the compiler.
         let at = self.at % WINDOW_BYTES;
         let (length, role) = Role::of_line(*self.bytes[at..].first_chunk()?, code_end)?;
         let end = value_ends.trailing_zeros() as usize % WINDOW_BYTES;
@@ -344,7 +344,7 @@ impl Role {
         Some((length + 1, Self::of(code)))
     }
 
-    /// Returns the slot in which an entity keeps the value. [`Role::WITHOUT_ROLE`] and the roles after it have none.
+    /// Returns the slot in which an entity keeps the value. All codes of [`Role::WITHOUT_ROLE`] share one slot; the roles after it have none.
     #[inline]
     pub(crate) fn slot(self) -> usize {
         usize::from(self.0)
@@ -386,8 +386,8 @@ fn number(padded: u64) -> Option<i32> {
     if !is_blank_or_digit || !is_in_range || has_blank_after_digit || !ends_with_digit {
         return None;
     }
-    // Combine neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs to no pair
-    // overflows at the top.
+    // Combine neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Sums that belong to no
+    // pair are masked out or overflow at the top.
     let twos = (values.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
     let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
     i32::try_from(fours.wrapping_mul(1 + (10_000 << 32)) >> 32).ok()

@@ -39,7 +39,7 @@ struct FoundLayer<'a> {
     used: Option<Box<UsedLayer>>,
 }
 
-/// A layer that a wanted entity uses.
+/// The properties of a layer, looked up at the first entity that needs them.
 #[derive(Clone, Debug)]
 pub(crate) struct UsedLayer {
     /// The name: trimmed, decoded, without xref prefix.
@@ -86,7 +86,7 @@ impl<'a, 'o> Layers<'a, 'o> {
         self.last.map_or(b"", |(spelling, _)| spelling)
     }
 
-    /// Returns the properties of a wanted layer.
+    /// Returns the properties of a layer, which are looked up only once.
     #[inline]
     pub(crate) fn used(
         &mut self,
@@ -158,7 +158,7 @@ impl UsedLayer {
     }
 }
 
-/// The LAYER table, of which only records of wanted layers are read.
+/// The LAYER table. The first few layers are searched one by one; if there are more, all records are read.
 #[derive(Debug, Default)]
 pub(crate) struct LayerTable<'a> {
     tables: Option<Pairs<'a>>,
@@ -167,7 +167,7 @@ pub(crate) struct LayerTable<'a> {
     all: Option<KnownLayers<'a>>,
 }
 
-/// Layers by folded name. If several have the same name, the first one is used. Few are ever looked up, so their values are decoded on demand.
+/// Layers by folded name. If several have the same name, the first one is used. Few are ever looked up, so their values are parsed on demand.
 #[derive(Debug, Default)]
 struct KnownLayers<'a> {
     records: HashMap<SmolStr, LayerRecord<'a>>,
@@ -222,7 +222,7 @@ impl<'a> LayerTable<'a> {
     }
 }
 
-/// Returns the longest part of a name that is the same in any case and code page: ASCII without escapes and letters.
+/// Returns the longest part of a name that is the same in any case and code page: ASCII characters other than letters and backslashes.
 fn case_independent_part(name: &[u8]) -> &[u8] {
     let is_uncertain = |byte: &u8| !byte.is_ascii() || byte.is_ascii_alphabetic() || *byte == b'\\';
     name.split(is_uncertain).max_by_key(|part| part.len()).unwrap_or_default()
@@ -341,7 +341,7 @@ fn is_end_of_table(head: &Pair<'_>) -> bool {
     ["ENDTAB", "TABLE", "ENDSEC"].iter().any(|keyword| head.is(keyword))
 }
 
-/// The line type of entities and layers that name none.
+/// The line type of layers that name none, and of BYBLOCK outside of blocks.
 pub(crate) const CONTINUOUS: SmolStr = SmolStr::new_static("CONTINUOUS");
 
 /// The line type of an entity as the file states it.

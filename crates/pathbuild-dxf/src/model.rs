@@ -217,7 +217,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         self.refuse_insertion(traits, &[layer], &trouble, around)
     }
 
-    /// Reports a missing block that is inserted on a layer that is not read. Reports nothing if that layer is frozen.
+    /// Reports a missing block that is inserted on a layer that is not read. Reports nothing if that layer is frozen, or in
+    /// compatible mode.
     fn note_missing(
         &mut self,
         traits: &CommonProperties,

@@ -47,11 +47,11 @@ pub(crate) struct Spellings<'a, T> {
     others: HashMap<&'a [u8], T>,
 }
 
-/// A spelling of up to 16 characters, compared as a whole, because branches on single characters cannot be predicted.
+/// A spelling of up to 16 bytes, compared as a whole, because branches on single bytes cannot be predicted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct ShortSpelling {
     length: usize,
-    /// The characters; the two words overlap for short spellings.
+    /// The bytes; the two words overlap for short spellings.
     characters: [u64; 2],
 }
 
@@ -103,7 +103,7 @@ impl ShortSpelling {
         let characters = match length {
             0..4 => [spelling.iter().fold(0, |word, byte| word << 8 | u64::from(*byte)), 0],
             4..=16 => {
-                // Offset of the second four characters from each end: 0 for up to 7 characters, 4 for up to 15, 8 for 16.
+                // Offset of the second four bytes from each end: 0 for up to 7 bytes, 4 for up to 15, 8 for 16.
                 let second = length / 8 * 4;
                 let four =
                     |at: usize| Some(u64::from(u32::from_le_bytes(*spelling.get(at..)?.first_chunk()?)));

@@ -58,8 +58,8 @@ fn is_with_comma(text: &str) -> bool {
     text.matches(',').count() == 1 && text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite)
 }
 
-/// Parses `[-]digits[.digits]` with at most 16 characters after the sign. `None` for any other form, including a point next to a single
-/// digit.
+/// Parses digits with an optional minus sign and an optional point, at most 16 characters after the sign. `None` for any other form, and for
+/// a point with a single digit and no sign.
 #[inline]
 fn plain_decimal(value: &[u8]) -> Option<f64> {
     // By far the most frequent number: most heights and components of normals are 0.
@@ -96,7 +96,7 @@ fn other_decimal(value: &[u8]) -> Option<f64> {
     Some(quotient(number, decimals, is_negative))
 }
 
-/// Parses eight to sixteen characters without the point, and returns how many digits follow it.
+/// Parses eight to sixteen characters. Returns their digits as one number, and how many of them follow the point.
 fn long_number(text: &[u8]) -> Option<(u64, usize)> {
     let split = text.len().checked_sub(WIDTH).filter(|split| *split <= WIDTH)?;
     let (first, decimals) = Digits::first(*text.first_chunk()?, split).without_point();
@@ -179,8 +179,8 @@ impl Digits {
     fn number(self) -> Option<u64> {
         let Self(digits) = self;
         let beyond_nine = (digits | digits.wrapping_add(ONE_PER_BYTE * 0x76)) & (ONE_PER_BYTE * 0x80);
-        // Combine neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Everything that belongs to no pair
-        // overflows at the top.
+        // Combine neighbours: digits to two-digit numbers, these to four-digit numbers, and these to the result. Sums that belong to no
+        // pair are masked out or overflow at the top.
         let twos = (digits.wrapping_mul(1 + (10 << 8)) >> 8) & 0x00FF_00FF_00FF_00FF;
         let fours = (twos.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_FFFF_0000_FFFF;
         (beyond_nine == 0).then(|| fours.wrapping_mul(1 + (10_000 << 32)) >> 32)

@@ -25,7 +25,7 @@ pub(crate) struct Pair<'a> {
 pub(crate) enum Stop<'a> {
     /// The input ends. An incomplete pair and blank lines at the end are ignored.
     End {
-        /// The line after the last line of the input.
+        /// The line at which the next code or value is missing.
         line: u32,
     },
     /// A line that should hold a group code holds something else.
@@ -52,7 +52,7 @@ impl Pair<'_> {
         self.value.trim_ascii()
     }
 
-    /// Whether this is `0/KEYWORD`.
+    /// Whether this is `0/KEYWORD`, ignoring case and surrounding blanks.
     #[inline]
     pub(crate) fn is(&self, keyword: &str) -> bool {
         let keyword = keyword.as_bytes();
@@ -80,7 +80,7 @@ impl<'a> Pairs<'a> {
         Ok(Pair { code, line, value })
     }
 
-    /// The whole input.
+    /// The input from its start, including the pairs that have been consumed.
     #[inline]
     pub(crate) fn bytes(&self) -> &'a [u8] {
         self.bytes
@@ -195,7 +195,7 @@ pub(crate) enum SectionEnd<'a> {
     Missing(Pair<'a>),
     /// The input ended within the section.
     CutOff {
-        /// The last line of the input.
+        /// The line after the last line end of the input.
         line: u32,
     },
 }
@@ -270,7 +270,7 @@ impl<'a> Pairs<'a> {
     }
 }
 
-/// Whether the file ends with `0/EOF`, apart from a short padding.
+/// Whether `0/EOF` occurs near the end of the file. A short padding may follow it.
 pub(crate) fn ends_with_eof(pairs: &Pairs<'_>) -> bool {
     const SEARCHED_BYTES: usize = 4096;
     let bytes = pairs.bytes();

@@ -60,7 +60,7 @@ impl Placement {
         Self { x_axis: cos_sin(turn), turn, ..Self::IDENTITY }
     }
 
-    /// Returns a placement that scales x, y and z; `None` if x and y differ in more than sign.
+    /// Returns a placement that scales x, y and z; `None` if x is 0, or if x and y differ in more than sign.
     pub(crate) fn scaled_by(x: f64, y: f64, z: f64) -> Option<Self> {
         /// Relative difference up to which computed scales are considered equal.
         const SCALE_TOLERANCE: f64 = 2e-7;

@@ -2,8 +2,8 @@
 //! reference/configuration, `approximate-curves`; DXF reference: ELLIPSE has its centre in 10, the end of the major axis relative to it in
 //! 11, the ratio in 40, parameters in 41 and 42; SPLINE has its degree in 71, knots in 40, control points in 10, weights in 41)
 //!
-//! A curve is divided into biarcs: two tangent arcs with given directions at both ends. Their joint is chosen so that both ends are equally
-//! far from the corner of their tangents.
+//! A curve is divided into biarcs: pairs of arcs that meet in a common tangent and have given directions at both ends. The joint is chosen so
+//! that the tangents at both ends have the same length up to the common tangent.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -214,13 +214,13 @@ pub(crate) enum ApproximationFailure {
     TooFar,
 }
 
-/// Number of sample points per span of two arcs.
+/// Number of equal steps in which the span of a biarc is sampled.
 const SAMPLES: u32 = 24;
 
 /// Safety factor: between two samples the distance may be slightly larger than at both.
 const MARGIN: f64 = 0.9;
 
-/// Number of halvings after which a piece becomes a line whatever its distance: shorter spans differ only by rounding.
+/// Number of halvings after which a span becomes a line, however far the curve is from it: shorter spans differ only by rounding.
 const MAX_HALVINGS: u32 = 24;
 
 /// Appends the pieces of a curve between two parameters.
@@ -248,7 +248,7 @@ pub(crate) fn approximate(
     if pieces.len() > tolerance.most_pieces { Err(ApproximationFailure::TooMany) } else { Ok(()) }
 }
 
-/// Returns the biarc that matches the ends and directions of the curve, if it is close enough, or a line if the curve has no direction there.
+/// Returns the biarc with the ends and directions of the curve, or the chord if there is no such biarc; `None` if it is too far from the curve.
 fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<Vec<CurvePiece>> {
     let width = to - from;
     let rays = ray(curve, from, width).zip(ray(curve, to, -width));

@@ -75,7 +75,7 @@ impl Array {
         })
     }
 
-    /// Returns the insertion point.
+    /// Returns the insertion point, in the coordinates of the space that contains the INSERT.
     pub(crate) fn begin(&self) -> Point {
         let at = self.first().point(Point3::default());
         Point::new(at.x, at.y)
@@ -126,7 +126,7 @@ fn scale<'a>(fields: &Fields<'a>, code: i32) -> Result<f64, BadGroup<'a>> {
     Ok(fields.number(code)?.unwrap_or(1.0))
 }
 
-/// Reads a number of copies; missing or 0 means one.
+/// Reads a number of copies; a missing number or one below 1 means a single copy.
 fn count<'a>(fields: &Fields<'a>, code: i32) -> Result<u32, BadGroup<'a>> {
     let count = fields.whole_number(code)?.unwrap_or(1).max(1);
     Ok(u32::try_from(count).unwrap_or(u32::MAX))

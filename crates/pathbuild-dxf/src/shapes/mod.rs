@@ -22,7 +22,7 @@ pub(crate) use text::{mtext, text};
 
 /// Whether object coordinates are mirrored: extrusion (0, 0, -1).
 fn is_mirrored<'a>(fields: &Fields<'a>) -> Result<bool, EntityError<'a>> {
-    /// Tolerance for the components of a normal that was computed.
+    /// Tolerance for the x and y of a computed normal, relative to its z.
     const NORMAL_TOLERANCE: f64 = 1e-9;
     if fields.get(210).is_none() && fields.get(220).is_none() && fields.get(230).is_none() {
         return Ok(false);

@@ -1,4 +1,5 @@
-//! LWPOLYLINE and two-dimensional POLYLINE as lines and arcs along their middle line: the cutter has a width of its own.
+//! LWPOLYLINE and two-dimensional POLYLINE as lines and arcs along their middle line. Their width is ignored, since the cutter determines how
+//! wide a path is milled.
 
 use pathbuild_diagnostic::messages::drawing::POLYLINE_NOT_FLAT;
 
