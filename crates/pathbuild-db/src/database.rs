@@ -33,7 +33,8 @@ pub trait Db: salsa::Database {
     /// Returns the input of a directory, which need not exist. The path must be normalised.
     fn directory(&self, path: &Utf8Path) -> Directory;
 
-    /// Returns the names in a directory that was listed in advance, and waits for a listing in progress. `None` if no listing was started.
+    /// Returns the names in a directory that was listed in advance, and waits for a listing in progress. `None` if no listing was started,
+    /// or if it failed.
     fn take_listing(&self, directory: Directory) -> Option<Names>;
 
     /// Records that a file's bytes no longer match its index.
@@ -48,7 +49,7 @@ pub trait Db: salsa::Database {
 #[derive(Clone)]
 pub struct Database {
     shared: Arc<SharedState>,
-    /// Declared last, so that it is dropped after everything that its threads may still use.
+    /// Declared last, so that it is dropped last: its drop tells threads that wait for exclusive access that this clone is gone.
     storage: salsa::Storage<Self>,
 }
 
@@ -267,7 +268,7 @@ impl Database {
         self.attach(|_| ());
     }
 
-    /// Cancels the current work, between two queries, if it exceeds its time limit.
+    /// Unwinds if the current work was cancelled because it exceeded its time limit. Called between queries, which check this themselves.
     pub fn check_time_limit(&self) {
         self.unwind_if_revision_cancelled();
     }
@@ -409,7 +410,7 @@ impl Listings {
     }
 }
 
-// Ends of queries other than a result: bugs, time limits, and drawings that change during a run.
+// Reasons why a query ends without a result: bugs, time limits, and drawings that change during a run.
 
 /// Panic payload of work that exceeded this time limit.
 pub(crate) struct TimeoutPanic(pub(crate) Duration);

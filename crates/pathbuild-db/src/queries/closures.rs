@@ -518,7 +518,7 @@ fn size_limit_problem(count: u64, limits: Limits) -> Option<Diagnostic> {
     Some(problem.with("count", count))
 }
 
-/// Returns the identity of a diagnostic for removing duplicates: everything except the embeddings that lead to it.
+/// Returns the identity of a diagnostic for removing duplicates, which does not include its notes and the embeddings that lead to it.
 fn identity(diagnostic: &Diagnostic) -> impl Hash + PartialEq + '_ {
     let Diagnostic { message, place, path, file, arguments, text, .. } = diagnostic;
     (message, place, path, file, arguments, text)

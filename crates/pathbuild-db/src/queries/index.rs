@@ -29,7 +29,7 @@ pub struct FileIndex {
     /// Paths sorted by name for binary search, because a drawing may have as many paths as layers.
     paths: Vec<Arc<PathIndex>>,
     diagnostics: Vec<Diagnostic>,
-    /// The clamps, if any layer has some.
+    /// The clamps; `None` if the drawing has no layer for clamps.
     keep_outs: Option<Arc<KeepOuts>>,
     /// Whether any layer holds finished parts.
     has_part_layer: bool,
@@ -121,7 +121,7 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
     index
 }
 
-/// Whether any of the other layers has a name similar to that of a path.
+/// Whether any of these layers, which belong to no path, has a name similar to that of a path.
 fn has_near_layer(raw: &RawFile, others: &[SmolStr]) -> bool {
     if others.is_empty() {
         return false;
@@ -156,7 +156,7 @@ pub fn path_names(db: &dyn Db, file: SourceFile) -> &[PathName] {
     &file_index(db, file).names
 }
 
-/// Returns the hash of the bytes that a drawing was indexed by. `None` if it could not be read or the settings ask for no hashes.
+/// Returns the hash of the bytes from which a drawing was indexed. `None` if it could not be read or the settings ask for no hashes.
 pub fn content_hash(db: &dyn Db, file: SourceFile) -> Option<[u8; 32]> {
     content(db, file).map(|(hash, _)| hash)
 }
@@ -342,7 +342,8 @@ pub struct PathSummary {
     pub problems: Vec<Diagnostic>,
     /// The path as seen by others, unless a finding is an error.
     pub signature: Option<PathSignature>,
-    /// The known part of the signature of a path with errors, used to judge what it embeds. `None` if nothing is drawn.
+    /// The known part of the signature of a path with errors, used to judge what it embeds. `None` for a path without errors, and
+    /// if nothing is drawn.
     pub faulty_signature: Option<Box<PathSignature>>,
     /// Findings about the sweep height that the path gets when embedded or checked. Empty if the path has errors.
     pub sweep_problems: Vec<Diagnostic>,
@@ -423,7 +424,7 @@ fn add_path_end(problems: &mut [Diagnostic], end: Xy) {
 /// A bound path and its diagnostics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BoundPath {
-    /// The path, unless a diagnostic is an error.
+    /// The path as far as it is known. A program gets it only if no diagnostic is an error.
     pub path: Option<Arc<Path>>,
     /// Diagnostics of the drawing and of the values.
     pub diagnostics: Vec<Diagnostic>,
@@ -445,7 +446,7 @@ fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath
     BoundPath { path: path.map(Arc::new), diagnostics }
 }
 
-/// Walks a path. The time limit is enforced here as PB005, not only by the driver, because indexes are built before any target is queried.
+/// Walks a path. PB005 if that takes too long: indexes are built before the time limit of a target applies.
 pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> WalkedPath {
     catch_bugs(|| walk_within_limit(db, path, language)).unwrap_or_else(|problem| {
         // The machine may be less busy next time, so the result is not memoized beyond this revision.
@@ -467,7 +468,7 @@ pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -
     pathbuild_path::walk_watched(path, language.join_tolerance, &checkpoint)
 }
 
-/// The data of a drawing that the part check needs. Positions are left out, so that edits elsewhere in the drawing leave it equal.
+/// The data of a drawing that the part check needs. Lines and handles are left out, so that edits elsewhere in the drawing leave it equal.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FileParts {
     pub(super) parts: Vec<Part>,

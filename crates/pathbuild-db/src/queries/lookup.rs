@@ -61,7 +61,7 @@ pub fn name_table(db: &dyn Db, directory: Directory) -> NameTable {
     }
 }
 
-/// Returns PB001 for a directory that cannot be listed, since the path may be defined there.
+/// Returns PB001 for a directory that cannot be listed, since any path may be defined there.
 pub fn listing_error(db: &dyn Db, directory: Directory) -> Option<Diagnostic> {
     let fault = name_table(db, directory).fault.as_ref()?;
     Some(unlistable_error(directory.path(db), fault))
@@ -79,7 +79,7 @@ pub fn unlistable_error(directory: &Utf8Path, fault: &ReadError) -> Diagnostic {
     Diagnostic::new(&messages::UNLISTABLE).with("reason", reason).in_file(directory)
 }
 
-/// Returns the file names that the name ranges of a directory were read from. Empty after a panic.
+/// Returns the file names of the drawings in a directory, including hidden ones. Empty after a panic.
 pub fn drawing_names(db: &dyn Db, directory: Directory) -> &Names {
     static NONE: Names = Names::none();
     catch_bugs(|| &name_table(db, directory).names).unwrap_or(&NONE)

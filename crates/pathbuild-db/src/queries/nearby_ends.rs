@@ -1,5 +1,5 @@
-//! Hints at elements that were probably drawn on the wrong layer. They are searched only if a path breaks off, lacks a marker or has a
-//! stray text.
+//! Hints at elements that were probably drawn on the wrong layer. They are searched only for findings that such an element explains: a path
+//! that breaks off, a missing marker, a stray or missing text.
 
 use std::cell::OnceCell;
 
@@ -28,7 +28,7 @@ struct AllLayers {
     boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
 }
 
-/// Largest distance in mm at which an end on another layer is worth a hint.
+/// Largest distance in mm at which an end or element on another layer is worth a hint.
 const MAX_HINT_DISTANCE: f64 = 1.0;
 
 impl<'a> LayerEnds<'a> {

@@ -23,7 +23,8 @@ use crate::queries::part::{file_parts, part_findings, parts_of, path_cuts};
 use crate::queries::programs::{self, TracedProgram, traced_program};
 
 /// Returns PB214 for cuts of one embedded path into the part of another, PB218 for cuts through its support bars, and PB217 for parts that such cuts
-/// leave loose: one finding per part or bar and element, reported in the path that contains both.
+/// leave loose: one finding per part or bar and element, reported in the path that contains both. Also returns PB221 for paths that place a shared
+/// part differently, and PB222 for cuts in loose waste.
 pub(super) fn harmed_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
     // Most paths embed no others; no query is needed then.
     if has_neighbours(db, target) { cuts_into_neighbours(db, target) } else { &[] }
@@ -92,7 +93,7 @@ struct Embedder<'db> {
     cuts_before: usize,
 }
 
-/// Distance in mm below which two placements of one drawing are considered equal, because its paths were embedded together.
+/// Distance in mm below which two placements of one drawing are considered equal: its paths are then embedded together.
 const PLACEMENT_TOLERANCE: f64 = 0.01;
 
 fn diagnostic_point(at: Xy) -> Point {
@@ -342,7 +343,8 @@ impl<'db> PlacedProgram<'db> {
     }
 }
 
-/// Returns the finished parts that the program of a target cuts. Empty without a program.
+/// Returns the finished parts in the program of a target: those that its paths cut, and those drawn in the project's own drawing. Empty without a
+/// program.
 pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     let Some(settings) = &Settings::get(db).language(db).part else { return Vec::new() };
     let Some(traced) = traced_program(db, target).as_deref() else { return Vec::new() };

@@ -12,7 +12,7 @@ use crate::queries::embedding::{Instance, chains, path};
 use crate::queries::index::{FileParts, cuts_of, file_index, lower_to_warnings, path_index};
 use crate::queries::raw::read_layers_as;
 
-/// Returns the parts and cuts of a drawing; `None` if the settings name no layers with parts, or if it has neither parts nor embedded paths.
+/// Returns the parts and cuts of a drawing; `None` if the settings name no layers with parts, or if it has neither parts nor paths that embed others.
 pub(super) fn file_parts(db: &dyn Db, file: SourceFile) -> Option<&FileParts> {
     // Most libraries have no parts; no query is needed then.
     Settings::get(db).language(db).part.as_ref()?;

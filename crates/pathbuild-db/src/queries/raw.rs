@@ -73,8 +73,8 @@ pub struct PathPlace {
     pub position: Option<Position>,
 }
 
-/// Reads an indexed drawing again, with everything drawn. Empty if it cannot be read or panics, which the index reports. Lines and handles
-/// differ after any edit, so comparing results is pointless. Few are kept.
+/// Reads the paths of an indexed drawing again, with all their elements. Empty if it cannot be read or panics, which the index reports. Lines
+/// and handles differ after any edit, so comparing results is pointless. Few are kept.
 #[salsa::tracked(no_eq, lru = 256)]
 pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
     let settings = Settings::get(db);

@@ -25,7 +25,7 @@ impl Fingerprint {
     }
 }
 
-/// Calls `work` with the bytes of a drawing and a scratch drawing. If drawings are hashed, it also gets the stamp of the bytes.
+/// Calls `work` with the bytes of a drawing, their stamp, and a scratch drawing. The stamp is unknown unless drawings are hashed.
 ///
 /// # Errors
 /// The reason why the file cannot be read, without a place.

@@ -56,8 +56,8 @@ pub fn check_target(db: &dyn Db, target: Target) -> impl Iterator<Item = &Diagno
     found.chain(entered_keep_outs(db, target)).chain(harmed_neighbours(db, target))
 }
 
-/// Returns the findings (PB214, PB217, PB218) about cuts of each target into the parts of the others when their programs are joined into one: all of
-/// them then begin at the same place. Cuts of a program into its own parts are not reported again.
+/// Returns the findings (PB214, PB217, PB218, PB221, PB222) about how the programs of these targets cut the parts of each other if they are joined
+/// into one: all of them then begin at the same place. Cuts of a program into its own parts are not reported again.
 pub fn check_joined_parts(db: &dyn Db, targets: &[Target]) -> Vec<Diagnostic> {
     neighbour_findings(db, targets).into_iter().map(|problem| locate(db, problem)).collect()
 }

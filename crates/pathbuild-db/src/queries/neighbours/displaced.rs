@@ -49,7 +49,8 @@ impl<'db> PlacedProgram<'db> {
         found
     }
 
-    /// Returns the embedded paths of each drawing of which the program has several.
+    /// Returns the embedded paths by drawing, for drawings with several different paths in the program. In joined programs, the targets' own paths
+    /// count as embedded.
     fn paths_by_drawing(&self) -> BTreeMap<&'db Utf8Path, Vec<CuttingPath<'db>>> {
         let mut drawings: BTreeMap<&Utf8Path, Vec<CuttingPath<'db>>> = BTreeMap::new();
         for (number, path) in self.paths.iter().enumerate() {
@@ -66,8 +67,8 @@ impl<'db> PlacedProgram<'db> {
         drawings
     }
 
-    /// Returns, for each other path that cuts a part together with this one, its nearest embedding: if that is within O, and places the part
-    /// differently or raises it.
+    /// Returns, for each other path that cuts a part together with this one, its nearest embedding, unless that is farther away than O, or
+    /// has the part at the same place and height.
     fn displaced_partners(&self, path: &CuttingPath<'db>, all: &[CuttingPath<'db>]) -> Vec<Partners<'db>> {
         let mut nearest: BTreeMap<&str, Partners<'db>> = BTreeMap::new();
         for other in all.iter().filter(|other| other.name != path.name) {

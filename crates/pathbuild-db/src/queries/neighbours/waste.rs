@@ -15,7 +15,7 @@ struct Section<'p, 'db> {
     cuts: Range<usize>,
     /// Number of paths in [`PlacedProgram::paths`] that begin before these cuts.
     paths_before: usize,
-    /// The cuts of other paths that are made before. Computed when first needed.
+    /// The cuts that other paths make before these. Computed when first needed.
     earlier: OnceCell<Vec<EarlierCuts<'p, 'db>>>,
 }
 
@@ -60,7 +60,8 @@ impl<'db> PlacedProgram<'db> {
         sections.filter(|section| !section.cuts.is_empty())
     }
 
-    /// Whether a path may cut waste from an opening of another drawing's part; in joined programs, of another program's.
+    /// Whether `later` may cut waste from an opening in the parts of `owner`, which is of another drawing or lies at another place. In joined
+    /// programs, the two also belong to different programs.
     fn may_share_waste(&self, owner: usize, later: usize) -> bool {
         let (owned, cutting) = (&self.paths[owner], &self.paths[later]);
         let has_opening = owned.cuts.parts.iter().any(|part| part.rings.len() > 1);
@@ -70,8 +71,8 @@ impl<'db> PlacedProgram<'db> {
             && !(self.is_joined && self.root(owner) == self.root(later))
     }
 
-    /// Returns the cuts of the first paths that are made before a section of a path is milled, except for those of the same drawing at the same
-    /// place. The number of paths is [`Section::paths_before`].
+    /// Returns the cuts that the first `paths_before` paths make before a section of the path `later`, except for paths of the same drawing at the
+    /// same place.
     fn cuts_before(&self, later: usize, paths_before: usize) -> Vec<EarlierCuts<'_, 'db>> {
         let PlacedPath { instance, cuts, .. } = &self.paths[later];
         let is_other = |path: &usize| !self.is_at(&self.paths[*path], *instance, &cuts.placement);
