@@ -117,12 +117,12 @@ impl Context {
         }
     }
 
-    /// Shows findings and returns the corresponding exit status.
+    /// Shows diagnostics with their configured severities, and returns the corresponding exit status.
     pub(crate) fn conclude(&self, diagnostics: Vec<Diagnostic>) -> ExitStatus {
         self.conclude_findings(&self.findings(diagnostics))
     }
 
-    /// Shows findings with their configured severities, and returns the corresponding exit status.
+    /// Shows findings, and returns the corresponding exit status.
     pub(crate) fn conclude_findings(&self, findings: &Findings) -> ExitStatus {
         self.show(findings);
         ExitStatus::of(findings)

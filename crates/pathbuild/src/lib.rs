@@ -78,7 +78,7 @@ fn complete(arguments: &[OsString]) -> Option<ExitStatus> {
     }
 }
 
-/// Translates a command line of the original tools and runs the resulting commands.
+/// Translates a command line of `PathDxf2GCode` or `PathGCodeAdjustZ` and runs the resulting commands.
 fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) -> ExitStatus {
     let lang = lang_of(arguments);
     let translated = match compat::translate(&args.arguments, lang) {

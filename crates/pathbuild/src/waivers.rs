@@ -1,4 +1,4 @@
-//! Shows what became of accepted findings at the end of `check` and `verify`. (book: howto/ci)
+//! The options of `check` and `verify` for accepted findings, and the report that a baseline was written. (book: howto/ci)
 
 use camino::Utf8Path;
 use pathbuild_api::{BaselineOptions, WrittenBaseline};

@@ -89,7 +89,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
     }
 }
 
-/// Changes back to the working directory, which may have been replaced. If arguments are relative to it, waits until it exists again.
+/// Changes back to the working directory, which may have been replaced. Unless all arguments are absolute, waits until it exists again.
 /// Returns false if the user has ended watching meanwhile.
 fn return_to_working_directory(cli: &Cli, home: &Utf8Path, server: Option<&Server>) -> bool {
     let inputs = cli.command.inputs();

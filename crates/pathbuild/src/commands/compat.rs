@@ -1,4 +1,4 @@
-//! `pathbuild compat`: translates command lines of `PathDxf2GCode` and `PathGCodeAdjustZ`, for existing batch files.
+//! `pathbuild compat`: translates command lines of the original tools, `PathDxf2GCode` and `PathGCodeAdjustZ`, for existing batch files.
 //!
 //! | original | pathbuild |
 //! | --- | --- |

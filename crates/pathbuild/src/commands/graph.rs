@@ -106,7 +106,7 @@ fn tree(graph: &Graph, direction: Direction, words: &GraphTexts) -> String {
     let mut open: Vec<Step> = graph.roots.iter().rev().map(|root| Step::root(*root)).collect();
     while let Some(step) = open.pop() {
         let (label, mut remarks) = words.line(graph, &step);
-        // What a path that only lends its parameters embeds is of no importance to the borrower.
+        // A path that only borrows parameters is not affected by what the lending path embeds.
         let is_leaf = step.is_lender && direction == Direction::Down;
         if let EmbeddingEnd::Node(node) = step.to
             && !is_leaf

@@ -234,7 +234,7 @@ fn output(
     let mut job = Job::from_steps(name, &steps, program.dialect, &remark)?;
     drop(steps);
     if let Some((provenance, title)) = head {
-        // The new program has the same provenance as the original, except for the dialect.
+        // The new program has the same provenance as the one that was read, except for the dialect.
         job.remarks =
             vec![Provenance { dialect: post_processor.reader(), ..provenance }.to_string().into(), title];
     }

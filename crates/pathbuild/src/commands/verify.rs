@@ -133,7 +133,7 @@ fn conclude(context: &Context, findings: &Findings) -> ExitStatus {
     status
 }
 
-/// Prints a summary for all programs with the same checks, and adds the checks of each program to the machine-readable document.
+/// Prints one summary for each group of programs with the same checks, and adds the checks of each program to the machine-readable document.
 fn report_checks(context: &Context, programs: &[VerifiedProgram]) {
     let mut summaries: Vec<(&str, Vec<&str>)> = Vec::new();
     let checked = || programs.iter().filter(|program| !program.checks.is_empty());
@@ -178,7 +178,7 @@ fn row(check: &ProgramCheck) -> Value {
     }
 }
 
-/// Reports which moves were compared with the drawing, and how many of them are equal.
+/// Reports how many moves are the same as in the program of the drawing, up to the first difference.
 fn report_comparison(context: &Context, file: &str, comparison: &DrawingComparison) {
     let DrawingComparison { path, drawing, dialect, read_as, moves, equal, .. } = comparison;
     context.json_row(|| {

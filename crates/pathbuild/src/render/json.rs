@@ -62,7 +62,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
     reported.chain(waived.map(|waived| line(&waived))).collect()
 }
 
-/// Renders findings that are fixed.
+/// Renders findings that a change of the drawings has fixed.
 pub(crate) fn fixed(findings: &[Diagnostic], view: &View) -> RenderedText {
     let fixed = |diagnostic| line(&Object { r#type: "fixed", ..object(diagnostic, view) });
     escaped_lines(&findings.iter().map(fixed).collect::<String>())

@@ -206,7 +206,7 @@ fn single(headers: &HeaderMap, name: header::HeaderName) -> SingleHeader<'_> {
 }
 
 /// Headers of every response. They ensure that nothing is loaded from elsewhere, that nothing is cached, and that no other page can embed
-/// it.
+/// this one.
 pub(super) const HEADERS: [(header::HeaderName, &str); 5] = [
     (
         header::CONTENT_SECURITY_POLICY,

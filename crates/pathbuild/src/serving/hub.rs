@@ -44,7 +44,7 @@ struct PublishedDrawing {
     text: String,
 }
 
-/// A request of a page for a scene or a picture, to be answered by the watching thread.
+/// A request of a page, which the watching thread answers with a scene or a picture.
 pub(super) struct Question {
     pub(super) subject: Subject,
     /// Channel to which the answer is sent; `None` means that there is no such path.

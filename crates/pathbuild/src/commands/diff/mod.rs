@@ -266,7 +266,7 @@ fn reader<'c>(context: &'c Context, args: &DiffArgs) -> Result<Verifier<'c>, Fai
     Verifier::new(&mut Session::new(context), options)
 }
 
-/// Reads a program. With nominal heights, a program with corrected heights is the one that was drawn.
+/// Reads a program. With nominal heights, the corrections by measured heights are undone, so that the program is the one that was drawn.
 fn program(
     context: &Context,
     file: &Utf8Path,

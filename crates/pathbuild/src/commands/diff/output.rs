@@ -137,7 +137,8 @@ pub(super) fn problems(comparison: &Comparison, lang: Lang) -> Vec<String> {
     errors.map(line).collect()
 }
 
-/// Returns a line for each kind of change, a line that says whether there are too many cuts to divide them, and one for the totals.
+/// Returns a line for each kind of change, a warning if there are too many cuts to divide them, a line for each changed state of the machine,
+/// and one for the totals.
 pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
     let mut lines: Vec<String> = program.groups.iter().map(|group| line(group, lang)).collect();
     if program.has_undivided_moves && !lines.is_empty() {
@@ -413,7 +414,7 @@ fn group(group: &Group) -> Value {
         }
         Some(ChangeKind::Altered { raised, feed, passes }) => {
             let [least, most] = raised;
-            // The height by which the ground changes most.
+            // The largest change of height, up or down.
             value["raised"] = json!(if -least > most { least } else { most });
             if least != most {
                 value["raised_between"] = json!(raised);
