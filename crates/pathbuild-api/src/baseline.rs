@@ -47,7 +47,7 @@ impl BaselineOptions {
         Self::default()
     }
 
-    /// Uses this file.
+    /// Uses this file instead of `pathbuild-baseline.txt` beside the configuration.
     pub fn file(mut self, file: impl Into<PathBuf>) -> Self {
         self.file = Some(file.into());
         self

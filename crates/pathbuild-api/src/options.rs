@@ -1,4 +1,4 @@
-//! Options for opening a library and for writing programs.
+//! Options for opening a library, and for checking drawings, listing paths and writing programs.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -353,7 +353,7 @@ pub(crate) fn date(text: &str, lang: Option<Lang>) -> Result<Date, Error> {
     text.parse().map_err(|()| refusal(lang, en, de, text))
 }
 
-/// Creates a refusal that occurs before the configuration is read, so that a language set there does not apply.
+/// Creates a refusal in this language. Before the configuration is read, only a language set by the caller is known.
 fn refusal(lang: Option<Lang>, en: &str, de: &str, value: &str) -> Error {
     Error::Refused(lang.unwrap_or_default().choose(en, de).replace("{}", value))
 }

@@ -63,7 +63,8 @@ pub struct Parameter {
     pub letter: char,
     /// Value of the parameter, as the drawing writes it, with variables replaced.
     pub value: String,
-    /// Source of the value: `own`, `chain`, `path`, `lender`, `option` or `default`.
+    /// Source of the value: `own` (a text of the element), `chain` (the text of the first segment of its chain), `path` (the text of the path),
+    /// `lender` (the path named by @), `option` (the configuration or an option) or `default`.
     pub source: String,
 }
 

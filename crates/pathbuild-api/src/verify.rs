@@ -169,7 +169,8 @@ pub struct ProgramCheck {
 pub enum CheckState {
     /// The check was made.
     Made,
-    /// The check was made with values that only comments of the program state, or that only the machine knows.
+    /// The check was made with a cutter or material that only the program itself states, or although moves depend on values that only the
+    /// machine knows.
     Assumed,
     /// The check was not made, or not for all moves.
     NotMade,

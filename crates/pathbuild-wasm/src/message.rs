@@ -72,7 +72,7 @@ pub struct Options {
     pub sweep_height: Option<String>,
     /// Speed of rapid moves in mm/min.
     pub rapid: Option<String>,
-    /// Feed of probing moves in mm/min (Z), for probes that do not set it.
+    /// Feed of probing moves in mm/min, for probes that do not set it.
     pub probe_feed: Option<String>,
     /// The post; `None` for the one in the configuration.
     pub post: Option<String>,
