@@ -16,7 +16,8 @@ pub struct Diagnostic {
     /// Message, which determines the code, the texts and the help.
     #[serde(deserialize_with = "deserialize_message")]
     pub message: &'static Message,
-    /// The default severity of the code. The configuration may change it when the diagnostic is reported.
+    /// The default severity of the code, unless the stage that found the problem has changed it. The configuration may change it once more when
+    /// the diagnostic is reported.
     pub severity: Severity,
     /// The values in the message and its help, by name.
     #[serde(deserialize_with = "deserialize_arguments")]
@@ -94,7 +95,7 @@ impl Diagnostic {
         (!template.is_empty()).then(|| fill(template, &self.arguments, lang))
     }
 
-    /// Sets a value of the message: a number, a place, or prose in every language.
+    /// Sets a value of the message: a number, a point, or prose in every language.
     pub fn with(mut self, name: &'static str, value: impl Into<Value>) -> Self {
         self.arguments.push((name, value.into()));
         self
@@ -193,7 +194,8 @@ impl Diagnostic {
         }
     }
 
-    /// Returns the key by which lists of diagnostics are sorted: file, path, place, code.
+    /// Returns the key by which lists of diagnostics are sorted: file, path, place (first of all its line), code, the line among the arguments, and
+    /// text.
     pub fn sort_key(&self) -> impl Ord + '_ {
         (
             &self.file,

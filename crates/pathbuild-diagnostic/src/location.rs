@@ -43,9 +43,9 @@ impl fmt::Display for Handle {
     }
 }
 
-/// Index of an element in the source map of its file, which contains the element's line and handle.
+/// Index of an element in the source map of its path, which contains the element's line and handle.
 ///
-/// Elements are counted per path. Edits elsewhere in the drawing shift lines and handles, but not these indices, so that they do not
+/// Edits elsewhere in the drawing shift lines and handles, but not these indices, so that they do not
 /// change any value of later stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ElementId(pub u32);
@@ -130,7 +130,7 @@ pub struct Place {
     pub line: Option<u32>,
     /// Column in characters, counted from 1. Only for text files such as the configuration and G-code.
     pub column: Option<u32>,
-    /// Number of the element, by which the source map of its file can be searched.
+    /// Number of the element in the source map of its path.
     pub element: Option<ElementId>,
     /// DXF handle of the entity.
     pub handle: Option<Handle>,

@@ -11,8 +11,8 @@ const MAX_NAME_BYTES: usize = 200;
 /// `3101.1P` and is not a misspelling of it.
 const LONG_NUMBER: usize = 3;
 
-/// Returns the known name most similar to a misspelt one: at most a third of its letters differ, and its numbers are the same except for a
-/// single typing error. Of several equally similar names, the first is returned.
+/// Returns the known name most similar to a misspelt one: at most a third of its letters (rounded up) differ, and its numbers are the same except
+/// for a single typing error. Of several equally similar names, the first is returned.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() > MAX_NAME_BYTES {
         return None;
@@ -55,8 +55,7 @@ pub fn is_slip(name: &str, other: &str) -> bool {
 struct Numbers(Vec<String>);
 
 impl Numbers {
-    /// Extracts the numbers from a name. A letter that looks like a digit is read as that digit if it is next to a digit: `31O1`
-    /// gives 3101.
+    /// Extracts the numbers from a name. The letter O is read as the digit 0 if it is next to a digit: `31O1` gives 3101.
     fn of(name: &str) -> Self {
         let mut numbers = vec![String::new()];
         let mut letters = name.chars().peekable();

@@ -1,7 +1,7 @@
 //! Messages about files: reading, writing, limits. (PB001 to PB006, PB113)
 
 messages! {
-    /// A file that cannot be opened or read, for any other reason.
+    /// A file that cannot be opened or read, for a reason that has no message of its own.
     UNREADABLE: UnreadableFile {
         en: "cannot read the file: {reason}",
         de: "die Datei ist nicht lesbar: {reason}",

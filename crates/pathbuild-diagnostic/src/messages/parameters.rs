@@ -22,7 +22,7 @@ messages! {
         help_en: "write O (cutter diameter) and T (thickness of the material) in the text of the start marker; every path needs both",
         help_de: "O (Fräserdurchmesser) und T (Materialdicke) in den Text der Anfangsmarke schreiben; jeder Pfad braucht beide",
     }
-    /// Note: the text with O and T, which belongs to another element because the start marker has this one.
+    /// Note: a text with O and T that was probably meant for the start marker, which has the text of the finding instead.
     PATH_TEXT_ELSEWHERE: MissingParameter {
         en: "the text \"{text}\" at {point} has O and T, but the start marker took this text first: move this text away from the start marker",
         de: "der Text \"{text}\" bei {point} hat O und T, die Anfangsmarke hat aber zuerst diesen Text bekommen: diesen Text von der Anfangsmarke wegschieben",
@@ -524,7 +524,7 @@ messages! {
         help_en: "remove it, or check the line types: only lines and arcs with CONTINUOUS, DIVIDE, BORDER or CENTER form chains",
         help_de: "entfernen oder die Linientypen prüfen: nur Linien und Bögen mit CONTINUOUS, DIVIDE, BORDER oder CENTER bilden Ketten",
     }
-    /// A letter of cuts at the start of a path that only embeds others.
+    /// A letter that applies only to cuts, in the text of the start marker of a path that only embeds others.
     WITHOUT_EFFECT_ON_EMBEDDED: ParameterWithoutEffect {
         en: "{letter} has no effect here: the path only embeds others, which have their own {letter}",
         de: "{letter} hat hier keine Wirkung: der Pfad bettet nur andere ein, und für diese gilt ihr eigener Wert",
@@ -587,7 +587,7 @@ messages! {
         help_en: "it is defined as {definition}; embed the path in a project that sets it: :{variable}VALUE",
         help_de: "sie ist als {definition} festgelegt; den Pfad in ein Projekt einbetten, das sie setzt: :{variable}WERT",
     }
-    /// A subpath that does not set a variable of its path.
+    /// A subpath that does not set a variable of the path that it embeds.
     MISSING_VALUE_HERE: MissingVariableValue {
         en: "variable \"{variable}\" of path {name} has no value",
         de: "Variable \"{variable}\" des Pfads {name} hat keinen Wert",

@@ -73,7 +73,7 @@ messages! {
         help_en: "connect them with the path, remove them, or move them to another layer",
         help_de: "mit dem Pfad verbinden, entfernen oder auf einen anderen Layer legen",
     }
-    /// A dead end that is not reached because the path went on to its end before.
+    /// A branch that is not reached, because the path went past it to the end marker.
     UNREACHED_BRANCH: UnreachedSegments {
         en: "segments not reached: {left}; the path went past {point}, where {element} branches off, and ends here",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; der Pfad lief an {point} vorbei, wo {element} abzweigt, und endet hier",
@@ -305,7 +305,7 @@ messages! {
         help_en: "if the value of the path is right, write its {letter} on the segment; otherwise embed another component",
         help_de: "ist der Wert des Pfads richtig, sein {letter} an das Segment schreiben; sonst ein anderes Bauteil einbetten",
     }
-    /// A note: two texts may look the same although they differ.
+    /// Note: one of two materials that differ has an accent as a character of its own, so that they may look the same.
     COMBINED_LETTERS: SubpathParameterDiffers {
         en: "one of them has a letter and its accent as two characters, which look like one: type the text anew there",
         de: "in einem der Texte besteht ein Buchstabe aus zwei Zeichen, etwa a und ¨, die wie eines aussehen: dort den Text neu eintippen",

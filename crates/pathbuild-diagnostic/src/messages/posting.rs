@@ -134,14 +134,14 @@ messages! {
         help_en: "give the second speed a tool number of its own in pathbuild.toml, or write a program for each path",
         help_de: "der zweiten Drehzahl in pathbuild.toml eine eigene Werkzeugnummer geben oder je Pfad ein Programm schreiben",
     }
-    /// Note: the output does not switch the coolant.
+    /// Note: the coolant is not switched as the program or the tool table says, because the definition lacks the macro for it.
     COOLANT_NOT_WRITTEN: DoubtfulPost {
         en: "the post has no {macro}: the output does not follow the coolant that the program or the tool table sets",
         de: "der Postprozessor hat kein {macro}: die Ausgabe richtet sich nicht nach der Kühlung, die das Programm oder die Werkzeugtabelle bestimmt",
         help_en: "add {macro} to the post, or check how its texts switch the coolant",
         help_de: "{macro} in den Postprozessor aufnehmen oder prüfen, wie seine Texte die Kühlung schalten",
     }
-    /// Note: the output does not switch the spindle.
+    /// Note: the spindle is not switched as the program or the tool table says, because the definition lacks the macro for it.
     SPINDLE_NOT_WRITTEN: DoubtfulPost {
         en: "the post has no {macro}: the output does not follow the direction of the spindle that the program or the tool table sets",
         de: "der Postprozessor hat kein {macro}: die Ausgabe richtet sich nicht nach der Drehrichtung, die das Programm oder die Werkzeugtabelle bestimmt",

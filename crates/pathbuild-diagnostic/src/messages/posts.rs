@@ -98,7 +98,7 @@ messages! {
         help_en: "define it as \"$name=value\" in PostProcessorMacros or in the configuration",
         help_de: "als \"$name=Wert\" in PostProcessorMacros oder in der Konfiguration definieren",
     }
-    /// A macro in the arguments of the definition's command, which has only two of its own.
+    /// An unknown macro in the arguments of the definition's command, where only `{$outfile}` and `{$cbfile.name}` are replaced.
     UNKNOWN_COMMAND_MACRO: UnknownMacro {
         en: "unknown macro {macro} in {section}",
         de: "unbekanntes Makro {macro} in {section}",
@@ -126,7 +126,7 @@ messages! {
         help_en: "keep only one of them",
         help_de: "nur eines davon behalten",
     }
-    /// An element within one that contains text.
+    /// An element within another one that may contain only text.
     POST_NESTED_ELEMENT: DoubtfulPost {
         en: "<{element}> is within <{outer}>, which contains text only; it is ignored",
         de: "<{element}> steht in <{outer}>, das nur Text enthält, und wird übergangen",

@@ -241,7 +241,7 @@ messages! {
     }
 }
 
-/// Direction in which a probe differs, for [`ODD`].
+/// Value of `direction` in [`ODD`] for a probe above the height expected from its neighbours.
 pub static HIGHER: crate::Text = crate::Text { en: "higher", de: "höher" };
-/// Direction in which a probe differs, for [`ODD`].
+/// Value of `direction` in [`ODD`] for a probe below the height expected from its neighbours.
 pub static LOWER: crate::Text = crate::Text { en: "lower", de: "niedriger" };
