@@ -243,16 +243,15 @@ pub(crate) struct OpenEdges<'a> {
     done: Vec<usize>,
     /// Both ends of each segment, as indices into `points`.
     ends: Vec<[usize; 2]>,
-    points: Vec<Point>,
+    /// End points of one or more segments.
+    points: Vec<Xy>,
     tree: RTree<GeomWithData<[f64; 2], usize>>,
+    /// The next edges of all segments, at both ends. A set for each point would take most of the memory of a long chain.
+    next: BTreeSet<NextEdge>,
 }
 
-/// An end point of one or more segments.
-struct Point {
-    at: Xy,
-    /// The segments with unmilled edges at this point, by the depth of their next edge.
-    levels: BTreeMap<Coordinate, BTreeSet<usize>>,
-}
+/// The next edge of a segment at one of its ends: the point, the depth and the segment.
+type NextEdge = (usize, Coordinate, usize);
 
 /// A coordinate in mm that can be used as a key.
 #[derive(Clone, Copy)]
@@ -263,15 +262,16 @@ impl<'a> OpenEdges<'a> {
         let (mut points, mut known) = (Vec::new(), BTreeMap::new());
         let mut point = |at: Xy| {
             *known.entry((Coordinate(at.x), Coordinate(at.y))).or_insert_with(|| {
-                points.push(Point { at, levels: BTreeMap::new() });
+                points.push(at);
                 points.len() - 1
             })
         };
         let ends = strands.iter().map(|strand| [strand.curve.start(), strand.curve.end()].map(&mut point));
         let ends: Vec<[usize; 2]> = ends.collect();
-        let entry = |(number, point): (usize, &Point)| GeomWithData::new([point.at.x, point.at.y], number);
+        let entry = |(number, at): (usize, &Xy)| GeomWithData::new([at.x, at.y], number);
         let tree = RTree::bulk_load(points.iter().enumerate().map(entry).collect());
-        let mut open = Self { strands, done: vec![0; strands.len()], ends, points, tree };
+        let mut open =
+            Self { strands, done: vec![0; strands.len()], ends, points, tree, next: BTreeSet::new() };
         (0..strands.len()).for_each(|strand| open.insert_edge(strand));
         open
     }
@@ -338,19 +338,30 @@ impl<'a> OpenEdges<'a> {
 
     /// Finds the first segment of each depth at a point within the reach, and reduces the reach accordingly.
     fn add_nearest_at_point(&self, point: usize, tip: Tip, found: &mut Vec<(f64, usize)>, reach: &mut f64) {
-        let Point { at, levels } = &self.points[point];
-        let mut look = |(depth, strands): (&Coordinate, &BTreeSet<usize>)| {
-            let is_near = distance(tip, Tip { at: *at, z: depth.0 }) <= *reach;
-            if let Some(first) = strands.first().filter(|_| is_near) {
-                let (least, _) = self.next_pass(*first, tip);
-                found.push((least, *first));
+        let mut is_near = |(_, depth, first): NextEdge| {
+            let is_near = distance(tip, Tip { at: self.points[point], z: depth.0 }) <= *reach;
+            if is_near {
+                let (least, _) = self.next_pass(first, tip);
+                found.push((least, first));
                 *reach = reach.min(least * (1.0 + SEARCH_MARGIN) + SEARCH_MARGIN);
             }
             is_near
         };
-        let here = Coordinate(tip.z);
-        _ = levels.range(..=here).rev().all(&mut look);
-        _ = levels.range((Bound::Excluded(here), Bound::Unbounded)).all(&mut look);
+        let (lowest, here) = (Coordinate(f64::NEG_INFINITY), Coordinate(tip.z));
+        let first_at = |depth| self.next.range((point, depth, 0)..).next().copied();
+        let mut above = (point, here, usize::MAX);
+        let mut below = above;
+        while let Some((_, depth, _)) = self.next.range((point, lowest, 0)..below).next_back().copied()
+            && first_at(depth).is_some_and(&mut is_near)
+        {
+            below = (point, depth, 0);
+        }
+        while let Some(edge) = self.next.range((Bound::Excluded(above), Bound::Unbounded)).next().copied()
+            && edge.0 == point
+            && is_near(edge)
+        {
+            above = (point, edge.1, usize::MAX);
+        }
     }
 
     fn is_open(&self, strand: usize) -> bool {
@@ -360,29 +371,26 @@ impl<'a> OpenEdges<'a> {
     /// Inserts the next edge of a segment at both its ends.
     fn insert_edge(&mut self, strand: usize) {
         let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
-        for end in self.ends[strand] {
-            self.points[end].levels.entry(depth).or_default().insert(strand);
-        }
+        self.next.extend(self.ends[strand].map(|end| (end, depth, strand)));
     }
 
     fn remove_edge(&mut self, strand: usize) {
         let depth = Coordinate(self.strands[strand].depths[self.done[strand]]);
         for end in self.ends[strand] {
-            let levels = &mut self.points[end].levels;
-            if let Some(strands) = levels.get_mut(&depth) {
-                strands.remove(&strand);
-                if strands.is_empty() {
-                    levels.remove(&depth);
-                }
-            }
+            self.next.remove(&(end, depth, strand));
         }
     }
 
     /// Removes the ends of a completed segment from the tree, if no other segment has an edge left there.
     fn forget_points(&mut self, strand: usize) {
         for end in self.ends[strand] {
-            let Point { at, levels } = &self.points[end];
-            if levels.is_empty() {
+            let at = self.points[end];
+            if self
+                .next
+                .range((end, Coordinate(f64::NEG_INFINITY), 0)..)
+                .next()
+                .is_none_or(|next| next.0 != end)
+            {
                 self.tree.remove(&GeomWithData::new([at.x, at.y], end));
             }
         }
