@@ -68,7 +68,6 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   await page.keyboard.type("8001.1p");
   assert.equal(await page.locator(".item").count(), 1);
   await page.keyboard.press("ArrowDown");
-  await page.keyboard.press("ArrowDown");
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => document.getElementById("title").textContent === "8001.1P");
   assert.match(await text(page, "#where"), /^Move \d+ of \d+/);
@@ -185,6 +184,21 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   assert.equal(await page.locator("#arrows").getAttribute("aria-pressed"), "false");
   assert.match(await text(page, "#where"), /^Move 3 of/);
   assert.equal((await text(page, "#details")).split("\n")[0], chosen.split("\n")[0]);
+  // The current move stays the same one after a version with errors, and so do the facts about it.
+  const has = ([least, most]) => page.waitForFunction(([least, most]) => ((all) => all >= least && all <= most)(Number(document.getElementById("slider").max)), [least, most]);
+  save(file, (drawing) => drawing.replace("I0.25", "I0.5"));
+  await has([Number(moves), Number(moves)]);
+  await page.keyboard.press("End");
+  for (let step = 0; step < 4; step++) await page.keyboard.press("ArrowLeft");
+  const current = Number(moves) - 4;
+  assert.match(await text(page, "#where"), new RegExp(`^Move ${current} of`));
+  save(file, (drawing) => drawing.replace("I0.5", "I0,,5"));
+  await has([0, 0]);
+  save(file, (drawing) => drawing.replace("I0,,5", "I0.25"));
+  await has([Number(moves) + 1, 1e9]);
+  const [, number, all] = /^Move (\d+) of (\d+)/.exec(await text(page, "#where"));
+  assert.ok(Number(number) < Number(all), `move ${number} of ${all}`);
+  assert.match(await text(page, "#details"), new RegExp(`^move\\s+${number}:`, "i"));
   // The removal of a drawing is reported, and the last picture stays; when it returns, it appears.
   renameSync(join(place, file), join(place, "gone.kept"));
   await page.waitForSelector("#note:not([hidden])");
@@ -192,6 +206,16 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   renameSync(join(place, "gone.kept"), join(place, file));
   await page.waitForSelector("#note", { state: "hidden" });
   assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // The address of a missing path leads to the list, and not to the path that was open before.
+  const { page } = await open(`${address}#${new URLSearchParams({ file: "components/2054.1P.dxf", path: "2054.1P" })}`);
+  await page.waitForFunction(() => document.getElementById("title").textContent === "2054.1P");
+  await page.evaluate((hash) => (location.hash = hash), new URLSearchParams({ file: "components/2054.1P.dxf", path: "2054.9P" }).toString());
+  await page.waitForSelector("#trouble:not([hidden])");
+  assert.match(await text(page, "#trouble"), /^2054\.9P components\/2054\.1P\.dxf is not there/);
+  assert.ok(await page.locator("#viewer").isHidden());
   await page.close();
 }
 {

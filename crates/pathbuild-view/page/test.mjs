@@ -67,6 +67,23 @@ const text = (page, selector) => page.locator(selector).innerText();
   assert.ok(total > 300, `${total} moves`);
   assert.ok((await apart(page)) > 40);
   await shot(page, "project");
+  // The legend leaves the start marker free, unless it is hidden.
+  const [zero, legend] = await Promise.all(["#labels .zero", "#legend"].map((selector) => page.locator(selector).boundingBox()));
+  assert.ok(zero.x > legend.x + legend.width || zero.y + zero.height < legend.y, JSON.stringify([zero, legend]));
+  // A picture that the browser has lost and restored looks as before.
+  const before = await steady(page, page.locator("#picture"));
+  await page.evaluate(async () => {
+    const canvas = document.querySelector("#picture canvas:not(#flat)");
+    const hear = (event) => new Promise((done) => canvas.addEventListener(event, () => setTimeout(done), { once: true }));
+    const extension = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
+    const lost = hear("webglcontextlost");
+    extension.loseContext();
+    await lost;
+    const restored = hear("webglcontextrestored");
+    extension.restoreContext();
+    await restored;
+  });
+  assert.ok(before.equals(await steady(page, page.locator("#picture"))), "the picture is restored");
   // Single steps by keys: the G-code line follows.
   await page.keyboard.press("Home");
   assert.match(await text(page, "#where"), /^Move 0 of/);
@@ -105,7 +122,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   assert.match(found, /\n[A-Z]\s+\S+ · (own text|first segment of the chain|text of the path|option --|default)/);
   await shot(page, "picked");
   // The height of the stock under the pointer, until the stock is hidden.
-  const place = [box.x + box.width * 0.25, box.y + box.height * 0.59];
+  const place = [box.x + box.width * 0.435, box.y + box.height * 0.568];
   await page.mouse.move(...place);
   await page.waitForFunction(() => document.getElementById("at").textContent.endsWith(" Z2.00"));
   await page.keyboard.press("s");
@@ -167,6 +184,20 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.keyboard.press("3");
   await page.waitForTimeout(200);
   await shot(page, "clamp");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // Fitting shows the whole stock, which a rapid move with a wide cutter enlarges: there is none at the edges of the picture.
+  const program = ["G21 G90 G94 G17", "(T1 D=20. CR=0. - ZMIN=-1. - flat end mill)", "G00 X0 Y0 Z5", "G01 Z-1 F600", "G01 X20", "G00 Z-0.5", "G00 X60 Y20", "G00 Z5", "M30", ""];
+  const file = join(directory, "wide.nc");
+  writeFileSync(file, program.join("\n"));
+  const { page, faults } = await open(file);
+  const { x, y, width, height } = await page.locator("#picture").boundingBox();
+  for (const [at, isStock] of [[[0.5, 0.5], true], [[0.005, 0.5], false], [[0.995, 0.5], false], [[0.5, 0.005], false], [[0.5, 0.995], false]]) {
+    await page.mouse.move(x + width * at[0], y + height * at[1]);
+    await page.waitForFunction((isStock) => /X/.test(document.getElementById("at").textContent) && /Z/.test(document.getElementById("at").textContent) === isStock, isStock);
+  }
   assert.deepEqual(faults, []);
   await page.close();
 }

@@ -43,6 +43,12 @@ export class List {
     if (before !== this.at) this.reveal();
   }
 
+  /** Moves the focus to the list, and selects its first row unless another one is selected. */
+  enter(): void {
+    this.host.focus();
+    if (this.at < 0) this.choose(0, false);
+  }
+
   openFirst(): void {
     if (this.rows.length > 0) this.choose(0, true);
   }

@@ -56,6 +56,8 @@ class Page {
   private settings: ProgramSettings | null = null;
   /** Whether the drawing that is open no longer exists. */
   private isGone = false;
+  /** The path that the address named although it is not there. */
+  private missing: Wanted | null = null;
   /** Reason why a program cannot be shown. */
   private failure = "";
   /** Number of the current request; answers to earlier ones are ignored. */
@@ -80,7 +82,7 @@ class Page {
     const search = $<HTMLInputElement>("search");
     search.addEventListener("input", () => this.relist());
     search.addEventListener("keydown", (event) => {
-      if (event.key === "ArrowDown") $("list").focus();
+      if (event.key === "ArrowDown") this.list.enter();
       else if (event.key === "Enter") this.list.openFirst();
       else if (event.key === "Escape") {
         search.value = "";
@@ -238,6 +240,7 @@ class Page {
     const lines: HTMLElement[] = [];
     if (!this.isOnline) lines.push(node("p", say("offline", lang)));
     if (this.settings && !this.program) lines.push(node("p", say("settingsFor", lang)));
+    if (this.missing) lines.push(node("p", `${this.missing.path ?? ""} ${this.missing.file} ${say("missing", lang)}`.trim()));
     if (this.halted !== null) lines.push(node("p", `${say("halted", lang)} ${this.halted}`));
     for (const { code, file, message, help } of this.problems) {
       const line = node("p", `${file ? `${file}: ` : ""}${code}: ${message[lang]}`);
@@ -316,6 +319,7 @@ class Page {
     if (this.settings) assume(this.settings);
     this.open = file === null ? null : { file, path: from.get("path") };
     this.isGone = false;
+    this.missing = null;
     this.sayTrouble();
     if (this.open || (this.settings && this.program)) {
       document.body.dataset.open = "true";
@@ -351,11 +355,19 @@ class Page {
         $("viewer").hidden = false;
         return this.remark();
       }
-      const isGone = error instanceof Refused && error.status === 404;
-      if (isGone && $("viewer").hidden) return this.choose(null);
-      this.isGone = isGone;
+      this.isGone = error instanceof Refused && error.status === 404;
+      // There is no last state to show, or only that of another path.
+      if (this.isGone && (!isSame || $("viewer").hidden)) return this.leave(open);
     }
     this.remark();
+  }
+
+  /** Shows the list instead of a path that is missing. */
+  private leave(missing: Wanted | null): void {
+    history.replaceState(null, "", location.pathname);
+    this.follow();
+    this.missing = missing;
+    this.sayTrouble();
   }
 
   /** Shows the still picture as an image, so that no content of a drawing becomes part of this page. */

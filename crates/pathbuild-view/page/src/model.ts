@@ -24,6 +24,7 @@ export interface Model {
   rapids: Pieces;
   arrows: Pieces;
   rapidArrows: Pieces;
+  /** The box round the drawing and its cuts, up to the highest move. */
   low: [number, number, number];
   high: [number, number, number];
   deepest: number;
@@ -55,11 +56,7 @@ export function model(scene: Scene): Model {
     }
   };
   for (const path of scene.paths) {
-    for (const element of path.elements) {
-      const { shape } = element;
-      const ends = shape.type === "line" ? [shape.from, shape.to] : [shape.centre];
-      for (const [x, y] of ends) grow([x + path.zero[0], y + path.zero[1], 0]);
-    }
+    for (const { shape } of path.elements) for (const [x, y] of pointsOfShape(shape)) grow([x + path.zero[0], y + path.zero[1], 0]);
   }
   for (const shape of scene.keep_outs.flatMap((it) => it.outline)) for (const [x, y] of pointsOfShape(shape)) grow([x, y, 0]);
   for (const [x, y] of scene.findings.flatMap((it) => (it.at ? [it.at] : []))) grow([x, y, 0]);
@@ -70,6 +67,7 @@ export function model(scene: Scene): Model {
   flat.forEach((points, index) => {
     const { path, move } = steps[index];
     const radius = isCut(move.kind) ? (toolOf(path, move) ?? 0) / 2 : 0;
+    for (const [, , z] of points) made.high[2] = Math.max(made.high[2], z);
     if (!isCut(move.kind) && hasElements) return;
     for (const [x, y, z] of points) for (const side of [-radius, radius]) grow([x + side, y + side, z]);
   });

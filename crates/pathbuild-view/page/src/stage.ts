@@ -83,16 +83,19 @@ export class Stage {
   constructor(
     private host: HTMLElement,
     labels: HTMLElement,
-    legend: HTMLElement,
+    private legend: HTMLElement,
     readonly isThick: boolean,
     /** Called with the scale in px per mm of the plane; `null` if it depends on the direction. */
     private hearScale: (perMm: number | null) => void,
+    /** Called when the browser has restored a picture that it had lost: everything must be loaded again. */
+    hearRestored: () => void,
   ) {
     this.labels = new Labels(labels, legend);
     const canvas = document.createElement("canvas");
     const context = canvas.getContext("webgl2", { antialias: isThick, alpha: false });
     if (!context) throw new Error("no WebGL2");
     this.renderer = new THREE.WebGLRenderer({ canvas, context, antialias: isThick });
+    canvas.addEventListener("webglcontextrestored", hearRestored);
     host.append(canvas);
     THREE.ColorManagement.enabled = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
@@ -209,29 +212,60 @@ export class Stage {
     this.draw();
   }
 
-  /** Fits the whole drawing, from above or from the front left. */
+  /** Fits the whole drawing and the stock, from above beside the legend, or from the front left. */
   fit(space: boolean): void {
-    const { low, high } = this.model;
-    const middle = new THREE.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, 0);
+    const { min: low, max: high } = this.box();
+    const middle = low.clone().add(high).divideScalar(2);
     this.controls.target.copy(middle);
     const away = space ? new THREE.Vector3(-0.5, -1, 0.9) : new THREE.Vector3(0, 0, 1);
     this.camera.position.copy(middle).addScaledVector(away.normalize(), this.unit * 2);
-    this.camera.zoom = this.whole() * (space ? 0.8 : 1);
-    this.camera.updateProjectionMatrix();
     this.controls.enableRotate = space;
     this.controls.mouseButtons.LEFT = space ? THREE.MOUSE.ROTATE : THREE.MOUSE.PAN;
     this.controls.touches.ONE = space ? THREE.TOUCH.ROTATE : THREE.TOUCH.PAN;
     this.controls.update();
+    this.camera.updateMatrixWorld();
+    const seen = new THREE.Box3(low, high).applyMatrix4(this.camera.matrixWorldInverse).getSize(new THREE.Vector3());
+    const { zoom, aside } = space ? this.fitted(seen, [0, 0]) : this.fittedBesideLegend(seen);
+    this.camera.zoom = zoom;
+    for (const at of [this.camera.position, this.controls.target]) at.add(new THREE.Vector3(-aside[0] / zoom, -aside[1] / zoom, 0));
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
     this.draw();
   }
 
-  /** Returns the zoom at which the whole drawing is visible from above. */
+  /** Returns the zoom at which the drawing and the stock are visible from above. */
   private whole(): number {
-    const { low, high } = this.model;
+    return this.fitted(this.box().getSize(new THREE.Vector3()), [0, 0]).zoom;
+  }
+
+  /** Returns the zoom at which a rectangle in mm fits the picture without a strip at its left and lower side, and the middle of what remains. */
+  private fitted({ x, y }: { x: number; y: number }, [left, lower]: Point): { zoom: number; aside: Point } {
     const [width, height] = this.size;
     const least = this.unit / 20;
-    const [wide, tall] = [Math.max(high[0] - low[0], least), Math.max(high[1] - low[1], least)];
-    return 0.86 * Math.min(width / wide, height / tall);
+    const zoom = 0.86 * Math.min((width - left) / Math.max(x, least), (height - lower) / Math.max(y, least));
+    return { zoom, aside: [left / 2, lower / 2] };
+  }
+
+  /** Like `fitted`, but right of the legend or above it if the legend would cover a corner of the rectangle. */
+  private fittedBesideLegend(seen: THREE.Vector3): { zoom: number; aside: Point } {
+    const whole = this.fitted(seen, [0, 0]);
+    // From above the legend has a scale.
+    this.hearScale(whole.zoom);
+    const { offsetLeft, offsetWidth, offsetTop } = this.legend;
+    const [right, top] = [offsetLeft + offsetWidth, this.size[1] - offsetTop];
+    const isCovered = (this.size[0] - seen.x * whole.zoom) / 2 < right && (this.size[1] - seen.y * whole.zoom) / 2 < top;
+    if (this.legend.hidden || !isCovered) return whole;
+    const [beside, above] = [this.fitted(seen, [right, 0]), this.fitted(seen, [0, top])];
+    const larger = beside.zoom > above.zoom ? beside : above;
+    // On a small picture, the legend covers the corner after all.
+    return larger.zoom > whole.zoom / 2 ? larger : whole;
+  }
+
+  /** Returns the box round the drawing, its cuts, and the stock if it is shown: rapid moves may widen it. */
+  private box(): THREE.Box3 {
+    const { low, high } = this.model;
+    const box = new THREE.Box3(new THREE.Vector3(low[0], low[1], low[2]), new THREE.Vector3(high[0], high[1], high[2]));
+    return this.stock ? box.union(this.stock.box) : box;
   }
 
   /** Draws the first `count` moves and a share of the next one, with the tool at their end. */

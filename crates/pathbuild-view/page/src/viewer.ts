@@ -56,8 +56,9 @@ let measured: [number, number][] | null = null;
 const shown = { stock: true, rapids: true, arrows: true, order: true, texts: innerWidth > 700, other: true, explain: innerWidth > 700 };
 /** Shows a scene. If it is a new version of the current one, the view is kept. */
 export function show(next: Scene, isSame: boolean, still: () => void = () => {}): void {
-  const atEnd = count === made.steps.length;
-  const same = isSame ? marked(chosen) : null;
+  // Between two versions with moves there may be one with errors.
+  if (!isSame) shownBefore = null;
+  else if (made.steps.length > 0) shownBefore = { count, atEnd: count === made.steps.length, current: marked(count > 0 ? count - 1 : null), chosen: marked(chosen) };
   scene = next;
   stock = undefined;
   drawStill = still;
@@ -70,10 +71,12 @@ export function show(next: Scene, isSame: boolean, still: () => void = () => {})
     if (measured) acts.measure();
     if (frame) play();
   }
-  count = isSame && !atEnd ? count : Infinity;
   start(isSame);
   slider.max = String(made.steps.length);
-  chosen = same && found(same);
+  const current = shownBefore?.current && found(shownBefore.current);
+  if (!shownBefore || shownBefore.atEnd) count = made.steps.length;
+  else count = Math.min(typeof current === "number" ? current + 1 : shownBefore.count, made.steps.length);
+  chosen = shownBefore?.chosen ? found(shownBefore.chosen) : null;
   speak();
 }
 
@@ -169,6 +172,9 @@ function found({ path, handle, turn }: Mark): number | null {
   return null;
 }
 
+/** The moves that were shown of the last version with moves. */
+let shownBefore: { count: number; atEnd: boolean; current: Mark | null; chosen: Mark | null } | null = null;
+
 /** Starts or restarts the picture, whose buffers contain the colours. */
 function start(keepsView: boolean): void {
   made = model(scene);
@@ -179,7 +185,7 @@ function start(keepsView: boolean): void {
       stage.dispose();
       stage = null;
     }
-    stage ??= new Stage(picture, $("labels"), $("legend"), isThick(made), sayScale);
+    stage ??= new Stage(picture, $("labels"), $("legend"), isThick(made), sayScale, redraw);
     stage.load(made, scene);
   } catch {
     stage = null;
@@ -191,6 +197,15 @@ function start(keepsView: boolean): void {
   placeStock();
   if (view) stage?.restore(view);
   else stage?.fit(space);
+}
+
+/** Loads the picture again, with the same view. */
+function redraw(): void {
+  if (!isOpen) return;
+  start(true);
+  spots();
+  go(count);
+  describe(chosen);
 }
 
 /** Returns the thickness in mm that a program states, with its upper face at this height. */
@@ -552,11 +567,7 @@ const acts = {
     dark = !dark;
     paint();
     stock = undefined;
-    if (!isOpen) return;
-    start(true);
-    spots();
-    go(count);
-    describe(chosen);
+    redraw();
   },
   lang: () => {
     lang = lang === "en" ? "de" : "en";

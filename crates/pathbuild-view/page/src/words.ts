@@ -134,6 +134,7 @@ const words = {
     "This page needs the complete address that pathbuild printed, including the part after the #.",
     "Diese Seite braucht die vollständige Adresse, die pathbuild ausgegeben hat, mit dem Teil hinter dem #.",
   ],
+  missing: ["is not there, or cannot be read.", "ist nicht da oder nicht lesbar."],
   gone: ["is no longer there, or cannot be read; this is its last state.", "ist nicht mehr da oder nicht lesbar; zu sehen ist der letzte Stand."],
   inDrawing: ["drawing:", "Zeichnung:"],
   drop: [

@@ -59,9 +59,15 @@ export class StockPicture {
     [this.above, this.space] = [material(FROM_ABOVE), material(IN_SPACE)];
     const [wide, tall] = [columns * texel, rows * texel];
     const box = new THREE.BoxGeometry(wide, tall, high - low).translate(left + wide / 2, lower + tall / 2, (low + high) / 2);
+    box.computeBoundingBox();
     this.object = new THREE.Mesh(box, this.above);
     this.object.frustumCulled = false;
     this.object.renderOrder = -1;
+  }
+
+  /** Returns the box of the stock in mm. */
+  get box(): THREE.Box3 {
+    return this.object.geometry.boundingBox!.clone();
   }
 
   /** Registers texels whose heights or colours have changed. They are uploaded by `prepare`. */
