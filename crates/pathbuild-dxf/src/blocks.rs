@@ -36,8 +36,9 @@ pub(crate) struct BlockId(usize);
 
 struct Block<'a> {
     base: Result<Point3, EntityError<'a>>,
-    /// The pairs after the block's own groups, starting with its first record.
+    /// The pairs after `head`.
     pairs: Pairs<'a>,
+    /// The first pair of the first record in the block, or of its ENDBLK.
     head: Pair<'a>,
     items: Option<Rc<[Item<'a>]>>,
     layers: BlockLayers,

@@ -341,7 +341,7 @@ impl<'d> Collector<'d> {
     }
 }
 
-/// Returns the place of an entity. `point` is in the entity's own space.
+/// Returns the place of an entity. `point` is in the coordinates of the entity's space.
 fn place_of(placed: &PlacedEntity<'_>, point: Option<Point>) -> Place {
     Place {
         line: Some(placed.own.line),

@@ -198,9 +198,9 @@ pub struct Text {
     pub height: f64,
     /// Rotation in degrees, counterclockwise.
     pub rotation: f64,
-    /// Horizontal alignment from 72 and 73; 72 = 4 is centre and middle; aligned and fitted texts are centre, baseline.
+    /// Horizontal alignment from 72; aligned, middle and fitted texts (3 to 5) are centred.
     pub horizontal: HorizontalAlign,
-    /// Vertical alignment from 73.
+    /// Vertical alignment from 73, except for middle texts (72 = 4).
     pub vertical: VerticalAlign,
     /// Whether the text is mirrored in x, so that letters run from right to left (71 bit 2, or extrusion 0,0,-1; both together cancel out).
     pub backwards: bool,

@@ -1,7 +1,7 @@
 //! Decodes strings. (book: reference/dxf: "encoding")
 //!
-//! Strings are decoded one by one, never the file as a whole: in double-byte code pages, a byte of a character may look like a backslash
-//! but never like a line end. ASCII, which nearly all strings are, is borrowed.
+//! Strings are decoded one by one, after the file has been split into lines: in double-byte code pages, a byte of a character may look like
+//! a backslash, but never like a line end. ASCII, which nearly all strings are, is borrowed.
 
 use std::borrow::Cow;
 

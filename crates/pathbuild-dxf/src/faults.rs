@@ -72,7 +72,7 @@ pub(crate) enum EntityError<'a> {
     Group(BadGroup<'a>),
     /// An extrusion other than (0, 0, 1) or (0, 0, -1): PB110.
     Tilted,
-    /// Coordinates too large to compute with: PB002.
+    /// Coordinates or lengths that are too large to compute with, or a length of 0: PB002.
     TooLarge,
     /// An unsupported shape or insertion, which is left out: PB111.
     LeftOut {

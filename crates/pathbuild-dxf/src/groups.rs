@@ -395,7 +395,7 @@ fn number(padded: u64) -> Option<i32> {
 
 const ONE_PER_BYTE: u64 = u64::from_le_bytes([1; 8]);
 
-/// The codes 0 to 999 as three characters, by hash. Slots without a code match no text.
+/// The codes 0 to 999 as three characters, each in the slot that [`index`] gives. Slots without a code match no text.
 static USUAL_CODES: [u32; TABLE_SLOTS] = usual_codes().0;
 
 /// The roles of the codes in [`USUAL_CODES`].

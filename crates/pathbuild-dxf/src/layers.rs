@@ -29,7 +29,7 @@ pub(crate) struct Layers<'a, 'o> {
     last: Option<(&'a [u8], LayerId)>,
 }
 
-/// A layer that some entity uses, wanted or not.
+/// A spelling of a layer's name that some entity uses, whether the layer is wanted or not.
 struct FoundLayer<'a> {
     /// The decoded spelling of the name.
     full_name: Cow<'a, str>,
@@ -158,12 +158,12 @@ impl UsedLayer {
     }
 }
 
-/// The LAYER table. The first few layers are searched one by one; if there are more, all records are read.
+/// The LAYER table. Layers are searched one by one while that is cheaper than reading all records.
 #[derive(Debug, Default)]
 pub(crate) struct LayerTable<'a> {
     tables: Option<Pairs<'a>>,
     lookups: usize,
-    /// All layers, read after many lookups.
+    /// All layers, once searching them one by one no longer pays.
     all: Option<KnownLayers<'a>>,
 }
 
