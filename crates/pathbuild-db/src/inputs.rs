@@ -26,7 +26,7 @@ pub struct Directory {
     /// The normalised path of the directory.
     #[returns(ref)]
     pub path: Utf8PathBuf,
-    /// Incremented whenever a file in the directory was created, removed or renamed.
+    /// Incremented whenever the names of the files in the directory may have changed.
     #[returns(copy)]
     pub revision: u64,
 }

@@ -60,7 +60,7 @@ impl MissingOption {
 pub struct ReachedPath<'db> {
     /// The path with its values.
     pub instance: Instance<'db>,
-    /// The smallest depth below the target at which the path is reached.
+    /// The depth below the target at which the path is first reached.
     pub depth: u32,
 }
 
@@ -140,7 +140,7 @@ impl Closure<'_> {
         self.root.is_none() || !self.missing_options.is_empty() || self.diagnostics.iter().any(is_other)
     }
 
-    /// Returns the files that the closure was computed from.
+    /// Returns the drawings that define the reached paths, each once.
     pub fn files(&self, db: &dyn Db) -> Vec<SourceFile> {
         let mut seen = FxHashSet::default();
         let files = self.reached.iter().map(|reached| reached.instance.file(db));

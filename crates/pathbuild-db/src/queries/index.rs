@@ -340,7 +340,7 @@ impl<'db> NameKey<'db> {
 pub struct PathSummary {
     /// Findings about the path's drawing or the values of its variables.
     pub problems: Vec<Diagnostic>,
-    /// The path as seen by others, unless a finding is an error.
+    /// What paths that embed this one need to know of it; `None` if the drawing of the path or the values have errors.
     pub signature: Option<PathSignature>,
     /// The known part of the signature of a path with errors, used to judge what it embeds. `None` for a path without errors, and
     /// if nothing is drawn.
@@ -455,7 +455,7 @@ pub(super) fn walk(db: &dyn Db, path: &Path, language: &Language) -> WalkedPath 
     })
 }
 
-/// Walks a path that has been checked already. Unwinds at the time limit, because a finding could not be reported here.
+/// Walks a path. Unwinds at the time limit: [`walk`] turns that into a finding, and elsewhere it ends the work on the target.
 pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -> WalkedPath {
     let limit = Settings::get(db).reading(db).walk_time;
     let begun = db.system().now();

@@ -119,7 +119,7 @@ pub fn remaining_layers(db: &dyn Db, file: SourceFile) -> Arc<Drawing> {
     Arc::new(read_layers(db, file, &is_other))
 }
 
-/// The paths of a closure without errors, as the fold accesses them.
+/// The paths of a closure with known moves, as the fold accesses them.
 pub(super) struct ClosurePaths<'db> {
     pub(super) db: &'db dyn Db,
 }
