@@ -103,7 +103,7 @@ impl Finding {
         self.diagnostic.text.as_ref().map(pathbuild_diagnostic::TextFault::span)
     }
 
-    /// Returns the projects through which the path was reached, outermost first.
+    /// Returns the embeddings through which the path was reached, outermost first.
     pub fn trace(&self) -> Vec<Embedding> {
         let embedding = |step: &pathbuild_diagnostic::TraceStep| Embedding {
             file: step.file.to_string(),

@@ -95,7 +95,7 @@ impl Library {
     /// inputs, all paths of the library are listed.
     ///
     /// # Errors
-    /// If a pattern is invalid.
+    /// If a pattern is invalid, or if the configured post-processor does not exist or has errors.
     pub fn paths(&self, inputs: &[&str]) -> Result<PathListing, Error> {
         self.paths_with(inputs, &ListOptions::new())
     }
@@ -124,7 +124,8 @@ impl Library {
     /// are those of the native program, whatever post-processor is configured.
     ///
     /// # Errors
-    /// If there is no such path. Errors in the path are in [`Path::findings`]; a path with errors has no statistics.
+    /// If there is no such path, or if the configured post-processor does not exist or has errors. Errors in the path are in
+    /// [`Path::findings`]; a path with errors has no statistics.
     pub fn path(&self, name: &str) -> Result<Path, Error> {
         let name = name.to_owned();
         self.ask(move |session| {
@@ -139,7 +140,7 @@ impl Library {
     /// path of that name.
     ///
     /// # Errors
-    /// If the drawing has no such path.
+    /// If the drawing has no such path, or if the configured post-processor does not exist or has errors.
     pub fn path_in(&self, drawing: &str, name: &str) -> Result<Path, Error> {
         let (drawing, name) = (drawing.to_owned(), name.to_owned());
         self.ask(move |session| {
@@ -265,7 +266,7 @@ impl Library {
     /// no library, the directory is checked. Other requests wait meanwhile. Only a library on disk can be watched.
     ///
     /// # Errors
-    /// If the system cannot report changes.
+    /// If the system cannot report changes, or if the baseline has errors.
     pub fn watch(&self, seen: impl FnMut(WatchReport) -> bool + Send + 'static) -> Result<WatchEnd, Error> {
         self.work(move |open| {
             let workspace = open.workspace;
