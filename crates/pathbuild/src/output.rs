@@ -88,7 +88,7 @@ impl Output {
             .find(|file| !files.insert(file.clone()))
     }
 
-    /// Whether the document is written to stdout, so that results for users go to stderr.
+    /// Whether the document or a report is written to stdout, so that results for users go to stderr.
     pub(crate) fn takes_stdout(&self) -> bool {
         let reports = self.reports.iter().any(ReportFile::is_stdout);
         self.is_document && self.stream == Stream::Stdout && (reports || self.format.is_for_machines())
@@ -119,7 +119,7 @@ impl Output {
         Some((stream, render(self.format, findings, &view(stream))))
     }
 
-    /// Adds a number to the last line of the JSON document.
+    /// Adds a value to the last line of the JSON document.
     pub(crate) fn add_figure(&self, name: &str, value: impl Into<Value>) {
         self.figures.borrow_mut().insert(name.to_owned(), value.into());
     }

@@ -4,7 +4,7 @@
 //! | --- | --- | --- |
 //! | results: the output that the command was asked for | stdout | always |
 //! | the machine-readable document of a run | stdout, unless that holds a program | always |
-//! | all other diagnostics | stderr | up to `-q` |
+//! | all other diagnostics | stderr | without `-qq` |
 //! | wrong usage | stderr | always |
 //! | status: the summary, files written; a progress bar on a terminal | stderr | without `-q` |
 //! | details, such as files read and results taken from the cache | stderr | with `-v` |

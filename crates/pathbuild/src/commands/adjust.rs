@@ -81,8 +81,8 @@ const VALUES_SUFFIX: &str = OutputKind::Values.suffix();
 
 impl Job {
     /// Returns the programs that an argument refers to. The argument names a file of a program, or a drawing. The programs of a drawing are
-    /// where `emit` writes them. Their names may contain more than the drawing's name (R, or the path in a drawing with several); such
-    /// programs are recognised by their headers, which identify the drawing.
+    /// where `emit` writes them. Their names may contain more than the drawing's name (the text of the letter R, or the name of the path
+    /// if the drawing has several); such programs are recognised by their headers, which identify the drawing.
     ///
     /// # Errors
     /// PB006 if listing the programs' directory triggers a bug.

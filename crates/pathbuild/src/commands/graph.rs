@@ -298,7 +298,7 @@ fn json(context: &Context, graph: &Graph) -> Value {
 }
 
 /// Returns the JSON object of a path. `example` states whether the values are only examples, not those of an embedding; `erroneous`
-/// states whether its drawing has errors, so that its embeddings may be incomplete.
+/// states whether the path has errors, so that it may embed more than is known.
 fn path_json(context: &Context, node: &Node) -> Value {
     json!({
         "path": node.name.as_str(),

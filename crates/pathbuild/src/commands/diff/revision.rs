@@ -99,7 +99,7 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     let files = TemporaryDirectory::new().map_err(|error| error.to_string())?;
     let place = temporary_directory_path(context, &files.directory)?;
     let whole = place.join("tree");
-    // Mark the directory as a repository, like the original, so that ignore files apply and no link points out of it.
+    // Mark the directory as the root of a repository, so that ignore files apply and no link points out of it.
     fs::create_dir_all(whole.join(".git")).map_err(|error| error.to_string())?;
     // An empty configuration ends the search for one, because the directories above are unrelated.
     File::create_new(place.join(FILE_NAME)).map_err(|error| error.to_string())?;
