@@ -80,7 +80,7 @@ impl<'a, T: Copy> Spellings<'a, T> {
         if self.others.is_empty() { None } else { self.others.get(spelling).copied() }
     }
 
-    /// Adds a spelling that was not found.
+    /// Adds a spelling that is not in the table yet.
     pub(crate) fn insert(&mut self, spelling: &'a [u8], value: T) {
         match ShortSpelling::of(spelling).filter(|_| self.free > 0) {
             Some(short) => {

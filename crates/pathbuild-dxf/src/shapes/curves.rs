@@ -44,7 +44,7 @@ impl Vector {
         libm::hypot(self.x, self.y)
     }
 
-    /// Whether both coordinates are within the largest coordinate of a drawing.
+    /// Whether both coordinates are at most [`MAX_COORDINATE`] in absolute value.
     pub(crate) fn is_near(self) -> bool {
         self.x.abs() <= MAX_COORDINATE && self.y.abs() <= MAX_COORDINATE
     }
@@ -210,7 +210,7 @@ pub(crate) struct Tolerance {
 pub(crate) enum ApproximationFailure {
     /// The curve would take more pieces than the limit allows.
     TooMany,
-    /// The curve reaches beyond the largest coordinate of a drawing.
+    /// The curve may reach beyond [`MAX_COORDINATE`].
     TooFar,
 }
 
@@ -446,7 +446,7 @@ impl Spline {
         Ok(pieces)
     }
 
-    /// Whether the whole spline is within the largest coordinate of a drawing. It lies within the hull of its control points, so these are tested.
+    /// Whether no coordinate of the spline exceeds [`MAX_COORDINATE`]. The spline lies within the hull of its control points, so these are tested.
     fn is_near(&self) -> bool {
         self.points.iter().all(|control| control.point.is_near())
     }
