@@ -59,7 +59,7 @@ impl VerifyOptions {
     }
 
     /// Makes it an error if this check cannot be made: `rapids`, `rapids=assumed`, `envelope`, `feeds`, `spindle`, `drawing`, `clamps` or
-    /// `corners`. If this is never called, the configuration decides.
+    /// `corners`. The checks that the configuration requires are required as well.
     pub fn require(mut self, check: impl Into<String>) -> Self {
         self.required.push(check.into());
         self
