@@ -197,7 +197,7 @@ messages! {
         en: "{element} at {point} already has an invisible text that consists only of blanks: delete that text",
         de: "{element} bei {point} hat schon einen unsichtbaren Text, der nur aus Leerzeichen besteht: diesen Text löschen",
     }
-    /// Note: a nearby entity that is left out (PB111), so that no text can belong to it.
+    /// Note: the first entity of the path that is left out (PB111). A text on such an entity has no element.
     TEXT_OF_LEFT_OUT: TextWithoutElement {
         en: "{kind} at {point} is left out (PB111), so its text belongs to no element",
         de: "{kind} bei {point} wird ausgelassen (PB111); der Text gehört daher zu keinem Element",
@@ -329,7 +329,7 @@ messages! {
         help_en: "delete it, or draw it again",
         help_de: "löschen oder neu zeichnen",
     }
-    /// A milled line or arc that is far shorter than the cutter is wide.
+    /// A milled line or arc that is so short that the cutter hardly mills anything.
     CUT_HARDLY_LONG: LeftoverElement {
         en: "{element} here is only {length} mm long: the cutter plunges and mills hardly anything",
         de: "hier ist {element} nur {length} mm lang: der Fräser taucht ein und fräst fast nichts",
@@ -350,7 +350,7 @@ messages! {
         help_en: "make it visible, or rename it if the path is no longer needed",
         help_de: "sichtbar machen oder umbenennen, wenn der Pfad nicht mehr gebraucht wird",
     }
-    /// A turn marker that is not at the tip of a dead end.
+    /// A turn marker at which the path does not turn back.
     TURN_WITHOUT_EFFECT: TurnMarkerWithoutEffect {
         en: "this turn marker has no effect",
         de: "diese Wendemarke hat keine Wirkung",
@@ -420,7 +420,7 @@ messages! {
         help_en: "move it into the outline whose height it gives, or to another layer",
         help_de: "in den Umriss schieben, dessen Höhe er angibt, oder auf einen anderen Layer legen",
     }
-    /// A curve or block on a layer with clamps that is left out.
+    /// A curve, block or hatch on a layer with clamps that is left out.
     NO_OUTLINE: InvalidKeepOut {
         en: "this {entity} on a layer with clamps is not read, so the position of the clamp is unknown",
         de: "{entity} auf einem Layer mit Spannmitteln wird nicht gelesen; die Lage des Spannmittels ist daher unbekannt",

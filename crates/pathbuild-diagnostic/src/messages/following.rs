@@ -31,14 +31,14 @@ messages! {
         help_en: "put it after the program in the same file, or check the program at the control",
         help_de: "es in derselben Datei hinter das Programm schreiben oder das Programm an der Steuerung prüfen",
     }
-    /// Two subprograms with the same number.
+    /// Two subprograms with the same number or name.
     DEFINED_TWICE: WordNotFollowed {
         en: "the subprogram {name} is in this file twice: which one the control calls depends on its settings",
         de: "das Unterprogramm {name} steht zweimal in dieser Datei: welches die Steuerung aufruft, hängt von ihren Einstellungen ab",
         help_en: "remove one of them, or give it another number",
         help_de: "eines davon entfernen oder anders nummerieren",
     }
-    /// A subprogram that calls itself. That call is not interpreted.
+    /// A subprogram that calls itself, directly or through others, or that calls the main program. That call is not interpreted.
     CALLED_BY_ITSELF: WordNotFollowed {
         en: "the subprogram {name} calls itself; this call is left out",
         de: "das Unterprogramm {name} ruft sich selbst auf; dieser Aufruf wird ausgelassen",

@@ -265,14 +265,14 @@ messages! {
         help_en: "write W{example} for a first pass of one infeed: W is the height of the first pass above the plate",
         help_de: "W{example} schreiben, wenn der erste Durchgang eine Zustellung tief sein soll: W ist seine Höhe über der Platte",
     }
-    /// Support bars that end at the plate or below.
+    /// Support bars that end below the plate or hardly above it.
     THIN_BARS: DoubtfulValue {
         en: "D is {value}: the support bars end at this height, measured from the plate, too low to hold anything",
         de: "D ist {value}: die Stützstege enden in dieser Höhe, gemessen ab der Platte, zu niedrig, um etwas zu halten",
         help_en: "write the thickness of the bars, for example D{example}: D is their upper edge, measured from the plate upwards",
         help_de: "die Dicke der Stege schreiben, zum Beispiel D{example}: D ist ihre Oberkante, von der Platte nach oben gemessen",
     }
-    /// Parameters of support bars without any support segment.
+    /// Parameters of support bars in a path with a closed outline but without any segment for support bars.
     LOST_BARS: LostBars {
         en: "nothing holds the part inside this outline: the path has {letters} for support bars, but no line with line type BORDER or CENTER",
         de: "das Teil in diesem Umriss wird von nichts gehalten: der Pfad hat {letters} für Stützstege, aber keine Linie mit Linientyp BORDER oder CENTER",
@@ -307,14 +307,14 @@ messages! {
         help_en: "write {meant} if the decimal point is missing, or else {letter}{value}",
         help_de: "{meant} schreiben, wenn der Dezimalpunkt fehlt, sonst {letter}{value}",
     }
-    /// A mark that cuts through most of the material.
+    /// A mark that is deeper than the configured share of the thickness.
     DEEP_MARK: DoubtfulValue {
         en: "D is {value}: the mark is {depth} mm deep in material of {thickness} mm",
         de: "D ist {value}: die Markierung ist {depth} mm tief in Material von {thickness} mm",
         help_en: "write D{example} for a mark {usual} mm deep: D is the height of the mark's bottom above the plate, not its depth; `mark-depth` under [warnings] allows deeper marks",
         help_de: "für eine Markierung von {usual} mm Tiefe D{example} schreiben: D ist die Höhe ihres Grundes über der Platte, nicht die Tiefe; `mark-depth` unter [warnings] erlaubt tiefere Markierungen",
     }
-    /// Marks with the path's D that cut through most of the material.
+    /// Marks with the path's D that are deeper than the configured share of the thickness.
     DEEP_MARKS_OF_PATH: DoubtfulValue {
         en: "marks without D of their own use {value}: they are {depth} mm deep in material of {thickness} mm",
         de: "Markierungen ohne eigenes D verwenden {value}: sie sind {depth} mm tief in Material von {thickness} mm",

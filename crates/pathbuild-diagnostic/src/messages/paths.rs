@@ -1,7 +1,7 @@
 //! Messages about the segments of a path in milling order, and about the paths that it embeds. (PB401 to PB511, PB525)
 
 messages! {
-    /// A dead end without a turn marker.
+    /// The path breaks off: no remaining segment begins where it ends.
     NOTHING_CONTINUES: NothingContinues {
         en: "the path breaks off here; segments not reached: {left}",
         de: "hier bricht der Pfad ab; nicht erreichte Segmente: {left}",

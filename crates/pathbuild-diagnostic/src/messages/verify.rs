@@ -260,14 +260,14 @@ messages! {
         help_en: "emit and adjust again: the program was edited",
         help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
     }
-    /// A height without a formula in a program where all others have one.
+    /// A height without a formula in a program with probes. The height at the start needs none.
     HEIGHT_WITHOUT_FORMULA: UncheckedFormula {
         en: "this height has no correction formula",
         de: "diese Höhe hat keine Korrekturformel",
         help_en: "emit and adjust again: an editor or the sending program may have removed the formula",
         help_de: "noch einmal ausgeben und anpassen: ein Editor oder das Sendeprogramm hat die Formel vielleicht entfernt",
     }
-    /// A probe that is listed twice in the header.
+    /// A probe that the header lists twice, with different values.
     PROBE_STATED_TWICE: UncheckedFormula {
         en: "the header states #{probe} twice, with different values",
         de: "der Kopf nennt #{probe} zweimal, mit verschiedenen Werten",
@@ -330,14 +330,14 @@ messages! {
         help_en: "if Z 0 is on the table, give --surface the thickness of the material; until then, rapid moves are not checked",
         help_de: "liegt Z 0 auf dem Tisch, bei --surface die Dicke des Materials angeben; bis dahin werden Eilgänge nicht geprüft",
     }
-    /// A check that `--require` names but that was not made.
+    /// A required check that was not made.
     CHECK_NOT_MADE: UnmadeCheck {
         en: "the required check `{check}` was not carried out: {reason}",
         de: "die verlangte Prüfung `{check}` fand nicht statt: {reason}",
         help_en: "this check needs {option}",
         help_de: "diese Prüfung braucht {option}",
     }
-    /// A check of rapid moves that `--require` names but that is incomplete.
+    /// A required check of rapid moves that is incomplete.
     CHECK_INCOMPLETE: UnmadeCheck {
         en: "the required check `{check}` is incomplete: rapid moves to below the material's surface start at unknown positions (number: {count}, the first in line {line})",
         de: "die verlangte Prüfung `{check}` ist unvollständig: Eilgänge unter die Oberfläche des Materials beginnen an unbekannter Stelle (Anzahl: {count}, der erste in Zeile {line})",
