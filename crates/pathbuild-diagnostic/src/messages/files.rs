@@ -167,7 +167,7 @@ messages! {
         help_en: "rename the file or the directory, or leave out --deps",
         help_de: "die Datei oder das Verzeichnis umbenennen oder --deps weglassen",
     }
-    /// An output file that is not written, because it would replace something else, such as a directory.
+    /// An output file with the name of a drawing, a configuration or a program, which it must not replace.
     WOULD_REPLACE: CannotWrite {
         en: "cannot write {name}: {reason}",
         de: "{name} kann nicht geschrieben werden: {reason}",

@@ -36,7 +36,7 @@ messages! {
         help_en: "name a directory that holds .nc, .ngc, .gcode, .tap, .cnc or .din files, or the program itself; hidden files and those that .ignore excludes do not count",
         help_de: "ein Verzeichnis mit .nc-, .ngc-, .gcode-, .tap-, .cnc- oder .din-Dateien nennen, oder das Programm selbst; versteckte und durch .ignore ausgeschlossene Dateien zählen nicht",
     }
-    /// Several drawings, none of which contains a path.
+    /// Drawings none of which contains a path.
     NO_PATH_ANYWHERE: NothingFound {
         en: "no drawing contains a path; drawings that were read: {count}",
         de: "keine Zeichnung enthält einen Pfad; gelesene Zeichnungen: {count}",

@@ -356,7 +356,7 @@ messages! {
         en: "{text}, line {line}, column {column}: \"{found}\" is not a number",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist keine Zahl",
     }
-    /// A text in a term, where only numbers are permitted.
+    /// A text that is not a number, in a term or with a format for numbers.
     TERM_IS_TEXT: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"{found}\" is a text, not a number",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist ein Text, keine Zahl",

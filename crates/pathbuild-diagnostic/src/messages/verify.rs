@@ -673,32 +673,32 @@ messages! {
         help_en: "write H{tool}; if H{entry} is the length of T{tool} on this machine, accept this warning with `--accept`",
         help_de: "H{tool} schreiben; ist H{entry} auf dieser Maschine die Länge von T{tool}, die Warnung mit `--accept` hinnehmen",
     }
-    /// A native program, read back: moves to different points.
+    /// Programs that should have the same moves, but go to different points.
     PATHS_DIFFER: MovesDiffer {
         en: "the moves differ: here the tool goes to {found}, but in line {line} of the other program to {expected}",
         de: "die Bewegungen unterscheiden sich: hier fährt das Werkzeug nach {found}, in Zeile {line} des anderen Programms aber nach {expected}",
     }
-    /// A native program, read back: moves along different curves.
+    /// Programs that should have the same moves, but move along different curves.
     SHAPES_DIFFER: MovesDiffer {
         en: "the moves differ: this one and the one in line {line} of the other program have the same ends, but different routes between them",
         de: "die Bewegungen unterscheiden sich: diese und die in Zeile {line} des anderen Programms haben dieselben Enden, aber nicht denselben Weg dazwischen",
     }
-    /// A native program, read back: a rapid move in one program and a cut in the other.
+    /// Programs that should have the same moves, but one cuts where the other makes a rapid move.
     KINDS_DIFFER: MovesDiffer {
         en: "the moves differ: this is {found}, but in line {line} of the other program it is {expected}",
         de: "die Bewegungen unterscheiden sich: das ist {found}, in Zeile {line} des anderen Programms aber {expected}",
     }
-    /// A native program, read back: different feeds.
+    /// Programs that should have the same moves, but have different feeds.
     FEEDS_DIFFER: MovesDiffer {
         en: "the feeds differ: {found} here, but {expected} in line {line} of the other program",
         de: "die Vorschübe unterscheiden sich: hier {found}, in Zeile {line} des anderen Programms aber {expected}",
     }
-    /// A native program, read back: missing moves at the end.
+    /// A program that lacks the last moves of the one it is compared with.
     MOVES_MISSING: MovesDiffer {
         en: "the moves end here, but the other program goes on in line {line}",
         de: "die Bewegungen enden hier, das andere Programm geht aber in Zeile {line} weiter",
     }
-    /// A native program, read back: additional moves at the end.
+    /// A program that goes on after the last move of the one it is compared with.
     MOVES_TOO_MANY: MovesDiffer {
         en: "the moves of the other program end in line {line}, but this program goes on",
         de: "die Bewegungen des anderen Programms enden in Zeile {line}, dieses Programm geht aber weiter",
