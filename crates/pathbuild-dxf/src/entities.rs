@@ -32,6 +32,8 @@ pub(crate) struct EntityReader<'a, 'o> {
     blocks_matter: bool,
     /// The BLOCKS section, until it has been searched for texts to note.
     unnoted_blocks: Option<Pairs<'a>>,
+    /// Layer of the last insertion, to which the attributes after it belong.
+    last_insertion: Option<LayerId>,
     /// Whether a text on an unwanted layer has been noted. After the first one, no others are tested.
     pub(crate) has_noted_text: bool,
 }
@@ -70,6 +72,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             unseen_blocks: blocks,
             blocks_matter: false,
             unnoted_blocks: blocks.filter(|_| !options.compatible),
+            last_insertion: None,
             has_noted_text: false,
         }
     }
@@ -85,7 +88,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             let head = records.head;
             match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(None),
-                Some(kind) if !(kind.is_part() || space == Space::Block && kind.is_template()) => {
+                Some(kind) if !kind.is_part() => {
                     if let Some(item) = self.item(records, kind, space)? {
                         return Ok(Some(item));
                     }
@@ -107,7 +110,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(Some(layers)),
                 None => records.skip()?,
-                Some(kind) if kind.is_part() || kind.is_template() => records.skip()?,
+                Some(kind) if kind.is_part() => records.skip()?,
                 Some(RecordKind::Insert | RecordKind::Text | RecordKind::MText) => return Ok(None),
                 Some(kind) => {
                     let layer =
@@ -175,7 +178,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             records.skip_alike(name, self.layers.last_spelling())?;
             return Ok(None);
         }
-        if self.is_in_paper_space() {
+        if self.is_in_paper_space() || !self.is_drawn(kind, space) {
             return Ok(None);
         }
         if want == FillDecision::Note {
@@ -212,9 +215,11 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     ) -> Result<(FillDecision, Option<LayerId>), Stop<'a>> {
         let notes_texts = self.notes_texts(kind);
         let Self { layers, decoder, fields, .. } = self;
+        let insertion = self.last_insertion.filter(|_| kind == RecordKind::Foreign(EntityKind::Attrib));
         let mut found = None;
         let want = |layer: Value<'a>| {
             let id = layers.id(layer.bytes, || layer.line, decoder);
+            let id = insertion.map_or(id, |insertion| layers.inherited(id, insertion));
             found = Some(id);
             match fill_decision(layers, id, kind, space) {
                 FillDecision::Skip if notes_texts => FillDecision::Note,
@@ -224,6 +229,9 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         let (next, want) =
             fields.fill(&mut records.groups, records.head.line, kind.repeated_codes(), want)?;
         records.head = next;
+        if kind == RecordKind::Insert {
+            self.last_insertion = found;
+        }
         Ok((want, found))
     }
 
@@ -257,6 +265,16 @@ impl<'a, 'o> EntityReader<'a, 'o> {
 
     fn is_in_paper_space(&self) -> bool {
         self.fields.whole_number(67).is_ok_and(|flag| flag == Some(1))
+    }
+
+    /// Whether the record that was just read draws anything. A visible attribute does; its definition in a block only if it is constant, because each
+    /// insertion has an ATTRIB for every other one.
+    fn is_drawn(&self, kind: RecordKind, space: Space) -> bool {
+        let RecordKind::Foreign(kind @ (EntityKind::AttDef | EntityKind::Attrib)) = kind else { return true };
+        let flags = self.fields.whole_number(70).ok().flatten().unwrap_or(0);
+        let is_constant = flags & CONSTANT_ATTRIBUTE != 0;
+        flags & INVISIBLE_ATTRIBUTE == 0
+            && (kind == EntityKind::Attrib || space == Space::Model || is_constant)
     }
 
     #[inline(always)]
@@ -322,6 +340,9 @@ fn fill_decision(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, spac
         || (space == Space::Block && layers.is_inheriting(layer));
     if may_be_wanted { FillDecision::Keep } else { FillDecision::Skip }
 }
+
+const INVISIBLE_ATTRIBUTE: i64 = 1;
+const CONSTANT_ATTRIBUTE: i64 = 2;
 
 fn is_end(head: &Pair<'_>) -> bool {
     END_RECORDS.iter().any(|keyword| head.is(keyword))
@@ -412,12 +433,12 @@ impl RecordKind {
 
     /// Whether a record of this kind draws something other than a text or a hatch. Annotations have no kind.
     fn is_element(self) -> bool {
-        !(self.is_part() || self.is_template() || matches!(self, Self::Text | Self::MText | Self::Hatch))
+        !(self.is_part() || self.is_text() || self == Self::Hatch)
     }
 
-    /// Whether a record of this kind draws nothing where its block is inserted: each insertion has an ATTRIB of its own instead.
-    fn is_template(self) -> bool {
-        self == Self::Foreign(EntityKind::AttDef)
+    /// Whether a record of this kind is a text.
+    fn is_text(self) -> bool {
+        matches!(self, Self::Text | Self::MText | Self::Foreign(EntityKind::AttDef | EntityKind::Attrib))
     }
 
     /// Returns a bit mask of the codes below 64 that this kind repeats.

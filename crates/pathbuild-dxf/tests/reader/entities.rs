@@ -158,16 +158,52 @@ fn what_no_path_consists_of_is_left_out_with_its_name() {
     }
 }
 
-/// In a block, an attribute definition is only a template: each insertion has an ATTRIB instead.
+/// In a block, an attribute definition is only a template: each insertion has an ATTRIB instead, unless the attribute is constant (2). An attribute
+/// may be invisible (1).
 #[test]
-fn an_attribute_definition_is_left_out_where_it_is_visible() {
-    let record = "0 ATTDEF\n8 P\n10 7\n20 8\n1 B2\n2 DEPTH\n";
-    let drawing = read_all(entities(record));
-    let [left_out] = &drawing.left_out[..] else { panic!("{drawing:?}") };
-    assert_eq!(left_out.kind, EntityKind::AttDef);
-    let in_block = format!("0 BLOCK\n2 B\n10 1\n20 0\n{record}0 ENDBLK");
-    let drawing = read_all(file("", "", &in_block, "0 INSERT\n8 P\n2 B\n10 0\n20 0"));
-    assert_eq!(drawing.left_out, []);
+fn an_attribute_is_left_out_where_it_is_visible() {
+    let record = |name: &str, flags: u8| format!("0 {name}\n8 P\n10 7\n20 8\n1 B2\n2 DEPTH\n70 {flags}\n");
+    let drawn = |text: String| {
+        let left_out = read_all(text).left_out;
+        left_out.iter().map(|left_out| left_out.kind).collect::<Vec<_>>()
+    };
+    for (flags, is_drawn, is_drawn_in_block) in [
+        (0, true, false),
+        (1, false, false),
+        (2, true, true),
+        (3, false, false),
+        (4, true, false),
+        (6, true, true),
+    ] {
+        let expected = |kind, is_drawn| if is_drawn { vec![kind] } else { vec![] };
+        let (attribute, definition) = (record("ATTRIB", flags), record("ATTDEF", flags));
+        assert_eq!(drawn(entities(&attribute)), expected(EntityKind::Attrib, is_drawn), "{flags}");
+        assert_eq!(drawn(entities(&definition)), expected(EntityKind::AttDef, is_drawn), "{flags}");
+        let in_block = format!("0 BLOCK\n2 B\n10 1\n20 0\n{definition}0 ENDBLK");
+        let drawn = drawn(file("", "", &in_block, "0 INSERT\n8 P\n2 B\n10 0\n20 0"));
+        assert_eq!(drawn, expected(EntityKind::AttDef, is_drawn_in_block), "{flags}");
+    }
+}
+
+/// Like the contents of a block, an attribute on layer 0 belongs to the layer of its insertion.
+#[test]
+fn an_attribute_on_layer_0_belongs_to_the_layer_of_its_insertion() {
+    let blocks = "0 BLOCK\n2 B\n10 0\n20 0\n0 ENDBLK\n0 BLOCK\n2 C\n10 0\n20 0\n0 INSERT\n8 X\n2 B\n10 0\n20 0\n\
+                  0 ATTRIB\n8 0\n10 7\n20 8\n0 ENDBLK";
+    let left_out = |insertions: &str| {
+        let text = file("", "", blocks, insertions);
+        let drawing = read(text.as_bytes(), &Options { keep_layer: &|layer| layer == "P", ..options() });
+        drawing.left_out.iter().filter(|left_out| left_out.kind == EntityKind::Attrib).count()
+    };
+    let insertion = |layer: &str| {
+        format!("0 INSERT\n{layer}\n2 B\n66 1\n10 0\n20 0\n0 ATTRIB\n8 0\n10 7\n20 8\n0 SEQEND\n")
+    };
+    assert_eq!(left_out(&insertion("8 P")), 1);
+    assert_eq!(left_out(&insertion("8 X")), 0);
+    assert_eq!(left_out(&(insertion("8 X") + &insertion("8 P") + &insertion("62 1"))), 1);
+    assert_eq!(left_out(&insertion("8 P").replace("ATTRIB\n8 0", "ATTRIB\n8 X")), 0);
+    // In a block, the attribute belongs to the insertion there.
+    assert_eq!(left_out("0 INSERT\n8 P\n2 C\n10 0\n20 0\n"), 0);
 }
 
 /// The first point of a hatch is its elevation, and its last points need not lie on its boundary.
