@@ -32,6 +32,7 @@ struct Text {
     pieces: Range<u32>,
     letters: Letters,
     is_plain: bool,
+    swallowed: Option<u32>,
 }
 
 /// A parameter text, split into pieces.
@@ -42,6 +43,8 @@ pub struct ParameterText<'t> {
     pub(crate) letters: Letters,
     /// Whether all pieces of the text have different letters and valid values without references to variables.
     pub(crate) is_plain: bool,
+    /// Byte offset of the first parameter that a `~` joined to the value before it although blanks separate them.
+    swallowed: Option<u32>,
 }
 
 /// A letter with its value, before variables are substituted.
@@ -70,14 +73,24 @@ impl ParameterTexts {
     /// Adds a text as drawn: lines that end in `~` are joined with the next ones, and `%%` codes are replaced.
     pub(crate) fn push_drawn(&mut self, text: &str) -> TextId {
         // Texts with the same content are usually near each other.
-        let is_same = |known: &&Text| self.string[range(&known.string)] == *text;
+        let is_same = |known: &&Text| known.swallowed.is_none() && self.string[range(&known.string)] == *text;
         if let Some(same) = self.texts.iter().rev().take(COMPARED_TEXTS).find(is_same) {
             let same = same.clone();
             return self.add(same);
         }
         // Most texts contain neither codes nor continuation lines.
         let is_plain = !text.bytes().any(|byte| matches!(byte, b'%' | b'~'));
-        if is_plain { self.push(text) } else { self.push(&join_lines(&without_percent_codes(text))) }
+        if is_plain { self.push(text) } else { self.push_lines(&without_percent_codes(text)) }
+    }
+
+    /// Adds a text whose codes are already replaced, and joins its lines.
+    fn push_lines(&mut self, text: &str) -> TextId {
+        let (joined, swallowed) = join_lines(text);
+        let id = self.push(&joined);
+        if let Some(text) = self.texts.last_mut() {
+            text.swallowed = swallowed;
+        }
+        id
     }
 
     /// Adds a text whose lines are already joined and whose codes are already replaced.
@@ -93,7 +106,7 @@ impl ParameterTexts {
         }
         let (string, pieces) =
             (number(start)..number(self.string.len()), number(first)..number(self.pieces.len()));
-        self.add(Text { string, pieces, letters, is_plain })
+        self.add(Text { string, pieces, letters, is_plain, swallowed: None })
     }
 
     fn add(&mut self, text: Text) -> TextId {
@@ -116,12 +129,13 @@ impl ParameterTexts {
     }
 
     fn text(&self, text: &Text) -> ParameterText<'_> {
-        let Text { string, pieces, letters, is_plain } = text;
+        let Text { string, pieces, letters, is_plain, swallowed } = text;
         ParameterText {
             string: &self.string[range(string)],
             pieces: &self.pieces[range(pieces)],
             letters: *letters,
             is_plain: *is_plain,
+            swallowed: *swallowed,
         }
     }
 }
@@ -141,7 +155,7 @@ impl From<&str> for ParameterTexts {
     /// Creates a single text from lines with their `%%` codes already replaced.
     fn from(text: &str) -> Self {
         let mut texts = Self::default();
-        texts.push(&join_lines(text));
+        texts.push_lines(text);
         texts
     }
 }
@@ -280,8 +294,8 @@ impl<'t> ParameterText<'t> {
         self.unseparated_parameter_problem(letter, piece, class)
     }
 
-    /// Returns PB211 for a text value that contains what looks like a parameter of the element: `Qslot,B1`. A number that runs on like this is an
-    /// error in itself.
+    /// Returns PB211 for a text value that contains what looks like a parameter of the element: `Qslot,B1`, or B1 with a space before it on the line
+    /// after `Qslot~`. A number that runs on like this is an error in itself.
     fn unseparated_parameter_problem(
         self,
         letter: Letter,
@@ -300,8 +314,14 @@ impl<'t> ParameterText<'t> {
                 class.use_of(letter).counts() && parse_number(characters.as_str()).is_some()
             })
         };
-        let parameter = self.value(piece).split(is_separator).skip(1).find(is_parameter)?;
-        let problem = Diagnostic::new(&messages::UNSEPARATED_PARAMETER).with("letter", letter.as_char());
+        let mut parts = self.value(piece).split(is_separator).skip(1);
+        let swallowed = self.swallowed.filter(|at| piece.span.contains(at));
+        let swallowed = swallowed.map(|at| &self.string[at as usize..piece.span().end]).filter(is_parameter);
+        let (message, parameter) = match swallowed {
+            Some(parameter) => (&messages::SWALLOWED_PARAMETER, parameter),
+            None => (&messages::UNSEPARATED_PARAMETER, parts.find(is_parameter)?),
+        };
+        let problem = Diagnostic::new(message).with("letter", letter.as_char());
         Some(problem.quoting("value", self.value(piece)).quoting("parameter", parameter))
     }
 
@@ -384,11 +404,12 @@ fn unknown_letter(letter: char, class: ElementClass) -> Diagnostic {
 }
 
 /// Joins lines ending in `~`, by which a long value continues on the next line. Spaces after the `~` are ignored, because they are
-/// invisible in a CAD program.
-fn join_lines(text: &str) -> Cow<'_, str> {
+/// invisible in a CAD program. Also returns the offset of the first parameter that follows a `~` and blanks.
+fn join_lines(text: &str) -> (Cow<'_, str>, Option<u32>) {
     if !text.contains('~') {
-        return Cow::Borrowed(text);
+        return (Cow::Borrowed(text), None);
     }
+    let mut swallowed = None;
     let mut joined = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(tilde) = rest.find('~') {
@@ -397,14 +418,22 @@ fn join_lines(text: &str) -> Cow<'_, str> {
             after.trim_start_matches(|character: char| character.is_whitespace() && !is_line_end(character));
         let is_continued = line_end.starts_with(is_line_end);
         joined.push_str(&rest[..tilde + usize::from(!is_continued)]);
-        rest = if is_continued {
-            line_end.trim_start_matches(|character| u8::try_from(character).is_ok_and(is_blank))
-        } else {
-            after
-        };
+        rest = after;
+        if is_continued {
+            rest = line_end.trim_start_matches(|character| u8::try_from(character).is_ok_and(is_blank));
+            let next_line = line_end.strip_prefix('\r').unwrap_or(line_end);
+            let next_line = next_line.strip_prefix('\n').unwrap_or(next_line);
+            let is_number = |piece: LetterValue| matches!(piece.written, ValueKind::Number(_));
+            if swallowed.is_none()
+                && rest.len() < next_line.len()
+                && next_piece(rest, 0).is_some_and(is_number)
+            {
+                swallowed = Some(number(joined.len()));
+            }
+        }
     }
     joined.push_str(rest);
-    Cow::Owned(joined)
+    (Cow::Owned(joined), swallowed)
 }
 
 fn is_line_end(character: char) -> bool {

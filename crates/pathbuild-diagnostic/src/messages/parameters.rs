@@ -195,6 +195,13 @@ messages! {
         help_en: "separate parameters by spaces; if {parameter} is part of the text, write it without the sign before it",
         help_de: "Parameter durch Leerzeichen trennen; gehört {parameter} zum Text, das Zeichen davor weglassen",
     }
+    /// A text value that goes on after `~` and blanks with what looks like a parameter.
+    SWALLOWED_PARAMETER: DoubtfulValue {
+        en: "{parameter} belongs to the text of {letter}, \"{value}\", and sets nothing: the line before it ends with ~",
+        de: "{parameter} gehört zum Text von {letter}, \"{value}\", und bewirkt nichts: die Zeile davor endet mit ~",
+        help_en: "remove the ~ at the end of the line before; if {parameter} is part of the text, begin the next line with it, without a space",
+        help_de: "das ~ am Ende der Zeile davor entfernen; gehört {parameter} zum Text, die nächste Zeile ohne Leerzeichen damit beginnen",
+    }
     /// Joined paths with different materials (M).
     JOINED_MATERIAL: DoubtfulValue {
         en: "M is {material} here, but {other} in path {path} of the same program",

@@ -204,6 +204,36 @@ fn a_parameter_in_a_text_value_is_doubted() {
 }
 
 #[test]
+fn a_parameter_after_a_tilde_and_blanks_is_doubted() {
+    for text in [
+        "Qslot~\n B1",
+        "Qslot~\n\tB1",
+        "Qslot~\n\nB1",
+        "Qslot~ \r\n B1 F100",
+        "Qa~\nb~\n B1",
+        "Qa~\n b~\n B1",
+    ] {
+        assert_one(
+            &of_text(text, ElementClass::Mill),
+            "PB211 B1 belongs to the text of Q",
+            "without a space",
+        );
+    }
+    for text in [
+        "Qslot~\nB1",
+        "Qslot~\r\nB1",
+        "Qslot~\n left",
+        "Qslot~\n T2",
+        "Qslot~\n Bx",
+        "Qslot~ B1",
+        "Qslot\n B1",
+    ] {
+        let found = of_text(text, ElementClass::Mill);
+        assert!(!found.iter().any(|found| found.contains("PB211")), "{text}: {found:?}");
+    }
+}
+
+#[test]
 fn a_value_above_0_has_an_example() {
     let found = messages_with_help(&compile(&path(P, "mill 0,0 20,0 \"F0\"\nend 20,0")).found);
     assert_one(&found, "PB203 F is 0", "for example F150");
