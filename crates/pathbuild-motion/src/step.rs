@@ -372,7 +372,7 @@ impl Pace {
 }
 
 /// A position that a program specifies by name, with the axes that move there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NamedPosition {
     /// G53: machine coordinates. If the machine's origin is unknown, the axes of the target that are not `known` hold machine coordinates.
     Machine(Axes),

@@ -5,11 +5,12 @@
 mod phrases;
 mod pieces;
 
+use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 use imara_diff::{Algorithm, Diff, InternedInput, Interner};
-use pathbuild_motion::{Axes, MoveShape, Plane, Position};
+use pathbuild_motion::{Axes, MoveShape, NamedPosition, Plane, Position};
 
 use crate::scene::{MoveKind, Point, SceneMove};
 pub use phrases::{moves, phrase};
@@ -81,8 +82,10 @@ const ORIGIN: Point = [0.0; 2];
 /// another place is shifted. All other cuts are divided where cuts end on them, unless they are too many, and each piece is classified by comparing the
 /// final depth, the feed and the number of passes along its line in the plane.
 pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
+    let [old, new] = [old, new].map(without_standing_moves);
+    let (old, new) = (&*old, &*new);
     let mut identities = Identities::default();
-    let rows = differing_runs(&mut identities, old, new);
+    let rows = hunks(&mut identities, old, new);
     let sides = [old, new];
     let differing = rows.iter().flat_map(|(was, is)| old[was.clone()].iter().chain(&new[is.clone()]));
     let mut divider = Divider::new(differing);
@@ -157,18 +160,6 @@ fn unite_slopes(changes: &mut [Change]) {
     }
 }
 
-/// Returns the runs of moves in which two programs differ, as pairs of ranges in the old and the new one.
-fn differing_runs(identities: &mut Identities, old: &[SceneMove], new: &[SceneMove]) -> Vec<Rows> {
-    // Moves before the first fully known position depend on the machine and are not compared.
-    let begin = |moves: &[SceneMove]| {
-        moves.iter().take_while(|movement| !movement.way.from.known.has(Axes::ALL)).count()
-    };
-    let (was, is) = (begin(old), begin(new));
-    let hunks = hunks(identities, &old[was..], &new[is..]);
-    let row = |start: usize, row: Range<usize>| start + row.start..start + row.end;
-    hunks.into_iter().map(|(before, after)| (row(was, before), row(is, after))).collect()
-}
-
 /// Returns the ranges in which two sequences of moves differ.
 fn hunks(identities: &mut Identities, old: &[SceneMove], new: &[SceneMove]) -> Vec<Rows> {
     let interner = Interner::new(old.len() + new.len());
@@ -178,6 +169,18 @@ fn hunks(identities: &mut Identities, old: &[SceneMove], new: &[SceneMove]) -> V
     let row = |row: &Range<u32>| row.start as usize..row.end as usize;
     let diff = Diff::compute(Algorithm::Histogram, &input);
     diff.hunks().map(|hunk| (row(&hunk.before), row(&hunk.after))).collect()
+}
+
+/// Removes rapid moves that end where they begin, which drilling cycles make above their holes.
+fn without_standing_moves(moves: &[SceneMove]) -> Cow<'_, [SceneMove]> {
+    let stands = |movement: &SceneMove| {
+        is_rapid(movement) && movement.way.named.is_none() && movement.way.is_standstill()
+    };
+    if moves.iter().any(stands) {
+        Cow::Owned(moves.iter().filter(|movement| !stands(movement)).cloned().collect())
+    } else {
+        Cow::Borrowed(moves)
+    }
 }
 
 struct Comparison<'a> {
@@ -416,6 +419,7 @@ struct MoveIdentity {
     /// Direction and additional turns of an arc of more than half a turn, which its ends and its middle do not determine.
     turn: Option<(bool, u32)>,
     feed: Option<u32>,
+    named: Option<NamedPosition>,
 }
 
 /// A key that is equal for moves along the same line in the plane, regardless of direction and height.
@@ -447,18 +451,25 @@ impl Identities {
     fn of(&mut self, movement: &SceneMove, origin: Point) -> MoveIdentity {
         let way = &movement.way;
         let relative = |at: [f64; 3]| [at[0] - origin[0], at[1] - origin[1], at[2]];
-        let mut end = |end: &Position| {
-            let known = [0, 1, 2].map(|axis| end.known.has(Axes::of(axis)));
+        let mut end = |end: &Position, machine_axes: Axes| {
             let at = relative(end.at);
-            (self.ends.number([0, 1, 2].map(|axis| if known[axis] { at[axis] } else { 0.0 })), known)
+            let is_stated = |axis: usize| end.known.with(machine_axes).has(Axes::of(axis));
+            let known = [0, 1, 2].map(|axis| end.known.has(Axes::of(axis)));
+            (self.ends.number([0, 1, 2].map(|axis| if is_stated(axis) { at[axis] } else { 0.0 })), known)
         };
-        let to = end(&way.to);
+        let machine_axes = match way.named {
+            Some(NamedPosition::Machine(axes)) => axes,
+            _ => Axes::NONE,
+        };
+        let to = end(&way.to, machine_axes);
+        let named = way.named;
         let feed = way.pace.feed();
         // A rapid move is identified by its end only: it starts where the previous move ends, which is unknown at the beginning of a program.
         if is_rapid(movement) {
-            return MoveIdentity { kind: MoveKind::Sweep, ends: [to; 2], middle: 0, turn: None, feed: None };
+            let kind = MoveKind::Sweep;
+            return MoveIdentity { kind, ends: [to; 2], middle: 0, turn: None, feed: None, named };
         }
-        let ends = [end(&way.from), to];
+        let ends = [end(&way.from, Axes::NONE), to];
         let turn = match (way.shape, way.course()) {
             (MoveShape::Arc(arc), Some(course)) if course.sweep() > std::f64::consts::PI => {
                 Some((arc.clockwise, arc.extra_turns))
@@ -467,7 +478,7 @@ impl Identities {
         };
         let feed = feed.map(|feed| self.ends.number([feed, 0.0, 0.0]));
         let middle = self.middles.number(relative(way.point(0.5)));
-        MoveIdentity { kind: class(movement.kind), ends, middle, turn, feed }
+        MoveIdentity { kind: class(movement.kind), ends, middle, turn, feed, named }
     }
 
     /// Returns the line that a move follows.
@@ -643,6 +654,30 @@ mod tests {
         assert_eq!(described(LINE, &LINE.replace("X10 Y0", "X10.002 Y0")).len(), 2);
     }
 
+    /// All moves count from the first one, at which no position or only that of some axes is known.
+    #[test]
+    fn the_approach_is_compared() {
+        let described = |old: &str, new: &str| {
+            let [old, new] =
+                [old, new].map(|approach| moves(&format!("G21 G90 G17 G94\n{approach}G0 Z5\n{LINE}")));
+            groups(&compare(&old, &new)).iter().map(|group| phrase(group, Lang::En)).collect::<Vec<_>>()
+        };
+        let usual = "G0 Z15\nG0 X0 Y0\n";
+        assert_eq!(described(usual, &usual.replace("Z15", "Z15.0004")), Vec::<String>::new());
+        for other in
+            ["G0 Z15.002\nG0 X0 Y0\n", "G0 Z-5\nG0 X0 Y0\nG0 Z15\n", "G0 X0 Y0\nG0 Z15\n", "G0 X0 Y0 Z15\n"]
+        {
+            assert_eq!(described(usual, other), ["other rapid moves"], "{other}");
+            assert_eq!(described(other, usual), ["other rapid moves"], "{other}");
+        }
+        let home = "G53 G0 Z0\nG0 X0 Y0\nG0 Z5\n";
+        assert_eq!(described(home, home), Vec::<String>::new());
+        for other in ["G53 G0 Z-80\n", "G28 G91 Z0\nG90\n", "G30 G91 Z0\nG90\n", ""] {
+            let other = home.replace("G53 G0 Z0\n", other);
+            assert_eq!(described(home, &other), ["other rapid moves"], "{other}");
+        }
+    }
+
     #[test]
     fn depth_and_feed() {
         assert_eq!(described(LINE, &LINE.replace("Z-1", "Z-1.5")), ["0.5 mm deeper 3 26.5"]);
@@ -664,6 +699,16 @@ mod tests {
         assert_eq!(described("G2 X10.0002 Y0 I5 J0"), 0);
         assert_ne!(described("G3 X10 Y0 I5 J0"), 0, "the other half of the circle");
         assert_ne!(described("G2 X10 Y0 I5 J-2"), 0, "another centre");
+    }
+
+    /// A cycle that begins above its hole makes a move to where the tool is.
+    #[test]
+    fn rapid_moves_that_stand_still_are_no_change() {
+        let there = LINE.replace("G1 Z-1", "G0 X0 Y0 Z5\nG1 Z-1");
+        assert_eq!(described(LINE, &there), Vec::<String>::new());
+        assert_eq!(described(&there, LINE), Vec::<String>::new());
+        let elsewhere = there.replace("G0 X0 Y0 Z5", "G0 X0 Y0 Z5\nG0 Z6\nG0 Z5");
+        assert_eq!(described(&there, &elsewhere), ["other rapid moves 2 2"]);
     }
 
     /// Lines and arcs may be divided in any way, as long as the tool takes the same way.
