@@ -375,6 +375,30 @@ fn what_a_built_in_post_writes_is_no_change() {
     }
 }
 
+/// Programs that `post` writes from native ones have all their rapid moves, and holes without C are the same with a cycle.
+#[test]
+fn what_post_writes_from_a_native_program_is_no_change() {
+    let library = crate::support::project().join("fixtures/library");
+    let configuration = fs::read_to_string(library.join("pathbuild.toml")).unwrap();
+    let mut place = Place::new().file("pathbuild.toml", format!("spindle = \"manual\"\n{configuration}"));
+    for folder in ["components", "projects"] {
+        for drawing in fs::read_dir(library.join(folder)).unwrap().map(Result::unwrap) {
+            let name = format!("{folder}/{}", drawing.file_name().to_str().unwrap());
+            place = place.file(&name, fs::read(drawing.path()).unwrap());
+        }
+    }
+    for path in ["2050.1P", "8001.1P", "8104.1P"] {
+        let emit = place.run(&format!("emit {path} --out-dir native"));
+        assert_eq!(emit.status, Some(0), "{emit}");
+        for name in pathbuild_post::BUILT_IN.iter().map(|post| post.name).filter(|name| *name != "native") {
+            let post = place.run(&format!("post native/{path}_Milling.gcode --post {name} -o {name}.nc"));
+            assert_eq!(post.status, Some(0), "{post}");
+            let diff = place.run(&format!("diff {name}.nc {path}"));
+            assert_eq!(diff.stdout, "0 of 1 path changed\n", "{path} {name}: {diff}");
+        }
+    }
+}
+
 /// Programs of a definition that names no dialect are read with that definition.
 #[test]
 fn what_an_own_definition_writes_is_no_change() {

@@ -257,16 +257,17 @@ impl Builder {
     }
 
     /// Starts an operation at the current position. If the settings of the last operation are not final, the new one replaces it and takes over its
-    /// steps, except for rapid moves.
+    /// steps.
     fn begin(&mut self, name: &str) {
         let mut operation = Operation::new(name, tool_with_number(self.state.tool));
         operation.part.clone_from(&self.job.name);
-        if !self.is_settled() {
-            let idle = self.job.operations.pop();
-            operation.steps = idle.into_iter().flat_map(|idle| idle.steps).filter(is_not_rapid).collect();
-        }
         operation.clearance = self.clearance;
         operation.entry = self.entry();
+        if !self.is_settled()
+            && let Some(idle) = self.job.operations.pop()
+        {
+            (operation.entry, operation.steps) = (idle.entry, idle.steps);
+        }
         self.has_cut = false;
         self.has_ended = false;
         self.is_spindle_kept_off = false;
@@ -494,12 +495,13 @@ impl Builder {
         Ok(self.job)
     }
 
-    /// Removes the last operation, which cuts nothing. If it has the tool of the last cut, its rapid moves, such as the last retract, become the
-    /// job's departure.
+    /// Removes the last operation, which cuts nothing. If it has the tool of the last cut, its rapid moves, such as the last retract, become the end of
+    /// the operation before.
     fn drop_idle_end(&mut self) {
         let Some(idle) = self.job.operations.pop() else { return };
-        if self.job.operations.last().is_some_and(|last| last.tool.index == idle.tool.index) {
-            self.job.departure = idle.steps.into_iter().filter(|step| !is_not_rapid(step)).collect();
+        let last = self.job.operations.last_mut().filter(|last| last.tool.index == idle.tool.index);
+        if let Some(last) = last {
+            last.steps.extend(idle.steps.into_iter().filter(|step| !is_not_rapid(step)));
         }
     }
 }

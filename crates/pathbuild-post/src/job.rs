@@ -22,8 +22,6 @@ pub struct Job {
     pub units: Units,
     /// The operations in order. A job without operations cannot be written.
     pub operations: Vec<Operation>,
-    /// Rapid moves after the last operation that take its tool away, for definitions whose end does not raise the tool by itself.
-    pub departure: Vec<JobStep>,
     /// Comments to be written at the beginning of the text.
     pub remarks: Vec<Box<str>>,
     /// Whether the upper face of the material is unknown and assumed to be at Z 0.
@@ -51,9 +49,6 @@ impl Job {
             return Err(Box::new(
                 Diagnostic::new(&posts::JOB_NOT_FINITE).quoting("operation", &*broken.name),
             ));
-        }
-        if !self.departure.iter().all(JobStep::is_finite) {
-            return Err(Box::new(Diagnostic::new(&posts::JOB_NOT_FINITE).quoting("operation", &*self.name)));
         }
         self.check_changes()
     }

@@ -377,7 +377,6 @@ fn moves(job: &Job) -> Result<Vec<(u32, Move)>, Box<Diagnostic>> {
             mover.step(step)?;
         }
     }
-    job.departure.iter().try_for_each(|step| mover.step(step))?;
     Ok(mover.moves.into_iter().map(with_equal_probes).collect())
 }
 

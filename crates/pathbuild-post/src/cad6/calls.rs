@@ -23,7 +23,6 @@ pub(super) fn calls<'a>(job: &'a Job, definition: &Definition) -> Result<Vec<Cal
     for index in 0..job.operations.len() {
         builder.operation(index)?;
     }
-    job.departure.iter().try_for_each(|step| builder.step(step))?;
     builder.close_contour()?;
     Ok(builder.calls)
 }

@@ -74,8 +74,8 @@ fn remarks_say_where_operations_begin_and_end() {
     let steps = interpret(text.as_bytes(), Dialect::Native, &Options::default()).steps;
     let job = Job::from_steps("outer", &steps, Dialect::Native, &native_remark).unwrap();
     let names: Vec<_> = job.operations.iter().map(|it| (&*it.name, it.steps.len())).collect();
-    assert_eq!(names, [("A", 2), ("B", 1), ("A", 1), ("outer", 2)]);
-    assert_eq!(job.operations[0].steps[0], JobStep::Comment("Q:a".into()));
+    assert_eq!(names, [("A", 3), ("B", 1), ("A", 1), ("outer", 2)]);
+    assert_eq!(job.operations[0].steps[1], JobStep::Comment("Q:a".into()));
 }
 
 #[test]
