@@ -446,6 +446,12 @@ impl<'a> Plan<'a> {
         self.definition.templates().chain(self.macros.iter().map(|(_, text)| text))
     }
 
+    /// Whether the output states the plane of arcs. A definition without a dialect may do so in words of its own.
+    pub(super) fn has_planes(&self) -> bool {
+        let is_plane = |(what, _): (&Macro, u32)| *what == Macro::State(State::WorkPlane);
+        self.target.is_none() || self.templates().flat_map(Template::macros).any(is_plane)
+    }
+
     fn unknown_macros(&self) -> Vec<Diagnostic> {
         let macros =
             self.templates().flat_map(|text| text.macros().map(move |(what, line)| (text, what, line)));

@@ -268,10 +268,11 @@ const CENTRE_REGISTERS: [Register; 3] = [Register::I, Register::J, Register::K];
 
 impl Writer<'_> {
     /// Writes an arc in the form required by the options of the definition. An arc that is too short or too large for them, or that would be read as
-    /// a full circle after rounding, becomes a single line.
+    /// a full circle after rounding, becomes a single line. An arc in a plane that the output does not state becomes chords.
     pub(super) fn arc(&mut self, movement: &Move, course: &Course) -> WriteResult {
         let options = &self.plan.definition.options;
-        if options.arcs_as_lines || options.rotary.wrap {
+        let has_plane = course.arc().plane == Plane::Xy || self.plan.has_planes();
+        if options.arcs_as_lines || options.rotary.wrap || !has_plane {
             return self.chords(movement, course);
         }
         let is_short = self.scaled(course.radius() * course.sweep()) < options.least_arc_length;

@@ -518,6 +518,19 @@ fn posted(text: &str, dialect: Dialect, post: &str) -> Result<Vec<String>, Vec<S
     Ok(String::from_utf8(output.text).unwrap().lines().map(str::to_owned).collect())
 }
 
+/// A helix in G18 with its centre beside both ends in Z. Posts that write no plane replace it by chords.
+#[test]
+fn arcs_in_other_planes_are_written() {
+    let text = "G21 G90 G17\nT1 M6\nS1000 M3\nG0 Z5\nG0 X0 Y0\nG1 Z-2 F100\nG18 G3 X4 Y1 Z-2 I2 K1\nG17 G1 X9\nG0 Z5\nM5\nM30";
+    for post in definitions().filter(|post| *post != "din") {
+        let lines = posted(text, Dialect::LinuxCnc, post);
+        let lines = lines.unwrap_or_else(|errors| panic!("{post}: {errors:?}"));
+        let has_arc = lines.iter().any(|line| line.starts_with("G3 ") && line.ends_with(" I2.0 K1.0"));
+        let has_plane = !matches!(post, "marlin" | "estlcam" | "xpertmill");
+        assert_eq!(has_arc, has_plane, "{post}: {lines:#?}");
+    }
+}
+
 /// In a native program, the last retract follows the end of the last path.
 #[test]
 fn the_last_retract_of_a_native_program_is_written() {
