@@ -11,8 +11,8 @@ pub(crate) struct Word {
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct LineWords {
     pub(crate) words: Vec<Word>,
-    /// Whether the line contains something other than words, comments, blanks, `%`, `/` and `:`.
-    pub(crate) has_more: bool,
+    /// The first text, up to the next blank, other than words, comments, `%`, `/` and `:`.
+    pub(crate) foreign: Option<String>,
     /// Whether the line begins with `/`, possibly after its number, so that a switch at the machine (block delete) can skip it.
     pub(crate) is_optional: bool,
     /// Whether the line begins with `%`.
@@ -30,7 +30,8 @@ pub(crate) struct CommentMarks {
 
 pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
     let mut found = LineWords::default();
-    let mut rest = line.trim_start();
+    let line = line.trim();
+    let mut rest = line;
     while let Some(first) = rest.chars().next() {
         rest = if let Some(after) = after_comment(rest, marks) {
             after
@@ -39,9 +40,11 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
             after
         } else {
             found.is_optional |= first == '/' && found.words.iter().all(|word| word.letter == 'N');
-            found.is_percent |= first == '%' && rest.len() == line.trim_start().len();
+            found.is_percent |= first == '%' && rest.len() == line.len();
             found.formula = found.formula.or(Some(first).filter(|sign| matches!(sign, '#' | '[')));
-            found.has_more |= !matches!(first, '%' | '/' | ':' | ' ' | '\t');
+            if found.foreign.is_none() && !matches!(first, '%' | '/' | ':' | ' ' | '\t') {
+                found.foreign = rest.split([' ', '\t']).next().map(str::to_owned);
+            }
             &rest[first.len_utf8()..]
         };
     }
@@ -89,7 +92,7 @@ pub(crate) fn first_other_line(found: &[u8], expected: &[u8], marks: &CommentMar
 fn opening<'l>(line: &'l str, marks: &CommentMarks) -> Option<&'l str> {
     let line = line.trim();
     let found = words(line, marks);
-    let is_comment = found.words.is_empty() && !found.has_more && !line.contains('\r');
+    let is_comment = found.words.is_empty() && found.foreign.is_none() && !line.contains('\r');
     let (length, _) = marks.opening_mark(line).filter(|_| is_comment)?;
     Some(&line[..length])
 }
@@ -115,30 +118,31 @@ fn word(text: &str) -> Option<(Word, &str)> {
 mod tests {
     use super::*;
 
-    fn read(line: &str) -> (String, bool) {
+    fn read(line: &str) -> (String, Option<String>) {
         let marks = CommentMarks { open: "'".into(), close: String::new() };
         let found = words(line, &marks);
         let text: Vec<String> =
             found.words.iter().map(|word| format!("{}{}", word.letter, word.number)).collect();
-        (text.join(" "), found.has_more)
+        (text.join(" "), found.foreign)
     }
 
     #[test]
     fn words_need_no_blanks_and_may_have_them() {
-        assert_eq!(read("G1X-1.5y 2 Z.5"), ("G1 X-1.5 Y2 Z0.5".into(), false));
-        assert_eq!(read("%"), (String::new(), false));
+        assert_eq!(read("G1X-1.5y 2 Z.5"), ("G1 X-1.5 Y2 Z0.5".into(), None));
+        assert_eq!(read("%"), (String::new(), None));
     }
 
     #[test]
     fn comments_say_nothing() {
-        assert_eq!(read("G0 (X1) Y2 ; Z3"), ("G0 Y2".into(), false));
-        assert_eq!(read("G0 'X1"), ("G0".into(), false));
+        assert_eq!(read("G0 (X1) Y2 ; Z3"), ("G0 Y2".into(), None));
+        assert_eq!(read("G0 'X1"), ("G0".into(), None));
     }
 
     #[test]
     fn other_text_is_passed_over() {
-        assert_eq!(read("G0 TOUCHOFF-POINT"), ("G0".into(), true));
-        assert_eq!(read("<HEADER>"), (String::new(), true));
-        assert_eq!(read("G1 X#1"), ("G1".into(), true));
+        let foreign = |text: &str| Some(text.to_owned());
+        assert_eq!(read("G0 TOUCHOFF-POINT X1"), ("G0 X1".into(), foreign("TOUCHOFF-POINT")));
+        assert_eq!(read("<HEADER>"), (String::new(), foreign("<HEADER>")));
+        assert_eq!(read("G1 X#1"), ("G1".into(), foreign("X#1")));
     }
 }

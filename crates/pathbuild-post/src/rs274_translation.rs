@@ -102,6 +102,10 @@ pub enum Doubt {
 
 const MAX_DOUBTFUL_WORDS: usize = 20;
 
+/// The statements of Siemens controls that move, turn, scale or mirror the coordinate system.
+const FRAME_STATEMENTS: [&str; 11] =
+    ["TRANS", "ATRANS", "ROT", "AROT", "ROTS", "AROTS", "SCALE", "ASCALE", "MIRROR", "AMIRROR", "CYCLE800"];
+
 impl Rs274Translation {
     /// Creates an empty translation. Units and the mode of arc centres are those of the definition until a line changes them.
     pub(crate) fn new(units: Units, absolute_centres: bool) -> Self {
@@ -127,22 +131,22 @@ impl Rs274Translation {
         if self.enter_blank_definition(line) {
             return self.end_line();
         }
-        self.report_dangerous(line);
+        let codes = |word: &&Word| word.letter == 'G';
+        let is_motion = |word: &Word| matches!(tenths(word), 0..=30 | 310 | 382..=385 | 730 | 810..=890);
+        let motion = motion.filter(|_| !line.words.iter().filter(codes).any(is_motion));
+        self.report_dangerous(line, motion.is_some());
         self.modes.line(self.line, line, motion);
         if line.is_optional {
             // In the first line, the modes of the definition are already written, and `/` must precede them as well.
             let begin = if self.line == 1 { 0 } else { self.text.len() };
             self.text.insert(begin, '/');
         }
-        let codes = |word: &&Word| word.letter == 'G';
-        let is_motion = |word: &Word| matches!(tenths(word), 0..=30 | 310 | 382..=385 | 730 | 810..=890);
         // The coordinates of G4 are not positions.
         if line.words.iter().filter(codes).any(|word| tenths(word) == 40) {
             let time = line.words.iter().find(|word| matches!(word.letter, 'P' | 'X' | 'U' | 'F' | 'S'));
             self.dwells.extend(time.map(|time| (self.line, time.number)));
         } else {
-            let has_motion = line.words.iter().filter(codes).any(is_motion);
-            if let Some(motion) = motion.filter(|_| !has_motion) {
+            if let Some(motion) = motion {
                 self.code(i64::from(motion) * 10, is_mirrored);
             }
             for word in &line.words {
@@ -154,7 +158,7 @@ impl Rs274Translation {
                     }
                     'S' | 'T' if word.number >= 0.0 => self.word(word.letter, word.number),
                     'A' | 'B' | 'C' | 'U' | 'V' | 'W' => {
-                        self.report(word.letter.to_string(), Doubt::Unknown);
+                        self.report(word.letter.to_string(), Doubt::Dangerous);
                     }
                     'D' | 'E' | 'O' if moves(line) => {
                         self.report(word.letter.to_string(), Doubt::Unknown);
@@ -166,13 +170,21 @@ impl Rs274Translation {
         self.end_line();
     }
 
-    /// Reports constructs that may change where the tool goes, or which lines are run, and that cannot be recognised by a G or M word alone.
-    fn report_dangerous(&mut self, line: &LineWords) {
+    /// Reports constructs that may change where the tool goes, or which lines are run, and that cannot be recognised by a G or M word alone. In
+    /// a line with the definition's own word for a motion, that word is no G-code.
+    fn report_dangerous(&mut self, line: &LineWords, has_own_motion: bool) {
+        if let Some(text) = &line.foreign {
+            let name = text.split(['(', '=']).next().unwrap_or_default();
+            let is_frame = FRAME_STATEMENTS.iter().any(|frame| frame.eq_ignore_ascii_case(name));
+            if is_frame || moves(line) && !has_own_motion && line.formula.is_none() {
+                self.report(name.to_owned(), Doubt::Dangerous);
+            }
+        }
         if let Some(sign) = line.formula {
             self.report(sign.to_string(), Doubt::Dangerous);
         }
         // An O word with anything after it calls or defines a subroutine, as in `o100 call`.
-        if let Some(Word { letter: 'O', number }) = line.words.first().filter(|_| line.has_more) {
+        if let Some(Word { letter: 'O', number }) = line.words.first().filter(|_| line.foreign.is_some()) {
             self.report(format!("O{number}"), Doubt::Dangerous);
         }
         let has = |letter: char, numbers: &[i64]| {

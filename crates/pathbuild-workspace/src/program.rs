@@ -15,7 +15,7 @@ use pathbuild_gcode::interpret::{
 };
 use pathbuild_gcode::read::quote;
 use pathbuild_motion::{Action, StatedWord, Step};
-use pathbuild_post::{DoubtfulWord, TranslatedText};
+use pathbuild_post::{Doubt, DoubtfulWord, TranslatedText};
 use pathbuild_toolpath::memory;
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 
@@ -242,6 +242,7 @@ impl Program {
     pub fn are_moves_known(&self) -> bool {
         let hides_moves = |problem: &Diagnostic| problem.is_error() && HIDING_MOVES.contains(&problem.code());
         !self.read.problems.iter().any(hides_moves)
+            && self.words_left_out().all(|word| word.doubt != Doubt::Dangerous)
     }
 
     /// Returns the first line with unknown moves, for example a call of a subprogram; 0 if its number is unknown. If there is such a line, lengths

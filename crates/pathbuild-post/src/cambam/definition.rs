@@ -140,7 +140,7 @@ impl Definition {
             let text = self.section(*section);
             let marks = text.macros().filter(|(what, _)| is_mark(what)).count();
             let found = words(&text.literal(), &self.comment_marks());
-            marks == text.macros().count() && found.words.is_empty() && (marks > 0 || !found.has_more)
+            marks == text.macros().count() && found.words.is_empty() && (marks > 0 || found.foreign.is_none())
         };
         [Section::Rapid, Section::FeedMove].into_iter().find(is_empty).map(Section::name)
     }

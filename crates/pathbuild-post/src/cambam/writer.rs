@@ -341,7 +341,7 @@ impl<'a> Writer<'a> {
         }
         let code = self.plan.target.map_or(text.len(), |target| target.code_length(&text));
         let found = words(&text[..code], &self.marks);
-        if found.has_more && !self.plan.definition.options.suppress_parser_errors {
+        if found.foreign.is_some() && !self.plan.definition.options.suppress_parser_errors {
             self.warn(Diagnostic::new(&posts::LINE_UNREADABLE).quoting("line", text.as_str()));
         }
         self.check_replaced(&found, &text);
@@ -392,7 +392,7 @@ impl<'a> Writer<'a> {
     /// Whether `rest`, the part of a line outside code macros, contains nothing but motion words and feeds.
     fn is_motion_alone(&self, rest: &str) -> bool {
         let found = words(rest, &self.marks);
-        !found.has_more
+        found.foreign.is_none()
             && found.words.iter().all(|word| match word.letter {
                 'G' => (0.0..=3.0).contains(&word.number),
                 letter => letter == 'F',

@@ -437,6 +437,27 @@ fn without_a_dialect_words_and_spindle_are_followed_too() {
         assert!(message.starts_with("PB767"), "{line}: {message}");
     }
     for line in [
+        "G0 A90",
+        "G0 Z5 B1",
+        "G0 U5",
+        "G1 V5",
+        "G0 W-5",
+        "TRANS X10",
+        "TRANS",
+        "atrans Z1",
+        "ROT RPL=45",
+        "SCALE X2",
+        "AMIRROR X0",
+        "CYCLE800(1)",
+        "G0 Z5 RL",
+    ] {
+        let message = refused(&format!("M3 S1000\n{line}"));
+        assert!(message.starts_with("PB767"), "{line}: {message}");
+    }
+    for line in ["MSG(\"ROT\")", "TRANSFER", "G0 RL", "WAIT 5"] {
+        assert!(written(&format!("M3 S1000\n{line}"), &default).is_ok(), "{line}");
+    }
+    for line in [
         "G0 G1 X5", "G0 X0 X5", "G17 G18", "G20 G21", "G90 G91", "G54 G55", "M3 M4", "M3 M5", "G54 P2",
         "G59.1 P2",
     ] {
