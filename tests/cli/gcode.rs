@@ -148,6 +148,21 @@ fn tools_without_a_number_have_the_free_ones() {
     assert!(post("four").stderr.contains("PB764"), "{}", post("four"));
 }
 
+/// A diameter that a comment states is written, and only its absence from the table is reported.
+#[test]
+fn a_tool_that_only_the_program_states_has_its_diameter() {
+    let program = "(T1 D=6 CR=0 - ZMIN=-1 - flat end mill)\nG17 G21 G90 G94\nT1 M6\nM3 S12000\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20 F200\nG0 Z5\nM5\nM30\n";
+    let post = |place: &Place| place.run("post a.nc --dialect linuxcnc --post mach3 --surface 0");
+    let run = post(&Place::new().file("a.nc", program));
+    assert!(run.stdout.contains("(T1: 6.0 6 mm)") && !run.stderr.contains("PB764"), "{run}");
+    let table = "[tool.a]\ndiameter = 2\nnumber = 2\nspindle = 12000\n";
+    let run = post(&Place::new().file("a.nc", program).file("pathbuild.toml", table));
+    assert!(run.stdout.contains("(T1: 6.0 6 mm)"), "{run}");
+    assert!(run.stderr.contains("T1 is not in the tool table"), "{run}");
+    let run = post(&Place::new().file("a.nc", program.replace("D=6", "")));
+    assert!(run.stderr.contains("the diameter of T1 is unknown"), "{run}");
+}
+
 /// If [tool] and the drawing disagree, the line about checks gives the diameter of the drawing, and states that it is from the drawing.
 #[test]
 fn the_cutter_of_the_drawing_is_named_as_such() {

@@ -8,8 +8,9 @@ use pathbuild_db::System;
 use pathbuild_db::system::{join, or_current_directory};
 use pathbuild_diagnostic::messages::{posts, posts as messages};
 use pathbuild_diagnostic::reasons::LEADS_OUT_OF_POST;
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::{Diagnostic, Number, Value};
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::header::CuttingTool;
 use pathbuild_gcode::verify::{Machine, PostWords, Travel};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
@@ -443,8 +444,9 @@ fn entry(tool: &types::Tool) -> ToolEntry {
 }
 
 /// Adds the table's data about tools to the operations of a job. The job's own spindle, speed and coolant take precedence; without them, the spindle
-/// is stopped while probing and in a program that cuts nothing. Warns about unknown tool numbers.
-pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
+/// is stopped while probing and in a program that cuts nothing. A tool that is not in the table has the diameter that the program states. Warns about
+/// unknown tools.
+pub fn complete_tools(job: &mut Job, table: &ToolTable, stated: &[CuttingTool]) -> Vec<Diagnostic> {
     let (mut unknown, mut reported) = (Vec::new(), FxHashSet::default());
     let mut entries: FxHashMap<u32, &ToolEntry> = FxHashMap::default();
     for entry in &table.entries {
@@ -459,8 +461,15 @@ pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
         }
         let index = operation.tool.index;
         let Some(entry) = entries.get(&index) else {
-            if reported.insert(index) {
-                unknown.push(index);
+            let mut of_index = stated.iter().filter(|tool| tool.number == Some(index));
+            if let Some(cutter) = of_index.find_map(|tool| tool.cutter) {
+                operation.tool =
+                    Tool::new(index, cutter.diameter, &format!("{} mm", Number(cutter.diameter)));
+            }
+            let is_known = operation.tool.diameter > 0.0;
+            if !(is_known && table.entries.is_empty()) && reported.insert(index) {
+                let message = if is_known { &posts::TOOL_NOT_IN_TABLE } else { &posts::TOOL_NUMBER_UNKNOWN };
+                unknown.push(Diagnostic::new(message).with("index", u64::from(index)));
             }
             continue;
         };
@@ -474,6 +483,5 @@ pub fn complete_tools(job: &mut Job, table: &ToolTable) -> Vec<Diagnostic> {
         operation.speed = operation.speed.or(entry.speed);
         operation.coolant = operation.coolant.or(entry.coolant);
     }
-    let warning = |index| Diagnostic::new(&posts::TOOL_NUMBER_UNKNOWN).with("index", u64::from(index));
-    unknown.into_iter().map(warning).collect()
+    unknown
 }

@@ -5,6 +5,7 @@ use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::header::{CuttingTool, HeaderReader};
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_motion::Step;
@@ -232,6 +233,10 @@ fn output(
         .and_then(|(provenance, title)| Some((path_of_title(title)?.to_owned(), provenance.cutter?)));
     let name = program.file.file_stem().unwrap_or_default();
     let mut job = Job::from_steps(name, &steps, program.dialect, &remark)?;
+    let mut header = HeaderReader::default();
+    for step in &steps {
+        header.step(step);
+    }
     drop(steps);
     if let Some((provenance, title)) = head {
         // The new program has the same provenance as the one that was read, except for the dialect.
@@ -245,22 +250,25 @@ fn output(
     if let Some(feed) = post_processor.feed() {
         job.set_missing_feeds(feed);
     }
-    let unknown = complete_tools_of_job(&mut job, native_cutter, &post_processor.tools);
+    let stated = header.finish(program.inch_word()).tools;
+    let unknown = complete_tools_of_job(&mut job, native_cutter, &post_processor.tools, &stated);
     let mut output = post_processor.write(&job, to, &mut Vec::new())?;
     output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));
     Ok(output)
 }
 
-/// Completes the tools of a job from the tool table: by their numbers, or for a native program by the path and the cutter O in its header.
+/// Completes the tools of a job from the tool table: by their numbers, or for a native program by the path and the cutter O in its header. Tools that
+/// the table lacks are as the program states them.
 /// Returns warnings about unknown tools.
 fn complete_tools_of_job(
     job: &mut Job,
     native_cutter: Option<(String, f64)>,
     tools: &ToolTable,
+    stated: &[CuttingTool],
 ) -> Vec<Diagnostic> {
     let tools = tools.with_numbers();
-    let Some((path, diameter)) = native_cutter else { return complete_tools(job, &tools) };
+    let Some((path, diameter)) = native_cutter else { return complete_tools(job, &tools, stated) };
     let unknown = job.set_cutter(&path, diameter, &tools);
-    let by_number = complete_tools(job, &tools);
+    let by_number = complete_tools(job, &tools, &[]);
     if unknown.is_empty() { by_number } else { unknown }
 }
