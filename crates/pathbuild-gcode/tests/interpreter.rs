@@ -1774,6 +1774,29 @@ fn g10_l20_after_a_probe_says_where_the_tool_is() {
     assert_eq!(rises("G10 L20 P2 Z15")[0], "5 rapid to 0 0 20");
 }
 
+/// The operator touches off after a stop. Where the zero was before is only known to the machine.
+#[test]
+fn what_follows_a_cleared_touch_off_is_not_known() {
+    let after = |zero: &str, rest: &str| {
+        let program = format!("G1 X1 F100\n{zero}\nG0 Z5\nG1 X2\nG0 Z5\n{rest}");
+        let mut found = judged(LinuxCnc, &program);
+        found.retain(|(text, _)| text.ends_with("word-not-followed"));
+        found.into_iter().map(|(_, severity)| severity).collect::<Vec<_>>()
+    };
+    let touched_off = |rest: &str| after("M0\nG92 Z0", rest);
+    assert_eq!(touched_off("G92.1"), []);
+    assert_eq!(touched_off("G92.1\nG0 X9"), [], "Z stays");
+    assert_eq!(touched_off("G92.1\nG53 G0 Z0"), []);
+    assert_eq!(touched_off("G92.1\nG0 Z9"), [Severity::Warning]);
+    assert_eq!(touched_off("G92.1\nG0 Z9\nG1 X1"), [Severity::Error]);
+    assert_eq!(touched_off("G92.2\nG1 X1"), [Severity::Error]);
+    assert_eq!(touched_off("G92.2\nG92.3\nG1 X1"), []);
+    assert_eq!(touched_off("G92.1\nM0\nG92 Z0\nG0 Z5\nG1 X1"), []);
+    assert_eq!(touched_off("G92.1\nM0\nG10 L20 P1 Z0\nG0 Z5\nG1 X1"), []);
+    assert_eq!(after("G92 Z5", "G92.1\nG0 Z9\nG1 X1"), [], "the program knows where the tool is");
+    assert_eq!(after("M0\nG10 L20 P1 Z0", "G92.1\nG1 X1"), [], "G92.1 does not clear G10");
+}
+
 #[test]
 fn m_codes_of_a_haas_take_effect_after_the_move() {
     let in_order = |dialect| run(dialect, "G0 X0. Y0. Z5.\nG1 Z-1. F100. S9000 M3\nG1 X9. M5");

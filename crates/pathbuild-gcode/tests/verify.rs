@@ -548,19 +548,19 @@ fn what_is_cut_in_one_coordinate_system_is_not_cut_in_another() {
 fn where_the_operator_touches_off_the_zero_is_on_the_stock() {
     let second = |change: &str, end: &str| {
         let first = "M3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-1\nG1 X10\nG0 Z20";
-        from_unknown(&format!("{first}\n{change}\nG0 Z5\nG0 X20\nG1 Z-3\nG1 X40\n{end}\nG0 Z5\nM5")).0
+        from_unknown(&format!("{first}\n{change}\nG0 Z5\nG0 X20\nG1 Z-3\nG1 X40\n{end}\nM5")).0
     };
     for zero in ["G92 Z0", "G10 L20 P1 Z0"] {
         let clear = if zero == "G92 Z0" { "G92.1" } else { "" };
-        let stopped = |end: &str| second(&format!("M0\n{zero}"), &format!("{end}\n{clear}"));
+        let stopped = |end: &str| second(&format!("M0\n{zero}"), &format!("{end}\nG0 Z5\n{clear}"));
         assert_eq!(stopped("G0 Y50"), ["14 rapid-in-material"], "{zero}");
         assert_eq!(stopped("G0 X20"), FINE, "{zero}");
     }
-    let off = |words: &str| second(&format!("M5\nM0\nG10 L20 P1 Z0\n{words}"), "");
+    let off = |words: &str| second(&format!("M5\nM0\nG10 L20 P1 Z0\n{words}"), "G0 Z5");
     assert_eq!(off(""), ["14 spindle-off"]);
     assert_eq!(off("M3 S9000"), FINE);
     assert_eq!(
-        second("G10 L20 P1 Z0", "G0 Y50"),
+        second("G10 L20 P1 Z0", "G0 Y50\nG0 Z5"),
         FINE,
         "without a stop, the new zero is 20 mm above the stock"
     );

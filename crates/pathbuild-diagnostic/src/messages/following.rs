@@ -108,6 +108,13 @@ messages! {
         help_en: "home the machine before you start the program; to park it at the end, raise the cutter and move to a position in the coordinates of the part",
         help_de: "vor dem Programm referenzieren; zum Parken den Fräser anheben und eine Position des Programms anfahren",
     }
+    /// G92.1 or G92.2 after the operator has touched off.
+    ZERO_CLEARED: WordNotFollowed {
+        en: "{word} goes back to the zero of before G92, and only the machine knows how far that is from where the tool stood at G92",
+        de: "{word} kehrt zum Nullpunkt von vor G92 zurück, und nur die Maschine weiß, wie weit er von der Stelle entfernt ist, an der das Werkzeug bei G92 stand",
+        help_en: "write {word} after the last move, or set the zero again with G92 before the next one",
+        help_de: "{word} hinter die letzte Bewegung schreiben oder den Nullpunkt vor der nächsten mit G92 neu setzen",
+    }
     /// F words that are ignored because of an option.
     FEED_IGNORED: IgnoredWord {
         en: "F is ignored because of an option: the feeds of the layers apply",

@@ -9,7 +9,7 @@ use super::codes;
 use super::codes::Command;
 use super::evaluate::{Fault, Parameters, StatedProbes};
 use super::half_circles::DoubtfulArcs;
-use super::state::{Heights, Options, State};
+use super::state::{ClearedZero, Heights, Options, State};
 use crate::dialect::{MCodeOrder, Percent, Rules, beginning_of};
 use crate::read::{Block, OWordKind, Problems, SourcePosition, Span};
 
@@ -58,6 +58,9 @@ impl<'i> Interpreter<'i> {
     pub(super) fn finish(mut self, last_line: u32, is_framed: bool) -> Problems {
         if let Some((line, code)) = self.state.referenced.take() {
             self.report_reference(line, code, Severity::Warning);
+        }
+        if let Some(cleared) = self.state.cleared_zero.take().filter(|cleared| cleared.has_moved) {
+            self.report_cleared_zero(cleared, Severity::Warning);
         }
         let has_end = [20, 300].iter().any(|code| self.rules.words.has_m(*code));
         if !self.ended && !is_framed && has_end {
@@ -128,8 +131,27 @@ impl<'i> Interpreter<'i> {
                 self.report_reference(line, code, Severity::Error);
             }
         }
+        if let Some(cleared) = &mut self.state.cleared_zero {
+            let goes_along = |axis: usize| {
+                cleared.axes.has(Axes::of(axis)) && movement.to.at[axis] != movement.from.at[axis]
+            };
+            cleared.has_moved |= movement.named.is_none() && (0..3).any(goes_along);
+            if !cleared.axes.is_empty() && matches!(movement.pace, Pace::Feed(_)) {
+                let cleared = *cleared;
+                self.state.cleared_zero = None;
+                self.report_cleared_zero(cleared, Severity::Error);
+            }
+        }
         self.state.position = movement.to;
         self.step(block, Action::Move(movement));
+    }
+
+    /// Reports a word that clears the zero of a touch-off. If only rapid moves follow, they may be high enough.
+    fn report_cleared_zero(&mut self, cleared: ClearedZero, severity: Severity) {
+        self.problems.add_at_line(&say::ZERO_CLEARED, cleared.line, |d| Diagnostic {
+            severity,
+            ..d.quoting("word", codes::name('G', cleared.code))
+        });
     }
 
     /// Reports a move to the reference switches after the first cut. If no other cut follows, the move may only park the machine.

@@ -10,7 +10,7 @@ use pathbuild_motion::{
 use super::codes::{self, Command, Motion, Origin};
 use super::execute::{Interpreter, Slot, Values, limits, whole_number};
 use super::half_circles::{ArcByRadius, height_over_chord};
-use super::state::{INCH, State, StatedLength};
+use super::state::{ClearedZero, INCH, State, StatedLength};
 use crate::dialect::RadiusTolerance;
 use crate::read::{Block, SourcePosition, Span};
 
@@ -304,7 +304,8 @@ impl Interpreter<'_> {
                 };
                 offsets.is_fixed() || Values::AXES.into_iter().enumerate().all(keeps)
             }
-            Command::Origin(_) => offsets.is_fixed() || !offsets.is_shifted_by_origin(),
+            Command::Origin(_) if offsets.is_fixed() => offsets.touched_off.is_empty(),
+            Command::Origin(_) => !offsets.is_shifted_by_origin(),
             _ => true,
         }
     }
@@ -349,6 +350,7 @@ impl Interpreter<'_> {
                 is_followed &= self.state.offsets.place(system, axis, coordinate);
             } else if self.state.followed_axes().has(Axes::of(axis)) {
                 let here = self.state.position.at[axis];
+                self.forget_cleared_zero(axis);
                 self.state.offsets.place_here(system, axis, coordinate, here);
             } else if let Some(system) = system.filter(|system| *system != self.state.offsets.active) {
                 self.state.offsets.displace(system);
@@ -431,6 +433,16 @@ impl Interpreter<'_> {
     }
 
     fn change_origin(&mut self, block: &Block<'_>, span: Span, origin: Origin) {
+        let code = match origin {
+            Origin::Clear => Some(921),
+            Origin::Suspend => Some(922),
+            Origin::Resume => None,
+        };
+        let axes = self.state.offsets.touched_off;
+        if !axes.is_empty() && self.state.has_cut {
+            self.state.cleared_zero =
+                code.map(|code| ClearedZero { line: block.line, code, axes, has_moved: false });
+        }
         match origin {
             Origin::Clear => self.state.offsets.clear_origin(false),
             Origin::Suspend => self.state.offsets.clear_origin(true),
@@ -451,6 +463,9 @@ impl Interpreter<'_> {
         for (axis, slot) in self.words.values.take_coordinates().into_iter().enumerate() {
             if let Some(slot) = slot {
                 let coordinate = self.millimetres(slot);
+                if !self.state.followed_axes().has(Axes::of(axis)) {
+                    self.state.offsets.touched_off = self.state.offsets.touched_off.with(Axes::of(axis));
+                }
                 self.set_origin(block, axis, coordinate);
             }
         }
@@ -461,6 +476,7 @@ impl Interpreter<'_> {
     fn set_origin(&mut self, block: &Block<'_>, axis: usize, coordinate: f64) {
         let is_followed = self.state.followed_axes().has(Axes::of(axis));
         let is_moved_by_hand = self.state.position.known.has(Axes::of(axis)) && !is_followed;
+        self.forget_cleared_zero(axis);
         self.state.stated_axes = self.state.stated_axes.with(Axes::of(axis));
         self.state.zeroed_since_stop = self.state.zeroed_since_stop.with(Axes::of(axis));
         let position = &mut self.state.position;
@@ -472,6 +488,12 @@ impl Interpreter<'_> {
         if is_moved_by_hand && Axes::XY.has(Axes::of(axis)) {
             let frame = self.state.offsets.begin_frame();
             self.step(block, Action::System { system: self.state.offsets.active, frame });
+        }
+    }
+
+    fn forget_cleared_zero(&mut self, axis: usize) {
+        if let Some(cleared) = &mut self.state.cleared_zero {
+            cleared.axes = cleared.axes.without(Axes::of(axis));
         }
     }
 

@@ -27,6 +27,8 @@ pub(super) struct State {
     pub(super) is_lifted: bool,
     /// Line and code (times ten) of a move to the reference switches after the first cut, until the next cut.
     pub(super) referenced: Option<(u32, u16)>,
+    /// The word that has cleared a zero which the operator had touched off, until a cut follows or the zero is set again.
+    pub(super) cleared_zero: Option<ClearedZero>,
     pub(super) motion: Motion,
     /// Code of the motion (times ten), for messages.
     pub(super) motion_code: u16,
@@ -71,6 +73,18 @@ pub(super) struct StatedLength {
     pub(super) unit: f64,
 }
 
+/// A G92.1 or G92.2 that clears a zero which the operator had touched off.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ClearedZero {
+    pub(super) line: u32,
+    /// Number of the G code times ten.
+    pub(super) code: u16,
+    /// The axes whose positions are unknown from here on.
+    pub(super) axes: Axes,
+    /// Whether a rapid move has gone to a position on one of these axes since.
+    pub(super) has_moved: bool,
+}
+
 /// The values of a drilling cycle, which are kept until a word sets another motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CycleState {
@@ -111,6 +125,7 @@ impl State {
             has_cut: false,
             is_lifted: true,
             referenced: None,
+            cleared_zero: None,
             motion: match rules.start_motion {
                 StartMotion::Rapid => Motion::Rapid,
                 StartMotion::None => Motion::None,
@@ -171,6 +186,8 @@ pub(super) struct Offsets {
     origin: [f64; 3],
     /// The offset of G92 that G92.3 restores; `None` until the program sets it, because the control keeps the offset of the previous program.
     saved: Option<[f64; 3]>,
+    /// The axes whose offset of G92 only the machine knows, because the operator, or a probe, has moved the tool to the new zero.
+    pub(super) touched_off: Axes,
     /// Offset of G52.
     local: [f64; 3],
     length: AppliedLength,
@@ -216,6 +233,7 @@ impl Offsets {
             active: WorkSystem::default(),
             origin: [0.0; 3],
             saved: None,
+            touched_off: Axes::NONE,
             local: [0.0; 3],
             length: AppliedLength::default(),
             base: None,
@@ -357,6 +375,7 @@ impl Offsets {
     pub(super) fn clear_origin(&mut self, resumable: bool) {
         if !resumable {
             self.saved = Some([0.0; 3]);
+            self.touched_off = Axes::NONE;
         }
         self.origin = [0.0; 3];
     }
