@@ -3,10 +3,11 @@
 mod common;
 
 use common::fault_text;
+use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_gcode::dialect::Dialect::{self, Native, Xpertmill};
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::verify::{DrawingComparison, ExpectedProgram, PostWords, ToolUse};
-use pathbuild_motion::Position;
+use pathbuild_gcode::verify::{Agreement, DrawingComparison, ExpectedProgram, PostWords, ToolUse};
+use pathbuild_motion::{Coolant, Position};
 
 const FINE: [&str; 0] = [];
 
@@ -20,6 +21,10 @@ fn differences(dialect: Dialect, program: &str, drawn: &str) -> Vec<String> {
 
 /// Like [`differences`], for holes that are drilled in pecks of a depth in mm.
 fn differences_with_pecks(dialect: Dialect, program: &str, drawn: &str, peck: Option<f64>) -> Vec<String> {
+    agreement(dialect, program, drawn, peck, ToolUse::default()).differences.iter().map(fault_text).collect()
+}
+
+fn agreement(dialect: Dialect, program: &str, drawn: &str, peck: Option<f64>, tool: ToolUse) -> Agreement {
     let drawn = format!("G17 G21 G90 G94\nG0 X0 Y0 Z5\n{drawn}\nM30\n");
     let moves = interpret(drawn.as_bytes(), Native, &Options::default()).moves();
     let program = format!("{program}\nM30\n");
@@ -29,7 +34,7 @@ fn differences_with_pecks(dialect: Dialect, program: &str, drawn: &str, peck: Op
         pecks: vec![(0, peck)],
         start: Position::known(0.0, 0.0, CLEARANCE),
         clearance: CLEARANCE,
-        tool: ToolUse::default(),
+        tool,
         number: None,
         spin_up: 0.0,
     };
@@ -37,7 +42,25 @@ fn differences_with_pecks(dialect: Dialect, program: &str, drawn: &str, peck: Op
     for step in &interpret(program.as_bytes(), dialect, &Options::default()).steps {
         comparison.step(step);
     }
-    comparison.finish().differences.iter().map(fault_text).collect()
+    comparison.finish()
+}
+
+/// Coolant that the configuration does not mention is not compared, which the result says.
+#[test]
+fn coolant_is_compared_if_it_is_known() {
+    let program = |coolant: &str| {
+        format!("G17 G21 G40 G49 G80 G90 G94\nG0 Z5\nG0 X0 Y0\n{coolant}\nG1 Z0 F100\nG0 Z5\nM9")
+    };
+    let compared = |coolant: Option<Coolant>, words: &str| {
+        let tool = ToolUse { coolant, ..ToolUse::default() };
+        let found = agreement(Dialect::LinuxCnc, &program(words), "G1 Z0 F100\nG0 Z5", None, tool);
+        let differs = found.differences.iter().any(|it| it.message == &say::COOLANT_DIFFERS);
+        (differs, found.has_uncompared_coolant)
+    };
+    assert_eq!(compared(Some(Coolant::FLOOD), "M8"), (false, false));
+    assert_eq!(compared(Some(Coolant::OFF), "M8"), (true, false));
+    assert_eq!(compared(None, "M8"), (false, true));
+    assert_eq!(compared(None, "M9"), (false, false));
 }
 
 #[test]

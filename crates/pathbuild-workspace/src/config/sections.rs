@@ -299,7 +299,7 @@ pub mod verify {
     use crate::config::types::Requirement;
 
     section! {
-        /// checks without which `verify` fails: rapids, envelope, feeds, spindle, drawing, clamps, corners; with rapids=assumed,
+        /// checks without which `verify` fails: rapids, envelope, feeds, spindle, drawing, clamps, corners, coolant; with rapids=assumed,
         /// cutter and surface may come from comments of the program
         require: Vec<Requirement> = "require", choices::<Requirement>(), Vec::new(), r#"["rapids", "envelope"]"#, Neither;
     }

@@ -102,6 +102,8 @@ choice! {
         Clamps = "clamps",
         /// The control must round corners by no more than the program permits. Only for controls that take such a limit.
         Corners = "corners",
+        /// The coolant must be that of the drawing's tool, if the program switches any on.
+        Coolant = "coolant",
     }
 }
 

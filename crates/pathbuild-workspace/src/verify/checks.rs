@@ -91,6 +91,8 @@ pub enum Reason {
     NoCornerLimit,
     /// All cuts end above the surface that an option states.
     NoCutBelow,
+    /// The program switches coolant on, and no table `[tool]` says whether it must.
+    NoCoolant,
     /// The program contains a line or a word that pathbuild does not read or interpret, so its moves are not known.
     NotFollowed,
     /// The program moves in coordinate systems whose positions relative to each other are not known.
@@ -157,6 +159,11 @@ pub(super) fn records(
 pub(super) fn of_corners(has_limit: bool) -> CheckRecord {
     let outcome = if has_limit { Outcome::Made(None) } else { Outcome::NotMade(Reason::NoCornerLimit) };
     CheckRecord { requirement: Requirement::Corners, outcome }
+}
+
+/// Returns the record of the comparison of coolant, which could not be made.
+pub(super) fn coolant_not_compared() -> CheckRecord {
+    CheckRecord { requirement: Requirement::Coolant, outcome: Outcome::NotMade(Reason::NoCoolant) }
 }
 
 /// Describes the checks of a program in one line.
@@ -262,6 +269,7 @@ impl CheckRecord {
             (Reason::NoCornerLimit, _) => {
                 &Text { en: "G64 P or G61 in the program", de: "G64 P oder G61 im Programm" }
             }
+            (Reason::NoCoolant, _) => &Text { en: "[tool] coolant", de: "[tool] coolant" },
             (Reason::NoLimit, Requirement::Feeds) => {
                 &Text { en: "[machine] maximum-feed", de: "[machine] maximum-feed" }
             }
@@ -376,6 +384,10 @@ impl Reason {
                 en: "the program does not limit how far the control rounds corners",
                 de: "das Programm begrenzt nicht, wie weit die Steuerung Ecken verrundet",
             },
+            Self::NoCoolant => &Text {
+                en: "the program switches coolant on, and [tool] does not say whether the cutter needs any",
+                de: "das Programm schaltet Kühlung ein, und [tool] sagt nicht, ob der Fräser welche braucht",
+            },
             Self::NoCutBelow => &Text {
                 en: "all cuts end above the material of --surface",
                 de: "alle Schnitte enden über dem Material von --surface",
@@ -442,6 +454,7 @@ fn requirement_name(requirement: Requirement) -> Text {
         Requirement::Drawing => Text { en: "moves of the drawing", de: "Bewegungen der Zeichnung" },
         Requirement::Clamps => Text { en: "clamps", de: "Spannmittel" },
         Requirement::Corners => Text { en: "rounding of corners", de: "Verrunden von Ecken" },
+        Requirement::Coolant => Text { en: "coolant", de: "Kühlung" },
     }
 }
 

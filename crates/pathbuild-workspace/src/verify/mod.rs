@@ -354,6 +354,8 @@ struct CheckEvidence {
     lowest_cut: Option<f64>,
     /// The reason why the travel that the program needs is not known; `None` if it is.
     travel_doubt: Option<Reason>,
+    /// Whether the program's coolant could not be compared with that of the drawing's tool.
+    has_uncompared_coolant: bool,
 }
 
 impl CheckEvidence {
@@ -418,6 +420,7 @@ impl<'v> Examination<'v> {
             corners: CornerRules::new(self.verifier.settings.general.part_tolerance.value),
             lowest_cut: None,
             travel_doubt: written.travel_doubt,
+            has_uncompared_coolant: false,
         };
         let (mut found, comparison) = self.findings(written, rewritten.as_ref(), &mut evidence);
         if let Some(against) =
@@ -537,8 +540,11 @@ impl<'v> Examination<'v> {
         found.extend(self.sources.disagreements());
         found.extend(self.header.problems.iter().cloned());
         let Some((milled, comparison)) = self.milled.zip(nominal.comparison) else { return (found, None) };
+        let agreement = comparison.finish();
+        evidence.has_uncompared_coolant =
+            agreement.has_uncompared_coolant && !rewritten.is_some_and(RewrittenProgram::is_same);
         let (comparison, differences) =
-            milled.finish_comparison(program, verifier.lang, comparison.finish(), rewritten);
+            milled.finish_comparison(program, verifier.lang, agreement, rewritten);
         found.extend(differences);
         (found, comparison)
     }
@@ -556,7 +562,8 @@ impl<'v> Examination<'v> {
             // A check that was not made is an error only if it is required.
             problem.severity = Severity::Warning;
         }
-        let CheckEvidence { blind, speeds, corners, lowest_cut, travel_doubt } = evidence;
+        let CheckEvidence { blind, speeds, corners, lowest_cut, travel_doubt, has_uncompared_coolant } =
+            evidence;
         let verifier = self.verifier;
         let references = checks::References {
             is_compared_to_its_end: verifier
@@ -579,6 +586,7 @@ impl<'v> Examination<'v> {
         if self.program.dialect == Dialect::LinuxCnc {
             records.push(checks::of_corners(corners.has_limit()));
         }
+        records.extend(has_uncompared_coolant.then(checks::coolant_not_compared));
         found.extend(corners.finish());
         records
     }

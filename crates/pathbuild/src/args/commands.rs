@@ -237,7 +237,7 @@ pub struct VerifyArgs {
     /// Height of the material's upper face; programs by pathbuild contain it
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub surface: Option<String>,
-    /// Fail unless these checks were made, separated by commas: rapids (or rapids=assumed), envelope, feeds, spindle, drawing, clamps, corners
+    /// Fail unless these checks were made, separated by commas: rapids (or rapids=assumed), envelope, feeds, spindle, drawing, clamps, corners, coolant
     #[arg(long, value_name = "CHECKS", value_delimiter = ',', value_parser = requirements(), hide_possible_values = true)]
     pub require: Vec<Requirement>,
     /// Post-processor that wrote the programs: sets the known words and the dialect
@@ -606,8 +606,8 @@ german! {
         "Vergleicht mit der Zeichnung dieses Pfads, die auch Fräser und Material angibt";
     "Diameter of the cutter; without it from T and `[tool.NAME]`, or from comments",
         "Durchmesser des Fräsers; sonst aus T und `[tool.NAME]` oder aus Kommentaren";
-    "Fail unless these checks were made, separated by commas: rapids (or rapids=assumed), envelope, feeds, spindle, drawing, clamps, corners",
-        "Scheitert, wenn eine dieser Prüfungen nicht möglich war, mit Kommas getrennt: rapids (oder rapids=assumed), envelope, feeds, spindle, drawing, clamps, corners";
+    "Fail unless these checks were made, separated by commas: rapids (or rapids=assumed), envelope, feeds, spindle, drawing, clamps, corners, coolant",
+        "Scheitert, wenn eine dieser Prüfungen nicht möglich war, mit Kommas getrennt: rapids (oder rapids=assumed), envelope, feeds, spindle, drawing, clamps, corners, coolant";
     "Height of the material's upper face; programs by pathbuild contain it",
         "Höhe der Materialoberfläche; in Programmen von pathbuild steht sie";
     "Compare with programs written for this post-processor: a built-in name or a file",

@@ -57,11 +57,15 @@ impl ToolUse {
     /// Returns the properties that all cuts of a program have in common.
     pub fn of_cuts(steps: &[Step], dialect: Dialect) -> Self {
         let mut tools = ToolState::new(dialect);
+        let mut coolant = None;
         let mut common: Option<Self> = None;
         for step in steps {
             tools.step(step);
+            if let Action::Coolant(switched) = step.action {
+                coolant = switched.is_on().then_some(switched);
+            }
             if step.as_move().is_some_and(|(_, movement)| matches!(movement.pace, Pace::Feed(_))) {
-                let now = Self::of_state(&tools);
+                let now = Self { coolant, ..Self::of_state(&tools) };
                 common = Some(common.map_or(now, |common| common.common_with(now)));
             }
         }
@@ -103,6 +107,8 @@ pub struct Agreement {
     pub differences: Vec<Diagnostic>,
     /// Number of the drawing's moves that the program contains before the first difference between the moves.
     pub equal: usize,
+    /// Whether the program switches coolant on without it being known whether it must.
+    pub has_uncompared_coolant: bool,
 }
 
 /// Comparison of a program's steps with a drawing: pass every step, then call [`finish`](Self::finish).
@@ -156,6 +162,6 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
         let (found, equal) = self.cuts.finish();
         differences.extend(found);
         differences.sort_by_key(|diagnostic| diagnostic.place.line);
-        Agreement { differences, equal }
+        Agreement { differences, equal, has_uncompared_coolant: self.setup.has_uncompared_coolant() }
     }
 }

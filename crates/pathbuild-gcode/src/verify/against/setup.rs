@@ -36,6 +36,8 @@ pub(super) struct Setup<'w> {
     tools: ToolState,
     coolant: Coolant,
     coolant_line: u32,
+    /// Whether the program has switched coolant on although the drawing does not say whether it must.
+    has_uncompared_coolant: bool,
     /// The control's behaviour at corners, if the program has specified it.
     corners: Option<Corners>,
     spindle_line: u32,
@@ -82,6 +84,7 @@ impl<'w> Setup<'w> {
             tools: ToolState::new(dialect),
             coolant: Coolant::default(),
             coolant_line: 0,
+            has_uncompared_coolant: false,
             corners: None,
             clearance,
             expected,
@@ -119,8 +122,10 @@ impl<'w> Setup<'w> {
             Action::Coolant(coolant) => {
                 (self.coolant, self.coolant_line) = (*coolant, line);
                 self.reported.coolant = false;
-                if self.has_post() && *coolant != Coolant::default() && !self.switches_coolant() {
+                if coolant.is_on() && !self.takes_coolant() {
                     report_extra_word(line, coolant_text(*coolant).to_owned(), problems);
+                } else if coolant.is_on() {
+                    self.has_uncompared_coolant |= self.expected.coolant.is_none();
                 }
             }
             Action::Change(change) => self.check_change(line, *change, problems),
@@ -137,7 +142,7 @@ impl<'w> Setup<'w> {
                 report_extra_word(self.spindle_line, word, problems);
             }
         }
-        if self.coolant != Coolant::default() && self.switches_coolant() {
+        if self.coolant != Coolant::default() && self.takes_coolant() {
             if self.expected.coolant.is_some_and(|expected| expected != Coolant::default()) {
                 problems.add_at_line(&say::STOP_MISSING, self.line, |d| d.quoting("word", "M9"));
             } else {
@@ -270,12 +275,18 @@ impl<'w> Setup<'w> {
         }
     }
 
-    fn switches_coolant(&self) -> bool {
-        self.words.has('M', 70) || self.words.has('M', 80)
+    /// Whether programs of the post may switch coolant on; any program of a dialect that no post writes may.
+    fn takes_coolant(&self) -> bool {
+        !self.has_post() || self.words.has('M', 70) || self.words.has('M', 80)
+    }
+
+    /// Whether the program switches coolant on without it being known whether it must.
+    pub(super) fn has_uncompared_coolant(&self) -> bool {
+        self.has_uncompared_coolant
     }
 
     fn check_cutting_coolant(&mut self, line: u32, problems: &mut Problems) {
-        let differs = |expected: &Coolant| *expected != self.coolant && self.switches_coolant();
+        let differs = |expected: &Coolant| *expected != self.coolant && self.takes_coolant();
         let Some(expected) = self.expected.coolant.filter(differs) else { return };
         if !std::mem::replace(&mut self.reported.coolant, true) {
             let found = coolant_text(self.coolant);
