@@ -174,6 +174,25 @@ fn the_date_is_that_of_the_option_else_of_the_variable_in_utc() {
     assert_eq!(with_epoch(&place, "1835481600", &["--baseline", "none"]), Some(1));
 }
 
+/// Nothing is known about a file that is missing, so a baseline that accepted it would hide whatever is wrong with the file.
+#[test]
+fn a_file_that_cannot_be_read_is_never_accepted() {
+    let program =
+        "G21 G90 G17 G40 G94 G54\nM3 S12000\nG0 Z5\nG0 X0 Y0\nG1 Z-3 F100\nG0 X20\nG0 Z5\nM5\nM30\n";
+    let place = Place::new().file("p.nc", program);
+    let verify = |more: &[&str]| place.run_with(&[&["verify", "p.nc", "missing.nc"], more].concat());
+    for more in [&["--accept", "PB740", "--reason", "wax"][..], &["--update-baseline"]] {
+        let run = verify(more);
+        assert!(run.status == Some(1) && run.stderr.contains("PB001"), "{run}");
+        assert!(run.stderr.contains("missing.nc") && !run.stderr.contains("PB740"), "{run}");
+        assert!(!place.path().join("pathbuild-baseline.txt").exists());
+    }
+    // Earlier versions wrote this line.
+    let place = place.file("pathbuild-baseline.txt", "c394c7623e4da6b31b3e47e5b40ed9eb PB001 missing.nc\n");
+    let run = place.run("verify missing.nc");
+    assert!(run.status == Some(1) && run.stderr.contains("PB001"), "{run}");
+}
+
 /// After an earlier roughing cut is removed, a rapid move that entered the material by 0.05 mm enters it by 3 mm at the same position.
 #[test]
 fn an_accepted_rapid_move_holds_while_it_is_not_deeper() {

@@ -74,6 +74,11 @@ impl Baseline {
         Ok((baseline, faults))
     }
 
+    /// Whether a baseline may accept a finding: nothing is known about a file that cannot be read.
+    pub fn may_accept(finding: &Diagnostic) -> bool {
+        finding.code() != Code::UnreadableFile
+    }
+
     /// Returns the text of a baseline that contains all these findings. Entries that still match keep their reasons and dates. Entries for files that
     /// the run did not cover stay as they are.
     pub fn rewritten_text(
@@ -130,6 +135,7 @@ impl Baseline {
         let place = self.file.file_name().unwrap_or_default();
         for (diagnostic, key) in std::mem::take(&mut findings.diagnostics).into_iter().zip(keys) {
             let entry = self.entry(&diagnostic, &key, base).map(|(_, entry)| entry);
+            let entry = entry.filter(|_| Self::may_accept(&diagnostic));
             match entry.map(|entry| &entry.waiver) {
                 None => findings.diagnostics.push(diagnostic),
                 Some(_) if entry.is_some_and(|entry| !entry.is_deep_enough(&diagnostic)) => {

@@ -55,7 +55,8 @@ impl Workspace {
     /// baseline instead.
     ///
     /// # Errors
-    /// If the baseline cannot be read or written, has errors, or would accept nothing, or if the options are invalid.
+    /// If the baseline cannot be read or written, has errors, or would accept nothing, if a file could not be read whose findings are to be written
+    /// into it, or if the options are invalid.
     pub fn settle(
         &self,
         findings: Findings,
@@ -64,7 +65,12 @@ impl Workspace {
     ) -> Result<Settled, Failure> {
         let named = options.file.as_deref();
         let (file, diagnostics) = (self.baseline_file(named), &findings.diagnostics);
+        let unread = diagnostics.iter().filter(|finding| !Baseline::may_accept(finding));
+        let unread: Vec<Diagnostic> = unread.cloned().collect();
         match &options.task {
+            BaselineTask::Update | BaselineTask::Accept(..) if !unread.is_empty() => {
+                Err(Failure::Found(unread))
+            }
             BaselineTask::Apply => {
                 let baseline = self.read_baseline(named).map_err(Failure::Refused)?;
                 Ok(Settled::Findings(self.without_accepted(findings, baseline.as_ref(), coverage)))
