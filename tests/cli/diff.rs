@@ -565,7 +565,7 @@ fn alterations_differ_in_colour_or_dashes() {
     assert_eq!(styles.len(), 6, "{picture}");
 }
 
-/// A deeper cut removes more, a higher one leaves more, and another feed does neither.
+/// A deeper cut removes more, a higher one leaves more, and another feed or direction does neither.
 #[test]
 fn the_stock_shows_what_a_change_removes_or_leaves() {
     let stock = |[old, new]: [(&str, &str); 2]| {
@@ -577,6 +577,9 @@ fn the_stock_shows_what_a_change_removes_or_leaves() {
     assert_eq!(stock([("1", LINE), ("0.5", LINE)]), [true, false]);
     assert_eq!(stock([("0.5", LINE), ("1", LINE)]), [false, true]);
     assert_eq!(stock([("1", LINE), ("1", "mill 0,0 40,0 \"F130\"")]), [false, false]);
+    let forwards = "sweep 0,0 0,10\nmill 0,10 40,10\nsweep 40,10 40,0";
+    let backwards = "sweep 0,0 40,10\nmill 40,10 0,10\nsweep 0,10 40,0";
+    assert_eq!(stock([("1", forwards), ("1", backwards)]), [false, false]);
 }
 
 #[test]

@@ -115,8 +115,10 @@ impl<'s> MilledStock<'s> {
     fn compare_with(mut self, other: Self, mark: &'static str) -> Option<Self> {
         let mut heights: BTreeMap<_, f64> = BTreeMap::new();
         for stroke in &other.strokes {
-            let height = heights.entry(stroke.area(&other.paths).key()).or_insert(f64::INFINITY);
-            *height = height.min(stroke.height());
+            for key in stroke.area(&other.paths).keys() {
+                let height = heights.entry(key).or_insert(f64::INFINITY);
+                *height = height.min(stroke.height());
+            }
         }
         let paths = self.paths.as_slice();
         let is_deeper =

@@ -69,14 +69,31 @@ pub(super) struct Stroke {
 }
 
 impl SweptArea {
-    /// Returns a key that is equal for areas that look the same: the move in micrometres, without heights, and the diameter.
-    pub(super) fn key(&self) -> [i64; 7] {
+    /// Returns a key that is equal for areas that look the same: the move in micrometres, without heights and whatever its direction, and the diameter.
+    pub(super) fn key(&self) -> [i64; 8] {
         let Move { from, to, shape, .. } = &self.way;
-        let centre = if let MoveShape::Arc(arc) = shape { arc.centre } else { [0.0; 2] };
-        let ([a, b, _], [c, d, _]) = (from.at, to.at);
         #[expect(clippy::cast_possible_truncation, reason = "saturates")]
         let micrometres = |value: f64| (value * 1000.0).round() as i64;
-        [a, b, c, d, centre[0], centre[1], self.diameter].map(micrometres)
+        let [mut first, mut last] = [from, to].map(|end| [end.at[0], end.at[1]].map(micrometres));
+        let is_backwards = first > last;
+        if is_backwards {
+            std::mem::swap(&mut first, &mut last);
+        }
+        let (centre, is_clockwise) = match shape {
+            MoveShape::Arc(arc) => (arc.centre, first != last && arc.clockwise != is_backwards),
+            MoveShape::Line => ([0.0; 2], false),
+        };
+        let [x, y, diameter] = [centre[0], centre[1], self.diameter].map(micrometres);
+        [first[0], first[1], last[0], last[1], x, y, i64::from(is_clockwise), diameter]
+    }
+
+    /// Returns the keys of the area and of the discs at its ends, which a plunge sweeps alone.
+    pub(super) fn keys(&self) -> [[i64; 8]; 3] {
+        let disc = |end: Position| {
+            let way = Move { from: end, to: end, shape: MoveShape::Line, ..self.way };
+            Self { way, diameter: self.diameter }.key()
+        };
+        [self.key(), disc(self.way.from), disc(self.way.to)]
     }
 }
 
