@@ -300,6 +300,15 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
   const { loose } = colored({ is_loose: true });
   assert.ok(loose > 600 && loose < 40 * 20 - 8 * 8, `${loose} mm² of a loose part`);
   assert.deepEqual(colored({}), { cut: 0, left: 0, loose: 0 });
+  // So is the material in an outline that is not cut.
+  const uncut = stockOf({ ...scene, uncut: [ring([25, 6], [35, 14])] });
+  const isMarked = (x, y) => {
+    const { columns, texel, cutting } = uncut.map;
+    const at = Math.floor((y - cutting.box[1]) / texel) * columns + Math.floor((x - cutting.box[0]) / texel);
+    const [, green, blue] = uncut.colors.subarray(at * 4, at * 4 + 3);
+    return blue > 140 && green < 90;
+  };
+  assert.deepEqual([[25.2, 6.2], [34.8, 13.8], [24.8, 10], [30, 14.2]].map(([x, y]) => isMarked(x, y)), [true, true, false, false]);
 }
 
 {

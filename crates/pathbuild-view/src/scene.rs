@@ -40,7 +40,7 @@ pub struct Scene {
     /// Clamps, which the tool must not enter below their height.
     pub keep_outs: Vec<KeepOut>,
     /// Outlines of parts that no path cuts.
-    #[serde(skip)]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub uncut: Vec<Vec<Shape>>,
     /// Findings, numbered from 1.
     pub findings: Vec<Finding>,

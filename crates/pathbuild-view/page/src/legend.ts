@@ -27,6 +27,8 @@ export interface Shown {
   /** Whether the stock shows cuts of a cutter whose shape is unknown with a flat bottom. */
   hasUnknownTip: boolean;
   clamps: boolean;
+  /** Whether there are outlines of parts that no path cuts. */
+  hasUncutOutlines: boolean;
   parts: FinishedPart[];
 }
 
@@ -46,6 +48,7 @@ export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
     [shown.stock && shown.parts.some(({ gouges, lost_bars }) => gouges?.length || lost_bars?.length), "wrong", "legendGouge"],
     [shown.parts.length > 0, "outline", "legendOutline"],
     [shown.stock && shown.parts.some(({ left }) => left.length > 0), "leftover", "legendLeft"],
+    [shown.stock && shown.hasUncutOutlines, "leftover", "legendUncutOutline"],
     [shown.stock && shown.parts.some((part) => part.is_loose), "loose", "legendLoose"],
     [shown.clamps, "clamp", "legendClamp"],
   ];

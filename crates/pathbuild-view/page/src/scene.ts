@@ -142,6 +142,8 @@ export interface Scene {
   paths: Path[];
   other_layers: ({ type: "shape"; layer: string; shape: Shape } | { type: "text"; text: string; at: Point })[];
   keep_outs: KeepOut[];
+  /** Outlines of parts that no path cuts. */
+  uncut?: Shape[][];
   findings: Finding[];
 }
 

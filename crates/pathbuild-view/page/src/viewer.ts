@@ -248,7 +248,7 @@ function placeStock(): void {
 
 function legend(): void {
   const hasStock = shown.stock && !!stock;
-  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, texel: stock?.map.texel ?? 0, rapidCuts: !!stock?.map.hasRapidCut, hasUnknownTip: !!stock?.map.cutting.hasUnknownTip, parts: scene.paths.flatMap(({ parts }) => parts ?? []), clamps: scene.keep_outs.length > 0 }, lang);
+  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, texel: stock?.map.texel ?? 0, rapidCuts: !!stock?.map.hasRapidCut, hasUnknownTip: !!stock?.map.cutting.hasUnknownTip, parts: scene.paths.flatMap(({ parts }) => parts ?? []), clamps: scene.keep_outs.length > 0, hasUncutOutlines: (scene.uncut ?? []).length > 0 }, lang);
   showLegend(shown.explain);
   stage?.placeLabels();
 }

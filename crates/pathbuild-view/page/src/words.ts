@@ -66,6 +66,7 @@ const words = {
   legendRapid: ["rapid in material", "Eilgang im Material"],
   legendGouge: ["cut into a part or bar", "Schnitt in Teil oder Steg"],
   legendOutline: ["outline of a part", "Umriss eines Teils"],
+  legendUncutOutline: ["outline that is not cut", "nicht gefräster Umriss"],
   legendLeft: ["material left", "stehen gebliebenes Material"],
   legendLoose: ["loose part", "loses Teil"],
   legendClamp: ["clamp", "Spannmittel"],

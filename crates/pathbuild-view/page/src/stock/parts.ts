@@ -4,7 +4,7 @@ import { FinishedPart, Path, Point, Scene, Shape, pointsOfShape } from "../scene
 import { Heights } from "./heights.js";
 import { SAGITTA } from "./pieces.js";
 
-/** Marks of a texel: a wrong cut through it; stock left over beside a part; stock of a part that nothing holds. */
+/** Marks of a texel: a wrong cut through it; stock left over beside a part or in an outline that is not cut; stock of a part that nothing holds. */
 export const [FORBIDDEN, BESIDE, LOOSE] = [1, 2, 4];
 
 /** Width in texels on either side of an outline that counts as neither side, since a texel's height is that of its centre. */
@@ -16,6 +16,11 @@ type Segment = [Point, Point];
 export function marks(map: Heights, scene: Scene): Uint8Array {
   const marked = new Uint8Array(map.columns * map.rows);
   for (const path of scene.paths) for (const part of path.parts ?? []) mark(map, path, part, marked);
+  for (const ring of scene.uncut ?? []) {
+    const inside = new Uint8Array(marked.length);
+    fill(map, ring.flatMap((shape) => segmentsOf(map, shape, [0, 0])), inside, 1);
+    inside.forEach((isInside, at) => (marked[at] |= isInside * BESIDE));
+  }
   return marked;
 }
 
