@@ -288,16 +288,14 @@ impl<'s> LeftoverSearch<'s> {
     fn stretches_within_cuts(&self, curve: &RingCurve<'_>, margin: f64) -> Vec<Stretch> {
         let mut found = Vec::new();
         let mut last = None;
-        for judged in curve.near.iter().filter_map(|number| self.judged.get(*number)) {
-            if judged.cut.through.is_none() || !self.contours[judged.cut.path] {
+        for cut in curve.near.iter().map(|number| &self.cuts.cuts[*number]) {
+            let Some(through) = cut.through.filter(|_| self.contours[cut.path]) else { continue };
+            let supported = cut.element(self.cuts).supported;
+            if supported.is_some() && last.replace(cut.number()) == Some(cut.number()) {
                 continue;
             }
-            let supported = judged.cut.element(self.cuts).supported;
-            if supported.is_some() && last.replace(judged.cut.number()) == Some(judged.cut.number()) {
-                continue;
-            }
-            let way = supported.unwrap_or(judged.curve);
-            add_stretches_within(curve.curve, &way, judged.cut.radius + margin, &mut found);
+            let way = supported.unwrap_or(through);
+            add_stretches_within(curve.curve, &way, cut.radius + margin, &mut found);
         }
         join_stretches(found, JOIN_GAP)
     }
