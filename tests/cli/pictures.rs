@@ -227,6 +227,33 @@ fn places_in_the_program_are_marked_in_the_drawing() {
     assert_eq!(picture([0, 0]), picture([30, -20]));
 }
 
+/// The second path of a drawing takes away the plate to which the support bars of the first lead, without touching the part. Its picture shows the
+/// part, and marks where the part's outline begins.
+#[test]
+fn a_part_that_another_path_makes_loose_is_filled() {
+    let picture = |[x, y]: [i32; 2]| {
+        let at = |right: i32, up: i32| format!("{},{}", x + right, y + up);
+        let [start, end, low, right, high, left] =
+            [at(-5, -5), at(50, -5), at(0, 0), at(42, 0), at(42, 27), at(0, 27)];
+        let [a, b, c, d] = [at(1, 1), at(41, 1), at(41, 26), at(1, 26)];
+        let (from, to) = (at(-3, -2), at(45, -2));
+        let drawing = format!(
+            "layer 1234.1P\nstart {start} \"T2 O2 I1 B0 D1 P3 U8 F100\"\nsweep {start} {low}\nbars {low} {right}\n\
+             mill {right} {high} {left} {low}\nsweep {low} {end}\nend {end}\n\
+             layer 1234.2P\nstart {start} \"T2 O2 I1 B0 F100\"\nsweep {start} {from}\nmill {from} {to}\n\
+             sweep {to} {end}\nend {end}\nlayer Part\npolyline {a} {b} {c} {d} closed\n"
+        );
+        let options = "part = 'Part'\nrapid = 900\nsweep-height = 9\n";
+        let place = Place::new().file("pathbuild.toml", options).file("1234.dxf", dxf(&drawing));
+        let run = place.run("check 1234.dxf --pictures seen --no-cache");
+        let mut seen = pictures(&place, "seen").into_iter().filter(|(name, _)| name.contains("PB217"));
+        seen.next().unwrap_or_else(|| panic!("{run}")).1
+    };
+    let here = picture([0, 0]);
+    assert_eq!(here, picture([30, -20]));
+    assert!(here.contains("fill=\"#e69f00\""), "{here}");
+}
+
 /// Returns the pictures of findings about a component whose support bar, and whose part, is cut by another component, by their codes. `shims` is the
 /// H of the other component, whose cut has the given length. The last argument is the place of the project's start marker.
 fn cuts_by_a_neighbour(length: i32, shims: &str, [x, y]: [i32; 2]) -> BTreeMap<String, String> {

@@ -249,7 +249,7 @@ impl<'db> PlacedProgram<'db> {
 
     fn severed_problem(&self, owner: usize, severed: &SeveredPart) -> Diagnostic {
         let owner = &self.paths[owner].cuts;
-        Diagnostic::new(&messages::SEVERED_PART)
+        Diagnostic::new(&messages::SEVERED_NEIGHBOUR)
             .quoting("other", owner.cuts.name.as_str())
             .with("place", diagnostic_point(owner.start_of(severed.part)))
     }
@@ -371,11 +371,14 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
         let found = file_parts(db, cutting.file);
         let findings = instance_of(db, target, cutting).and_then(|instance| part_findings(db, instance));
         let (Some(found), Some((findings, place))) = (found, findings) else { continue };
-        for (index, part) in findings.parts[place].iter().enumerate() {
-            let drawn = &found.parts[*part];
-            let mut part_of_path =
-                placed(drawn, occurrence.placement, occurrence.raised, cutting.path.thickness);
-            part_of_path.is_loose |= findings.loose.contains(part);
+        let own = &findings.parts[place];
+        let placed_here = |part: usize| {
+            let thickness = cutting.path.thickness;
+            placed(&found.parts[part], occurrence.placement, occurrence.raised, thickness)
+        };
+        for (index, part) in own.iter().enumerate() {
+            let mut part_of_path = placed_here(*part);
+            part_of_path.is_loose |= findings.loose.iter().any(|(loose, _)| loose == part);
             part_of_path.corners = &findings.corners[*part];
             // The material left and the bars are known by path, not by part: list them with the first part only.
             if index == 0 {
@@ -384,6 +387,9 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
             }
             all.push(part_of_path);
         }
+        // The path neither cuts these parts out nor enters them, but takes away what holds them.
+        let loose = findings.loose.iter().filter(|(part, path)| *path == place && !own.contains(part));
+        all.extend(loose.map(|(part, _)| PlacedPart { is_loose: true, ..placed_here(*part) }));
     }
     if let Some(program) = &program
         && let (Some(project), Some(root)) = (program.paths.first(), traced.trace.occurrences.first())

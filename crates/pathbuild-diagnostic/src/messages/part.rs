@@ -64,10 +64,17 @@ messages! {
         help_en: "draw some segments of its outline with support bars (BORDER), or set part-held = \"otherwise\" if tape or vacuum holds it",
         help_de: "einige Segmente seines Umrisses mit Stützstegen (BORDER) zeichnen oder part-held = \"otherwise\" setzen, wenn Klebeband oder Vakuum es hält",
     }
-    /// A part that is held after the cuts of its own path, but loose after the cuts of another path.
+    /// A part that is held after the cuts of its own path, but loose after the cuts of another path of its drawing.
     SEVERED_PART: LoosePart {
-        en: "after this cut, nothing holds the part of path {other} whose outline begins at {place}: it meets the cuts between the support bars",
-        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {place} beginnt: er verbindet sich mit den Schnitten zwischen den Stützstegen",
+        en: "after this cut, nothing holds the part of path {other} whose outline begins at {point}: it meets the cuts between the support bars",
+        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {point} beginnt: er verbindet sich mit den Schnitten zwischen den Stützstegen",
+        help_en: "place the parts farther apart, or draw support bars on a side where the plate remains",
+        help_de: "die Teile mit größerem Abstand anordnen oder Stützstege auf einer Seite zeichnen, an der die Platte stehen bleibt",
+    }
+    /// A part of another path of the project that is loose after the cuts of this path.
+    SEVERED_NEIGHBOUR: LoosePart {
+        en: "after this cut, nothing holds the part of path {other} whose outline begins at {place} in the program: it meets the cuts between the support bars",
+        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss im Programm bei {place} beginnt: er verbindet sich mit den Schnitten zwischen den Stützstegen",
         help_en: "place the parts farther apart, or draw support bars on a side where the plate remains",
         help_de: "die Teile mit größerem Abstand anordnen oder Stützstege auf einer Seite zeichnen, an der die Platte stehen bleibt",
     }

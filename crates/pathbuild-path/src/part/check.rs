@@ -32,8 +32,8 @@ pub struct PartFindings {
     pub parts: Vec<Vec<usize>>,
     /// The material that each path leaves at outlines, by path.
     pub left: Vec<Vec<LeftMaterial>>,
-    /// The indices of the parts that nothing holds.
-    pub loose: Vec<usize>,
+    /// The parts that nothing holds: for each, its index, and that of the path whose cut makes it loose.
+    pub loose: Vec<(usize, usize)>,
     /// For each path, the middle lines of its support bars that are cut away.
     pub lost_bars: Vec<Vec<Curve>>,
     /// For each part, the stretches of its outlines that the cutter does not reach.
@@ -80,7 +80,7 @@ pub fn check_parts(
         findings.inner.extend(check.inner_parts().map(|ring| (number, ring)));
         for (path, problem) in check.problems(is_complete, &leftovers) {
             if problem.code() == Code::LoosePart {
-                findings.loose.push(number);
+                findings.loose.push((number, path));
             }
             findings.of_paths[path].push(problem);
         }
@@ -286,7 +286,7 @@ impl<'s> PartCheck<'s> {
         }
         let problem = Diagnostic::new(&messages::SEVERED_PART)
             .quoting("other", self.cuts.paths[owner].name.as_str())
-            .with("place", start);
+            .with("point", start);
         Some(self.at(enclosure.severing_cut()?, problem))
     }
 

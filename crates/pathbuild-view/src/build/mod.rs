@@ -98,7 +98,7 @@ impl Places<'_> {
 /// Messages about parts whose points have the coordinates of the program, not those of the drawing.
 pub const IN_PROGRAM: [&Message; 5] = [
     &part::GOUGED_NEIGHBOUR,
-    &part::SEVERED_PART,
+    &part::SEVERED_NEIGHBOUR,
     &part::NEIGHBOURS_BAR_CUT_AWAY,
     &part::DISPLACED_PATH,
     &part::CUT_IN_LOOSE_WASTE,
