@@ -296,8 +296,9 @@ fn an_outline_in_an_opening_is_no_part() {
     assert!(is_found("bars", 0.5) && is_found("bars", 1.95), "wrong distances");
     assert!(!is_found("bars", 2.05), "O or more away");
     assert!(!is_found("bars", -1.0), "an opening in the opening");
-    assert!(is_found("mill", 1.0) && is_found("mill", 1.019), "cut out without bars");
-    assert!(!is_found("mill", 1.021) && !is_found("mill", 0.979), "without bars, it may be anything");
+    assert!(is_found("mill", 1.0), "cut out without bars");
+    assert!(is_found("mill", 0.05) && is_found("mill", 1.95), "wrong distances");
+    assert!(!is_found("mill", 0.0) && !is_found("mill", 2.05), "on the outline, and O or more away");
 }
 
 /// A ring that is cleared in turns is no part, even if one of the turns runs half of O beside a circle in it. A hole in a part does not matter.
@@ -313,6 +314,23 @@ fn a_part_without_bars_is_left_whole() {
     assert!(!is_found("mill circle 25,25 d 6\n", ""), "cleared");
     assert!(is_found("mill circle 25,25 d 6\n", "circle 25,25 d 6\n"), "a hole in the part");
     assert!(is_found("mill circle 25,25 d 6 \"B1\"\n", ""), "a groove");
+}
+
+/// The opening of 20 mm is milled `short` mm too small on each side. A cut that is nearer to where the opening would be cut than to where the circle
+/// in it would be is meant for the opening.
+#[test]
+fn a_cut_between_two_outlines_belongs_to_the_nearer_one() {
+    let is_found = |inner: f64, short: f64| {
+        let drawing = format!(
+            "layer 1234.1P\nstart -5,-5 \"T2 O2 I0.5 A40 B-0.2 S5\"\nsweep -5,-5 20,13\nmill circle 20,13 d {}\nsweep 20,13 50,-5\nend 50,-5\nlayer Part\n\
+             polyline 1,1 41,1 41,26 1,26 closed\ncircle 20,13 d 20\ncircle 20,13 d {inner}\n",
+            20.0 - 2.0 * short
+        );
+        codes(&drawing).contains(&"PB223".to_owned())
+    };
+    // The cuts for the two outlines would run 1 mm apart.
+    assert!(!is_found(14.0, 0.0) && !is_found(14.0, 0.48));
+    assert!(is_found(14.0, 0.52) && is_found(14.0, 1.0));
 }
 
 /// A part in an opening may stay in the drawing if the layer names its path.

@@ -178,7 +178,7 @@ impl<'s> PartCheck<'s> {
         })
     }
 
-    /// Whether cuts through the plate follow the whole outside of a ring at a distance of half of O, and none lies directly inside the ring.
+    /// Whether cuts through the plate follow the whole outside of a ring within O, and none lies directly inside the ring.
     fn is_cut_round(&self, ring: usize, drawn: &PartRing) -> bool {
         let is_followed = |curve: &Curve, share: f64| {
             let extent = widened_box(curve, 0.0);
@@ -189,7 +189,8 @@ impl<'s> PartCheck<'s> {
             && !self.judged.iter().any(|judged| self.is_directly_in(ring, judged))
     }
 
-    /// Whether a cut through the plate runs half of O beside a point of a ring's curve, on its outside, and not at the edge of a ring around it.
+    /// Whether a cut through the plate runs beside a point of a ring's curve, on its outside and within O. A cut nearer to where the edge of a ring
+    /// around it would be cut is meant for that edge.
     fn is_beside_outside(&self, ring: usize, curve: &Curve, share: f64, number: usize) -> bool {
         let IndexedCut { path, radius, through, .. } = &self.cuts.cuts[number];
         // The right of an opening's curves is inside it.
@@ -197,10 +198,11 @@ impl<'s> PartCheck<'s> {
         let at = at_along(&away, share * away.length());
         let Side::Openings(around) = self.part.side(at) else { return false };
         let rings = &self.part.part.rings;
-        let reach = radius + self.settings.tolerance;
+        let error = through.distance_to(at);
+        let reach = radius + self.settings.tolerance + 2.0 * error;
         let is_at_edge = |ring: &usize| rings[*ring].curves.iter().any(|curve| curve.distance_to(at) < reach);
         self.part.part.may_belong_to(&self.cuts.paths[*path].name)
-            && through.distance_to(at) <= self.settings.tolerance
+            && error < *radius
             && !around.contains(&ring)
             && !around.iter().any(is_at_edge)
     }
