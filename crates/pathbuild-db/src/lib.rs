@@ -19,7 +19,7 @@ pub use pathbuild_files as system;
 pub use pathbuild_files::System;
 pub use queries::{
     Closure, Collision, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance, MissingOption, NameKey,
-    NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, ReachedPath, ResolvedPath,
+    NameLookup, Outcome, Part, PathIndex, PathPlace, PathSummary, PlacedKeepOut, ResolvedPath,
     SecondDefinition, Trace, TracedProgram, assigned_texts, candidate_files, chains, check_file,
     check_joined_parts, check_target, closure, combinations, content, content_hash, defining_files,
     drawing_names, drawn_path, effective_parameters, embeds, embeds_others, file_index, has_clamp_layer,

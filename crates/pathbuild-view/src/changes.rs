@@ -78,9 +78,9 @@ const ORIGIN: Point = [0.0; 2];
 
 /// Compares two programs.
 ///
-/// Equal moves are ignored, except for the deepest pass along a line whose other passes changed. Among the others, a run of moves that occurs at
-/// another place is shifted. All other cuts are divided where cuts end on them, unless they are too many, and each piece is classified by comparing the
-/// final depth, the feed and the number of passes along its line in the plane.
+/// Equal moves are ignored, except for the deepest pass along a line on which other passes changed. Among the others, a run of moves that occurs at
+/// another place is shifted. All other cuts are divided where cuts end on them, unless they are too many, and each piece is classified by comparing
+/// the final depth, the feed and the number of passes along its line in the plane.
 pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
     let [old, new] = [old, new].map(without_standing_moves);
     let (old, new) = (&*old, &*new);
@@ -119,7 +119,7 @@ pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
     ComparedMoves { has_undivided_moves, ..comparison.result }
 }
 
-/// Adds the moves that are in both programs, but are the deepest pass of the new one along a line whose result changed. Without them, a program from
+/// Adds the moves that are in both programs, but are the deepest pass of the new one along a line with another result. Without them, a program from
 /// which the deepest passes were removed would have no changed move.
 fn with_deepest_passes(mut rows: Vec<Rows>, [old, new]: &[Milled; 2]) -> Vec<Rows> {
     let is_altered = |line, is| old.lines.get(line).is_some_and(|was| was.change(is).is_some());
@@ -829,7 +829,7 @@ mod tests {
         assert!(other[0].starts_with("the same in the end"), "{other:?}");
     }
 
-    /// The moves that remain are in both programs; still, what was changed is the line that they follow.
+    /// The remaining moves are in both programs, but the line that they follow has another depth.
     #[test]
     fn removed_passes_change_the_pass_that_is_now_deepest() {
         let path = |levels: &[&str]| {

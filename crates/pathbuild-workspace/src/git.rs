@@ -314,8 +314,8 @@ impl Entry {
     }
 }
 
-/// Whether Windows would open something else under this name: it has two separators, drops final dots and blanks, gives `.git` a short name, and opens
-/// devices.
+/// Whether Windows would open something else under this name: it has two separators, drops final dots and blanks, has a short name for `.git`,
+/// and opens devices.
 fn is_other_on_windows(part: &str) -> bool {
     let stem = part.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
     let is_port = |prefix| stem.strip_prefix(prefix).is_some_and(|number: &str| number.chars().count() == 1);

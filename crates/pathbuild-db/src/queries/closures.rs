@@ -27,7 +27,7 @@ pub struct Closure<'db> {
     /// The target's path with its values; `None` if the file has no such path.
     pub root: Option<Instance<'db>>,
     /// Every path, in the order in which it is first reached.
-    pub reached: Vec<ReachedPath<'db>>,
+    pub reached: Vec<Instance<'db>>,
     /// Diagnostics of all paths in `reached`, without duplicates.
     pub diagnostics: Vec<Diagnostic>,
     /// Estimated number of moves in the program.
@@ -55,15 +55,6 @@ impl MissingOption {
     }
 }
 
-/// A path that a target reaches.
-#[derive(Clone, Debug, PartialEq, salsa::SalsaValue)]
-pub struct ReachedPath<'db> {
-    /// The path with its values.
-    pub instance: Instance<'db>,
-    /// The depth below the target at which the path is first reached.
-    pub depth: u32,
-}
-
 /// Maximum depth of embedding below the emitted path.
 const MAX_EMBEDDING_DEPTH: u32 = 10;
 
@@ -79,7 +70,7 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
         walk.visit(root, 0);
         walk.estimate_moves(root);
     } else {
-        walk.reached.push(ReachedPath { instance: root, depth: 0 });
+        walk.reached.push(root);
         walk.report_all(root, &missing);
     }
     Closure {
@@ -104,7 +95,7 @@ fn closure_without_embeddings<'db>(
         && part_problems(db, root).is_empty();
     let is_lone = *target.role(db) == Role::Checked && is_plain && !own.has_subpaths() && !has_raised;
     let is_within = size_limit_problem(own.moves, limits).is_none() && limits.paths > 0;
-    let reached = vec![ReachedPath { instance: root, depth: 0 }];
+    let reached = vec![root];
     let closure = || Closure { root: Some(root), reached, moves: own.moves, ..Closure::default() };
     (is_lone && is_within).then(closure)
 }
@@ -143,7 +134,7 @@ impl Closure<'_> {
     /// Returns the drawings that define the reached paths, each once.
     pub fn files(&self, db: &dyn Db) -> Vec<SourceFile> {
         let mut seen = FxHashSet::default();
-        let files = self.reached.iter().map(|reached| reached.instance.file(db));
+        let files = self.reached.iter().map(|reached| reached.file(db));
         files.filter(|file| seen.insert(*file)).collect()
     }
 }
@@ -154,7 +145,7 @@ struct ClosureWalk<'db> {
     options: PathOptions,
     missing_options: Vec<MissingOption>,
     limits: Limits,
-    reached: Vec<ReachedPath<'db>>,
+    reached: Vec<Instance<'db>>,
     diagnostics: Vec<Diagnostic>,
     /// Indices of the reported diagnostics, by hash of their identity.
     known: FxHashMap<u64, Vec<usize>>,
@@ -237,7 +228,7 @@ impl<'db> ClosureWalk<'db> {
         }
         self.db.unwind_if_revision_cancelled();
         if self.seen.insert(instance) {
-            self.reached.push(ReachedPath { instance, depth });
+            self.reached.push(instance);
         }
         if self.exceeds_path_limit(instance) {
             return PathErrors::Own;
@@ -560,7 +551,7 @@ impl<'db> Closure<'db> {
     pub fn edges(&self, db: &'db dyn Db) -> Vec<Edge<'db>> {
         let of_path =
             |from: Instance<'db>| embeds(db, from).iter().map(move |embedding| edge(from, embedding));
-        self.reached.iter().flat_map(|reached| of_path(reached.instance)).collect()
+        self.reached.iter().flat_map(|reached| of_path(*reached)).collect()
     }
 }
 
@@ -601,9 +592,9 @@ pub fn trace(db: &dyn Db, target: Target) -> Trace {
     let (mut files, mut lookups) = (UniqueList::default(), UniqueList::default());
     files.push(target.file(db));
     for reached in &closure(db, target).reached {
-        let from = reached.instance.file(db);
+        let from = reached.file(db);
         files.push(from);
-        for name in embeds(db, reached.instance).iter().filter_map(|embedding| embedding.name.as_ref()) {
+        for name in embeds(db, *reached).iter().filter_map(|embedding| embedding.name.as_ref()) {
             let resolved = find_path(db, from, NameKey::of(db, name));
             resolved.searched.iter().for_each(|file| files.push(*file));
             let directories =

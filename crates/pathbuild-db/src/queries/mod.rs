@@ -25,9 +25,7 @@ mod raw;
 mod reading;
 mod results;
 
-pub use closures::{
-    Closure, Destination, Edge, MissingOption, NameLookup, ReachedPath, Trace, closure, trace,
-};
+pub use closures::{Closure, Destination, Edge, MissingOption, NameLookup, Trace, closure, trace};
 pub use definitions::{SecondDefinition, second_definitions};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use embedding::{Instance, chains, path, summary};

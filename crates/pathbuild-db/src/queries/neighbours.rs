@@ -407,7 +407,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
 
 /// Returns the instance of a path in a target's program.
 fn instance_of<'db>(db: &'db dyn Db, target: Target, cutting: &programs::Part) -> Option<Instance<'db>> {
-    let mut instances = closure(db, target).reached.iter().map(|reached| reached.instance);
+    let mut instances = closure(db, target).reached.iter().copied();
     instances.find(|instance| {
         instance.file(db) == cutting.file
             && instance.name(db).name(db) == *cutting.path.name

@@ -181,7 +181,7 @@ messages! {
         help_en: "did you mean \"{near}\"?",
         help_de: "ist \"{near}\" gemeint?",
     }
-    /// A key whose value is not a valid regular expression.
+    /// The value of a key is not a valid regular expression.
     BROKEN_REGEX: InvalidConfiguration {
         en: "`{key}` is not a regular expression: {reason}",
         de: "`{key}` ist kein regulärer Ausdruck: {reason}",
@@ -195,7 +195,7 @@ messages! {
         help_en: "combine alternatives into one pattern: a|b; in file patterns they are written in braces, separated by commas",
         help_de: "Alternativen in einem Muster zusammenfassen: a|b; in Dateimustern stehen sie in geschweiften Klammern, durch Kommas getrennt",
     }
-    /// A key whose value is not a valid name pattern.
+    /// The value of a key is not a valid name pattern.
     BROKEN_GLOB: InvalidConfiguration {
         en: "`{key}` is not a valid name pattern: {reason}",
         de: "`{key}` ist kein gültiges Namensmuster: {reason}",

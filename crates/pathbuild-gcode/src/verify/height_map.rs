@@ -164,7 +164,7 @@ fn cell(row: i32, column: i32) -> usize {
     usize::try_from(within).unwrap_or(0)
 }
 
-/// Rounds to single precision, whose steps at 1000 mm are 0.06 micrometres.
+/// Rounds to single precision: at 1000 mm, its steps are 0.06 micrometres.
 fn rounded(height: f64) -> f32 {
     #[expect(clippy::cast_possible_truncation, reason = "less exact, as said")]
     let rounded = height as f32;

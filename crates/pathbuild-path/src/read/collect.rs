@@ -576,6 +576,8 @@ impl PathCollector<'_> {
         for markers in [&mut self.ends, &mut self.turns, &mut self.probes] {
             markers.retain(|other| other.origin.id != marker.origin.id);
         }
+        self.unclear.retain(|other| other.marker.origin.id != marker.origin.id);
+        self.faults.unclear_circles.retain(|point| *point != marker.at);
         Some(marker)
     }
 

@@ -487,6 +487,8 @@ fn markers_that_lost_their_line_type_are_recognised() {
     // The circle nearly has a marker's diameter: only this is reported, and not its consequences.
     assert_eq!(path("circle PHANTOM 0,0 d 1.1", "circle PHANTOM 20,30 d 1.9").0, ["PB105", "PB105"]);
     assert_eq!(path("start 0,0", "circle PHANTOM 20,30 d 1.7").0, ["PB105", "PB102"]);
+    // One circle is not both markers.
+    assert!(path("circle PHANTOM 0,0 d 1.9", "").0.contains(&"PB102".to_owned()));
 }
 
 #[test]

@@ -302,13 +302,13 @@ fn target_graph(db: &Database, target: Target) -> TargetGraph {
     let reached = closure(db, target);
     let is_asked_with_examples = *target.role(db) == Role::Checked;
     let mut nodes = Vec::new();
-    for (index, step) in reached.reached.iter().enumerate() {
-        let mut node = node(db, step.instance);
+    for (index, instance) in reached.reached.iter().enumerate() {
+        let mut node = node(db, *instance);
         node.is_example = index == 0 && is_asked_with_examples && !node.bindings.is_empty();
         nodes.push(node);
     }
     let number: HashMap<Instance<'_>, usize> =
-        reached.reached.iter().enumerate().map(|(index, step)| (step.instance, index)).collect();
+        reached.reached.iter().enumerate().map(|(index, instance)| (*instance, index)).collect();
     let too_many_paths = too_many_paths(reached);
     let beyond = if too_many_paths.is_empty() { Code::NestingTooDeep } else { Code::LimitReached };
     let end = |to| match to {

@@ -290,7 +290,7 @@ fn program_facts(db: &Database, reached: &Closure<'_>, found: &[Diagnostic]) -> 
         return None;
     }
     let root = signature(db, reached.root?)?;
-    let mut signatures = reached.reached.iter().filter_map(|reached| signature(db, reached.instance));
+    let mut signatures = reached.reached.iter().filter_map(|reached| signature(db, *reached));
     Some(ProgramFacts {
         path: root.name.as_str().into(),
         suffix: root.output_suffix.as_str().into(),

@@ -456,7 +456,7 @@ pub enum ConfigCommand {
         /// Also say where each value comes from
         #[arg(long)]
         origin: bool,
-        /// Drawings, paths and directories whose configuration is shown.
+        /// The configuration of these drawings, paths and directories is shown.
         #[command(flatten)]
         inputs: InputArgs,
     },
