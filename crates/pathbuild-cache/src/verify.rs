@@ -225,7 +225,7 @@ pub enum Reason {
     },
     /// A symbolic link in a directory or in its path has another target, or the directory could not be listed completely.
     Links {
-        /// Path of the directory.
+        /// Directory in which lookups may now give other answers.
         directory: Utf8PathBuf,
     },
 }

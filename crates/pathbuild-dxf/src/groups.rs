@@ -192,7 +192,7 @@ pub(crate) struct ScannedPairs<'a> {
 /// Number of bytes scanned at once.
 const WINDOW_BYTES: usize = 64;
 
-/// Maximum length in bytes of a group code's line.
+/// Maximum length in bytes of a group code's line, with its end, that the fast path reads.
 const MAX_CODE_BYTES: usize = 8;
 
 impl<'a> ScannedPairs<'a> {
@@ -264,15 +264,12 @@ pub(crate) struct CodeEnd {
     mask: u64,
 }
 
-/// Maximum length in bytes of a group code's line that the fast path reads.
-const FAST_CODE_BYTES: usize = 8;
-
 impl CodeEnd {
     /// Determines from the first line how group codes are written.
     pub(crate) fn of(pairs: &Pairs<'_>) -> Self {
         let last = pairs.line_end();
         let rest = &pairs.bytes()[pairs.consumed()..];
-        let end = rest.iter().take(FAST_CODE_BYTES).position(|byte| *byte == last);
+        let end = rest.iter().take(MAX_CODE_BYTES).position(|byte| *byte == last);
         let has_cr = last != b'\r' && end.is_some_and(|end| rest[..end].ends_with(b"\r"));
         let (end, length) =
             if has_cr { (u64::from(last) << 8 | u64::from(b'\r'), 5) } else { (u64::from(last), 4) };

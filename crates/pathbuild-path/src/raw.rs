@@ -29,7 +29,7 @@ pub struct RawPath {
     pub probes: Vec<Marker>,
     /// The path's elements with their texts.
     pub drawn: Arc<DrawnElements>,
-    /// The text with the path's own parameters: the text of its start, or a copy of the start text of the path named by @.
+    /// The text with the parameters of the whole path: that of its start marker, or a copy of that of the path named by @.
     pub(crate) parameters: Option<TextId>,
     /// The path named by @, and its start marker, which has the parameters.
     pub(crate) borrowed_from: Option<Box<(PathName, Origin)>>,

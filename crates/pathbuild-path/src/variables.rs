@@ -176,7 +176,7 @@ impl Definition {
         Ok(Self { name, values: parse_allowed_values(written)?, written: written.into() })
     }
 
-    /// Whether a value is permitted.
+    /// Whether the variable may have this value: a number in the range, a text of the list, or one of the characters.
     pub fn allows(&self, value: &str) -> bool {
         match &self.values {
             AllowedValues::Range { from, to, .. } => {

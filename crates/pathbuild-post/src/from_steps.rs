@@ -659,7 +659,7 @@ pub fn altered_words(steps: &[Step]) -> Vec<Diagnostic> {
     found
 }
 
-/// Returns the word of an action and the one with which posts replace it.
+/// Returns the word of an action that posts replace, and its replacement; `None` if posts write the action unchanged.
 fn replacement(action: &Action) -> Option<(&'static str, &'static str)> {
     match action {
         Action::Stop { optional: true } => Some(("M1", "M0")),

@@ -81,7 +81,7 @@ struct ToolWords {
     has_change: bool,
     /// Whether a word switches a tool length on: G43, except with H0.
     has_length: bool,
-    /// Whether tools are layers, the first of which applies from the beginning.
+    /// Whether the target is XpertMILL, where M6 selects a layer instead of a tool. The first layer applies from the beginning.
     has_layers: bool,
     /// Whether the text has no M6 although T only remembers the number, so that the operator must change the tool at a stop.
     needs_stop: bool,

@@ -101,7 +101,7 @@ impl RandomLibrary {
         before.into_iter().chain(self.slots[slot].file.clone()).collect()
     }
 
-    /// Redraws a drawing, either correct or with a fault.
+    /// Draws the file of a slot, for the first time or again, either correct or with a random fault.
     fn draw(&mut self, slot: usize) {
         let kind = self.slots[slot].kind;
         let file = match self.slots[slot].file.clone() {

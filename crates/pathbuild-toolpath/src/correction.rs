@@ -139,7 +139,7 @@ pub(crate) struct ToolPosition {
 const MAX_CHORD_DEPARTURE: f64 = 0.01;
 
 /// Largest rounding error in the number of parts: a move of exactly n maximum lengths is not divided into n + 1 parts.
-const ROUNDING: f64 = 1e-9;
+const PART_COUNT_TOLERANCE: f64 = 1e-9;
 
 /// A move and the number of parts it is split into.
 #[derive(Clone, Copy, Debug)]
@@ -164,7 +164,7 @@ impl SplitMove {
             }
             PlannedMove::Sweep { .. } | PlannedMove::Lift { .. } | PlannedMove::Drill { .. } => 1.0,
         };
-        Self { from, to, count, pieces: round_up(parts - ROUNDING) }
+        Self { from, to, count, pieces: round_up(parts - PART_COUNT_TOLERANCE) }
     }
 
     /// Returns the number of parts, at least 1.

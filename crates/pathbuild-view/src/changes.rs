@@ -541,7 +541,7 @@ impl MillingResult {
     }
 }
 
-/// The results of milling along each line of a program. Rapid moves are ignored.
+/// The results of milling along each line in the plane that a program's moves follow. Rapid moves are ignored.
 #[derive(Debug, Default)]
 struct Milled {
     lines: HashMap<Line, MillingResult>,

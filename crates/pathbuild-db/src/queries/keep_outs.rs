@@ -83,7 +83,7 @@ struct Search<'t> {
 
 /// Key of a finding: moves of one kind along one element into one clamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry {
+struct CollisionKey {
     clamp: usize,
     /// The innermost path that contains both the clamp and the element.
     occurrence: u32,
@@ -142,7 +142,7 @@ impl<'t> Search<'t> {
         let map =
             KeepOutMap::new(self.clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline)));
         let radius = program.largest_cutter() / 2.0;
-        let mut entries: BTreeMap<Entry, Collision> = BTreeMap::new();
+        let mut entries: BTreeMap<CollisionKey, Collision> = BTreeMap::new();
         // The last lift belongs to no step.
         let milling = program
             .moves()
@@ -157,14 +157,14 @@ impl<'t> Search<'t> {
             for clamp in map.entered_clamps(&way, radius, 0.0) {
                 let (occurrence, element) =
                     self.occurrences().innermost_common_path(step, self.clamps[clamp].occurrence);
-                let entry = Entry { clamp, occurrence, element, probe, what: what.en };
+                let entry = CollisionKey { clamp, occurrence, element, probe, what: what.en };
                 entries.entry(entry).or_insert(Collision::new(what)).add(&way);
             }
         }
         entries.iter().map(|(entry, collision)| self.finding(entry, collision)).collect()
     }
 
-    fn finding(&self, entry: &Entry, collision: &Collision) -> Diagnostic {
+    fn finding(&self, entry: &CollisionKey, collision: &Collision) -> Diagnostic {
         let TracedProgram { program, trace, .. } = self.traced;
         let around = &trace.occurrences[entry.occurrence as usize];
         let clamp = &self.clamps[entry.clamp];

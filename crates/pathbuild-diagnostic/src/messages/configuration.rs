@@ -290,8 +290,8 @@ messages! {
     BASELINE_DEPTH: InvalidConfiguration {
         en: "`{found}` is not a depth in mm",
         de: "`{found}` ist keine Tiefe in mm",
-        help_en: "write a number, such as depth=0.05, or accept the finding again",
-        help_de: "eine Zahl schreiben, etwa depth=0.05, oder den Befund noch einmal hinnehmen",
+        help_en: "write a number, such as depth=0.05, or remove the line and accept the finding again with --accept",
+        help_de: "eine Zahl schreiben, etwa depth=0.05, oder die Zeile entfernen und den Befund mit --accept noch einmal hinnehmen",
     }
     /// A baseline entry with an unreadable reason.
     BASELINE_REASON: InvalidConfiguration {

@@ -24,8 +24,8 @@ messages! {
     }
     /// Note: a text with O and T that was probably meant for the start marker, which has the text of the finding instead.
     PATH_TEXT_ELSEWHERE: MissingParameter {
-        en: "the text \"{text}\" at {point} has O and T, but the start marker took this text first: move this text away from the start marker",
-        de: "der Text \"{text}\" bei {point} hat O und T, die Anfangsmarke hat aber zuerst diesen Text bekommen: diesen Text von der Anfangsmarke wegschieben",
+        en: "O and T are in the text \"{text}\" at {point}, but the start marker uses the text of this finding instead: move the text of this finding away from the start marker",
+        de: "O und T stehen im Text \"{text}\" bei {point}, die Anfangsmarke verwendet aber den hier gemeldeten Text: den gemeldeten Text von der Anfangsmarke wegschieben",
     }
     /// A missing M where a path is embedded.
     MISSING_MATERIAL: MissingParameter {

@@ -180,7 +180,7 @@ messages! {
     }
     /// A path of a joined program that moves into a clamp of another path's drawing.
     JOINED_INTO_CLAMP: InsideKeepOut {
-        en: "joined with the other paths, the tool, O{tool}, hits the clamp of layer {layer} in {drawing}, which lies at {clamp} in the program and is {height} mm high: {what}, lowest Z {z}, moves: {count}",
+        en: "in the joined program, the tool, O{tool}, hits the clamp of layer {layer} in {drawing}, which lies at {clamp} in the program and is {height} mm high: {what}, lowest Z {z}, moves: {count}",
         de: "im gemeinsamen Programm trifft der Fräser, O{tool}, das Spannmittel auf Layer {layer} in {drawing}, das dort bei {clamp} liegt und {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
         help_en: "raise S above the clamps, or write a program for each path: the clamps of all drawings are mounted during the whole program",
         help_de: "S über die Spannmittel anheben oder je Pfad ein Programm schreiben: die Spannmittel aller Zeichnungen stehen während des ganzen Programms",

@@ -530,8 +530,8 @@ messages! {
     PROBE_NOT_RAISED: ProbeNotRaised {
         en: "the tool moves sideways while it still touches what it probed",
         de: "das Werkzeug fährt zur Seite, während es noch berührt, was es angetastet hat",
-        help_en: "raise it first: G0 Z",
-        help_de: "es vorher anheben: G0 Z",
+        help_en: "raise the tool with G0 Z before it moves in X or Y",
+        help_de: "das Werkzeug mit G0 Z anheben, bevor es in X oder Y fährt",
     }
     /// A rapid move down beyond the point at which a probe made contact.
     RAPID_BELOW_CONTACT: ProbeNotRaised {

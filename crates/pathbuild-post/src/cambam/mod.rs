@@ -53,7 +53,7 @@ pub(super) fn write(
     Ok(output)
 }
 
-/// Translates a text of this definition to the words of RS274. A definition may have its own words for motions, which are not G words;
+/// Translates a program written with this definition into the words of RS274. A definition may have its own words for motions, which are not G words;
 /// lines with such a word get the corresponding G word.
 pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText {
     let marks = definition.comment_marks();

@@ -153,7 +153,12 @@ impl Divider {
                 libm::hypot(x - point[0], y - point[1]) <= CURVE_TOLERANCE
             };
             let remaining = MAX_ADDITIONAL_PIECES.saturating_sub(self.additional + cuts.len());
-            cuts.extend(shares(way, point).take(remaining + 1).filter(is_on_way).map(|share| (share, point)));
+            cuts.extend(
+                shares_nearest_to(way, point)
+                    .take(remaining + 1)
+                    .filter(is_on_way)
+                    .map(|share| (share, point)),
+            );
         }
         cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
         cuts
@@ -201,7 +206,7 @@ impl Divider {
 }
 
 /// Returns the shares of a move, strictly between its ends, at which it passes the point of its line or circle that is nearest to a point.
-fn shares(way: &Move, point: Point) -> impl Iterator<Item = f64> + use<> {
+fn shares_nearest_to(way: &Move, point: Point) -> impl Iterator<Item = f64> + use<> {
     let (first, period, length) = if let (Some(course), MoveShape::Arc(arc)) = (way.course(), way.shape) {
         let ahead = arc.angle_ahead(&way.from.at, &[point[0], point[1], 0.0]);
         let sweep = course.sweep();

@@ -328,7 +328,7 @@ fn compare_programs(
     pictures: Option<Lang>,
     problems: &mut [Vec<Diagnostic>; 2],
 ) -> Option<Outcome> {
-    let programs = [0, 1].map(|side| sides[side].program(paths[side]));
+    let programs = [0, 1].map(|side| sides[side].compile(paths[side]));
     let outcome = match &programs {
         [Ok(old), Ok(new)] => {
             let changes = compare_moves(&old.path, &new.path, pictures);
@@ -385,7 +385,7 @@ impl CompiledSide<'_> {
     ///
     /// # Errors
     /// The errors that prevent the program from being built.
-    fn program(&self, known: &HashedPath) -> Result<CompiledPath, Vec<Diagnostic>> {
+    fn compile(&self, known: &HashedPath) -> Result<CompiledPath, Vec<Diagnostic>> {
         let text = self.post_processor.map_or(ShownText::Native, |post| ShownText::Emitted(Some(post)));
         let report = self.session.scene(known.file, std::slice::from_ref(&known.name), text);
         let Some(path) = report.scene.paths.into_iter().next().filter(|path| path.gcode.is_some()) else {

@@ -56,7 +56,9 @@ pub(super) fn sheet(
     let mut programs: Vec<Arc<Program>> = Vec::new();
     for target in &job.targets {
         let Some(traced) = traced_program(db, *target) else { return Ok(None) };
-        let Some(program) = add(db, &mut scene, *target, traced, &settings.writing)? else { return Ok(None) };
+        let Some(program) = add_path(db, &mut scene, *target, traced, &settings.writing)? else {
+            return Ok(None);
+        };
         let tool = settings.sheets.tools.position(&program.path, program.tool);
         if let (Some(path), Some(tool)) = (scene.paths.last_mut(), tool) {
             path.tip = settings.sheets.shapes[tool].cutter().into();
@@ -102,7 +104,7 @@ fn left_out(program: &Program) -> impl Iterator<Item = BilingualText> + use<> {
 }
 
 /// Adds a path to the scene, in the coordinates of its program, with the clamps in its drawing and in the drawings of the paths that it embeds.
-fn add(
+fn add_path(
     db: &Database,
     scene: &mut Scene,
     target: Target,
