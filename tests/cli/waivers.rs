@@ -215,8 +215,7 @@ fn an_accepted_rapid_move_holds_while_it_is_not_deeper() {
     assert!(shallower.status == Some(0) && shallower.stderr.contains("known: 1"), "{shallower}");
     for (roughed, depth) in [("-2.94", "0.06"), ("1", "3")] {
         let deeper = run(program("", roughed));
-        let note =
-            format!("accepted up to a depth of 0.05 mm by pathbuild-baseline.txt:3; here it is {depth} mm");
+        let note = format!("accepted up to 0.05 mm by pathbuild-baseline.txt:3; here it is {depth} mm");
         assert!(deeper.status == Some(1) && deeper.stderr.contains(&note), "{deeper}");
     }
     let baseline = place.path().join("pathbuild-baseline.txt");
@@ -246,7 +245,7 @@ fn slopes_and_moves_beyond_the_machine_are_accepted_up_to_a_depth() {
     assert!(baseline.contains(" depth=1 ") && baseline.contains(" depth=0.5 "), "{baseline}");
     let notes = |surface: &str, most: f64| {
         std::fs::write(place.path().join("pathbuild.toml"), table(most)).unwrap();
-        place.run(&verify(surface)).stderr.matches("accepted up to a depth of").count()
+        place.run(&verify(surface)).stderr.matches("accepted up to").count()
     };
     assert_eq!(notes("0", 100.0), 0);
     assert_eq!(notes("-0.1", 100.1), 0);
@@ -440,3 +439,118 @@ fn an_accepted_finding_of_a_program_holds_for_this_program_only() {
 
 /// Fingerprint of the finding of this test in the form of version 0.2.0, which contains only the name of the file.
 const EARLIER: &str = "15e1045e1edb88cdfa3367c9ccae69a1";
+
+/// Drawings in several directories may have the same name, and are not always checked together.
+#[test]
+fn an_accepted_finding_of_a_drawing_holds_for_this_drawing_only() {
+    let place = Place::new().file("pathbuild.toml", "library = [\".\"]");
+    let place = place.file("a/1235.1P.dxf", dxf(WARNED)).file("b/1235.1P.dxf", dxf(WARNED));
+    let reported = |arguments: &str| {
+        let run = place.run(&format!("check {arguments} --format concise"));
+        let of = |directory: &str| {
+            let is_reported = |line: &&str| line.contains("PB114") && line.contains(directory);
+            run.stderr.lines().filter(is_reported).count()
+        };
+        (of("a/"), of("b/"), run.stderr.matches("PB610").count())
+    };
+    let accept = |directory: &str| {
+        let run = place.run_with(&["check", directory, "--accept", CODE, "--reason", "why"]);
+        assert_eq!(run.status, Some(0), "{run}");
+    };
+    let write = |file: &str, text: &str| std::fs::write(place.path().join(file), dxf(text)).unwrap();
+    accept("b");
+    assert_eq!((reported("a"), reported("b"), reported("")), ((1, 0, 0), (0, 0, 0), (1, 0, 0)));
+    accept("a");
+    assert_eq!((reported("a"), reported("b"), reported("")), ((0, 0, 0), (0, 0, 0), (0, 0, 0)));
+    assert_eq!(place.read("pathbuild-baseline.txt").matches(CODE).count(), 2);
+    // The entry for b does not cover a once that of a is gone, nor the other way round.
+    let both = place.read("pathbuild-baseline.txt");
+    let without =
+        |name: &str| both.lines().filter(|line| !line.contains(name)).collect::<Vec<_>>().join("\n");
+    for (name, expected) in [(" a/", (1, 0, 0)), (" b/", (0, 1, 0))] {
+        std::fs::write(place.path().join("pathbuild-baseline.txt"), without(name)).unwrap();
+        assert_eq!(reported(""), expected, "{name}");
+    }
+    write("a/1235.1P.dxf", GOOD);
+    assert_eq!(reported(""), (0, 1, 1), "the entry for a is of no use to b");
+    std::fs::remove_file(place.path().join("a/1235.1P.dxf")).unwrap();
+    assert_eq!(reported(""), (0, 0, 0), "the drawing has been moved from a to b");
+}
+
+/// Versions up to 0.2.0 numbered equal findings through all drawings of a run, and accepted some at any depth.
+#[test]
+fn entries_of_earlier_versions_hold_for_the_drawings_that_they_name() {
+    let baseline = "ef36ca83e495babdf9fb45fb810e99f2 PB114 a/1235.1P.dxf 1235.1P (20, 0) this turn marker has no effect\n\
+        e3c092cb9195babdf9fb4329695723fd PB114 b/1235.1P.dxf 1235.1P (20, 0) this turn marker has no effect\n";
+    let place =
+        Place::new().file("pathbuild.toml", "library = [\".\"]").file("pathbuild-baseline.txt", baseline);
+    let place = place.file("a/1235.1P.dxf", dxf(WARNED)).file("b/1235.1P.dxf", dxf(WARNED));
+    let status = |arguments: &str| place.run(&format!("check {arguments} --error-on-warning")).status;
+    assert_eq!((status(""), status("a")), (Some(0), Some(0)));
+    assert_eq!(place.run("check --update-baseline").status, Some(0));
+    assert_eq!((status(""), status("a"), status("b")), (Some(0), Some(0), Some(0)));
+}
+
+/// A plate whose upper edge is at `edge`, while the cutter runs along 20.
+fn plate(edge: f64) -> Vec<u8> {
+    dxf(&format!(
+        "header $LTSCALE 40 0.1\nlayer 1122.1P\nstart 0,-6\nmtext 0,-7 \"O2 T2 M20x2 I0.5 F150 A30\\PB-0.2 D1 P4 U10\" height 1 align middle centre\n\
+        line HIDDEN 0,-6 -1,-1\nbars -1,-1 -1,21 41,21 41,-1 -1,-1\nline HIDDEN -1,-1 40,-6\nend 40,-6\nlayer Part\n\
+        polyline 0,0 40,0 40,{edge} 0,{edge} closed\n"
+    ))
+}
+
+#[test]
+fn an_accepted_cut_into_the_part_holds_while_it_is_not_deeper() {
+    let place =
+        Place::new().file("pathbuild.toml", "library = [\".\"]\nfeed = 150\nrapid = 1000\npart = 'Part'\n");
+    let place = place.file("1122.1P.dxf", plate(20.05));
+    let check = |edge: f64| {
+        std::fs::write(place.path().join("1122.1P.dxf"), plate(edge)).unwrap();
+        place.run("check --error-on-warning")
+    };
+    let accept = ["check", "--accept", "PB213", "--reason", "polished off"];
+    assert_eq!(place.run_with(&accept).status, Some(0));
+    let baseline = place.read("pathbuild-baseline.txt");
+    assert!(baseline.contains(" depth=0.05 reason=\"polished off\" severity=warning PB213 "), "{baseline}");
+    let write = |text: &str| std::fs::write(place.path().join("pathbuild-baseline.txt"), text).unwrap();
+    let deeper = "accepted up to 0.05 mm by pathbuild-baseline.txt:3; here it is 0.06 mm";
+    // Versions up to 0.2.0 wrote neither the depth nor the severity, but described the finding.
+    for text in [&baseline, &baseline.replace(" depth=0.05", "").replace(" severity=warning", "")] {
+        write(text);
+        let (same, more) = (check(20.05), check(20.06));
+        assert!(same.status == Some(0) && same.stderr.contains("1 known"), "{same}");
+        assert!(more.status == Some(1) && more.stderr.contains(deeper), "{more}");
+    }
+    // Without any depth, a warning may become deeper, but not an error.
+    write(&baseline.replace(" depth=0.05", "").replace("0.05 mm", "a bit"));
+    let (warning, error) = (check(20.1), check(20.11));
+    assert_eq!(warning.status, Some(0), "{warning}");
+    let note = "accepted as a warning by pathbuild-baseline.txt:3; here it is an error";
+    assert!(error.status == Some(1) && error.stderr.contains(note), "{error}");
+}
+
+#[test]
+fn an_accepted_move_into_a_clamp_holds_while_it_is_not_deeper() {
+    let drawing = |s: &str| {
+        dxf(&format!(
+            "layer 1114.1P\nstart 0,0\nmtext 0,-1 \"O2 T2 S{s} F150 I1 B0\" height 1 align middle centre\nmill 0,0 20,0\nsweep 20,0 40,0\n\
+            mill 40,0 60,0\nend 60,0\nlayer Clamps\npolyline 25,-10 35,-10 35,10 25,10 closed\ntext 28.5,5 \"Z25\" height 2\n"
+        ))
+    };
+    let settings = "library = [\".\"]\nfeed = 150\nrapid = 1000\nsweep-height = 10\nkeep-out = 'Clamps'\n";
+    let place = Place::new().file("pathbuild.toml", settings).file("1114.1P.dxf", drawing("20"));
+    let check = |s: &str| {
+        std::fs::write(place.path().join("1114.1P.dxf"), drawing(s)).unwrap();
+        place.run("check")
+    };
+    assert_eq!(place.run_with(&["check", "--accept", "PB407", "--reason", "filed down"]).status, Some(0));
+    assert_eq!((check("20").status, check("20.5").status), (Some(0), Some(0)));
+    let lower = check("19.99");
+    let note = "accepted up to 5 mm by pathbuild-baseline.txt:3; here it is 5.01 mm";
+    assert!(lower.status == Some(1) && lower.stderr.contains(note), "{lower}");
+    // Entries of versions up to 0.2.0 do not say how deep.
+    let baseline = place.read("pathbuild-baseline.txt").replace(" depth=5", "");
+    std::fs::write(place.path().join("pathbuild-baseline.txt"), baseline).unwrap();
+    assert_eq!(check("19.99").status, Some(0));
+}

@@ -1,6 +1,6 @@
 //! Baselines: text files with one accepted finding per line, which users can read, merge and shorten. A line begins with the fingerprint of the
-//! finding; `depth=` in mm, `until=` with a date and `reason=` with a text in double quotes may follow. The remainder of the line describes the
-//! finding. Empty lines and lines that begin with `#` are comments. (book: howto/ci)
+//! finding; `depth=` in mm, `until=` with a date, `reason=` with a text in double quotes and `severity=warning` may follow. The remainder of the
+//! line describes the finding. Empty lines and lines that begin with `#` are comments. (book: howto/ci)
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -10,12 +10,12 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::{FileKind, ReadError, is_drawing};
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, TextFault, Value, shown};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, Severity, TextFault, Value, shown};
 
 use crate::config::clean;
 use crate::files;
 use crate::findings::{Findings, Fingerprint};
-use crate::waivers::{Coverage, RunDate, WaivedFinding, Waiver};
+use crate::waivers::{Coverage, WaivedFinding, Waiver};
 use crate::workspace::Workspace;
 
 /// File name of the default baseline, which lies beside `pathbuild.toml`.
@@ -27,15 +27,18 @@ pub struct Baseline {
     file: Utf8PathBuf,
     /// Text of the file, unchanged.
     text: String,
-    entries: BTreeMap<String, Entry>,
+    /// The entries by their fingerprints. Drawings of the same name may have entries with the same fingerprint.
+    entries: BTreeMap<String, Vec<Entry>>,
 }
 
 /// The content of a line after its fingerprint, and the line itself.
 #[derive(Clone, Debug)]
 struct Entry {
     waiver: Waiver,
-    /// Depth in mm up to which the finding is accepted, for findings about a tool in the material or outside the machine's travel.
+    /// Depth in mm up to which the finding is accepted, for findings with a depth.
     depth: Option<f64>,
+    /// Whether the accepted finding was a warning although its code is that of an error.
+    is_for_warning: bool,
     description: String,
     line: String,
 }
@@ -45,6 +48,8 @@ struct FindingKey {
     fingerprint: String,
     /// The finding's fingerprint in the form that versions up to 0.2.0 wrote into baselines.
     earlier: String,
+    /// Whether the fingerprint contains only the name of the file, without its directory.
+    has_name_only: bool,
 }
 
 impl Baseline {
@@ -92,15 +97,14 @@ impl Baseline {
         let mut found = BTreeSet::new();
         for (diagnostic, key) in findings.iter().zip(self.keys(findings, &workspace.working_directory)) {
             let none = Waiver::default();
-            let known = self.entry(diagnostic, &key, &workspace.working_directory);
-            let waiver = known.map_or(&none, |(_, entry)| &entry.waiver);
-            text.push_str(&line(&key.fingerprint, waiver, diagnostic, &workspace.working_directory));
-            found.extend(known.map(|(fingerprint, _)| fingerprint.to_owned()));
-            found.insert(key.fingerprint);
+            let known = self.entries(diagnostic, &key, workspace);
+            let waiver = known.last().map_or(&none, |entry| &entry.waiver);
+            text.push_str(&self.line(&key.fingerprint, waiver, diagnostic, &workspace.working_directory));
+            found.extend(known.iter().map(|entry| entry.waiver.line));
         }
-        let others =
-            self.entries.iter().filter(|(known, entry)| !found.contains(*known) && !run.covers(self, entry));
-        text.extend(others.flat_map(|(_, entry)| [&*entry.line, "\n"]));
+        let others = self.entries.values().flatten();
+        let others = others.filter(|entry| !found.contains(&entry.waiver.line) && !run.covers(self, entry));
+        text.extend(others.flat_map(|entry| [&*entry.line, "\n"]));
         shown::lines(&text).into_owned()
     }
 
@@ -113,38 +117,38 @@ impl Baseline {
         workspace: &Workspace,
     ) -> (String, usize) {
         let base = &workspace.working_directory;
-        let (mut accepted, mut replaced) = (BTreeMap::new(), BTreeSet::new());
+        let (mut accepted, mut replaced) = (BTreeSet::new(), BTreeSet::new());
         let keyed = findings.iter().zip(self.keys(findings, base));
         for (diagnostic, key) in keyed.filter(|(diagnostic, _)| diagnostic.code() == code) {
-            replaced.extend(self.entry(diagnostic, &key, base).map(|(known, _)| known));
-            let line = line(&key.fingerprint, waiver, diagnostic, base);
-            accepted.insert(key.fingerprint, line);
+            replaced.extend(self.entries(diagnostic, &key, workspace).iter().map(|entry| entry.waiver.line));
+            accepted.insert(self.line(&key.fingerprint, waiver, diagnostic, base));
         }
-        let is_kept = |line: &&str| {
-            fingerprint(line).is_none_or(|known| !accepted.contains_key(known) && !replaced.contains(known))
-        };
-        let mut text: String = self.text.lines().filter(is_kept).flat_map(|line| [line, "\n"]).collect();
-        text.extend(accepted.values().map(String::as_str));
+        let lines = (1..).zip(self.text.lines());
+        let kept = lines.filter(|(number, _)| !replaced.contains(number));
+        let mut text: String = kept.flat_map(|(_, line)| [line, "\n"]).collect();
+        text.extend(accepted.iter().map(String::as_str));
         (shown::lines(&text).into_owned(), accepted.len())
     }
 
-    /// Moves the findings that this baseline accepts to the waived findings. If the entry for a finding has expired or accepts only a smaller depth,
-    /// the finding stays and gets a note about that.
-    fn apply(&self, mut findings: Findings, run: Option<RunDate>, base: &Utf8Path) -> Findings {
-        let keys = self.keys(&findings.diagnostics, base);
-        let place = self.file.file_name().unwrap_or_default();
+    /// Moves the findings that this baseline accepts to the waived findings. If the entry for a finding has expired or accepts only a smaller depth
+    /// or a warning, the finding stays and gets a note about that.
+    fn apply(&self, mut findings: Findings, workspace: &Workspace) -> Findings {
+        let keys = self.keys(&findings.diagnostics, &workspace.working_directory);
+        let (place, run) = (self.file.file_name().unwrap_or_default(), workspace.settings.date);
         for (diagnostic, key) in std::mem::take(&mut findings.diagnostics).into_iter().zip(keys) {
-            let entry = self.entry(&diagnostic, &key, base).map(|(_, entry)| entry);
-            let entry = entry.filter(|_| Self::may_accept(&diagnostic));
-            match entry.map(|entry| &entry.waiver) {
-                None => findings.diagnostics.push(diagnostic),
-                Some(_) if entry.is_some_and(|entry| !entry.is_deep_enough(&diagnostic)) => {
-                    findings.diagnostics.extend(entry.map(|entry| entry.note_depth(diagnostic, place)));
-                }
-                Some(waiver) if waiver.holds(run) => {
-                    findings.waived.push(WaivedFinding { diagnostic, waiver: waiver.clone() });
-                }
-                Some(waiver) => findings.diagnostics.push(waiver.note_end(diagnostic, place, run)),
+            let entry = self.entries(&diagnostic, &key, workspace).pop();
+            let Some(entry) = entry.filter(|_| Self::may_accept(&diagnostic)) else {
+                findings.diagnostics.push(diagnostic);
+                continue;
+            };
+            if let Some((message, measures)) = entry.refusal(&diagnostic) {
+                let place = ("place", Value::quoted(format!("{place}:{}", entry.waiver.line)));
+                let arguments = [place].into_iter().chain(measures).collect();
+                findings.diagnostics.push(diagnostic.note(message, arguments));
+            } else if entry.waiver.holds(run) {
+                findings.waived.push(WaivedFinding { diagnostic, waiver: entry.waiver.clone() });
+            } else {
+                findings.diagnostics.push(entry.waiver.note_end(diagnostic, place, run));
             }
         }
         findings
@@ -152,16 +156,12 @@ impl Baseline {
 
     /// Returns a warning (PB610) for each entry that matches none of these findings although the run covered its file.
     fn unused(&self, findings: &[Diagnostic], run: &Run<'_>) -> Vec<Diagnostic> {
-        let base = run.working_directory;
-        let keyed = findings.iter().zip(self.keys(findings, base));
-        let found: BTreeSet<&str> = keyed
-            .filter_map(|(diagnostic, key)| self.entry(diagnostic, &key, base).map(|(known, _)| known))
-            .collect();
-        let unused = self
-            .entries
-            .iter()
-            .filter(|(known, entry)| !found.contains(known.as_str()) && run.covers(self, entry));
-        let unused = unused.map(|(_, entry)| {
+        let keyed = findings.iter().zip(self.keys(findings, &run.workspace.working_directory));
+        let used = keyed.flat_map(|(diagnostic, key)| self.entries(diagnostic, &key, run.workspace));
+        let used: BTreeSet<u32> = used.map(|entry| entry.waiver.line).collect();
+        let entries = self.entries.values().flatten();
+        let unused = entries.filter(|entry| !used.contains(&entry.waiver.line) && run.covers(self, entry));
+        let unused = unused.map(|entry| {
             let text = TextFault::new(&entry.line, 0..entry.line.len());
             Diagnostic { notes: Vec::new(), ..entry.waiver.unused_warning(&self.file) }.with_text(text)
         });
@@ -170,37 +170,82 @@ impl Baseline {
 
     /// Returns the fingerprints of the findings, in the order of the findings. `base` is the directory that the findings' file names are relative to.
     fn keys(&self, findings: &[Diagnostic], base: &Utf8Path) -> Vec<FindingKey> {
-        let now = Fingerprint::with_places(findings, &|file| self.place(file, base));
-        let keys = now.iter().zip(Fingerprint::of(findings));
-        let text = |(now, earlier): (&Fingerprint, Fingerprint)| FindingKey {
+        let place = |file: &Utf8Path| match self.name_below(file, base) {
+            // Different programs often have the same name. A drawing's findings stay the same when it is moved.
+            Some(below) if !is_drawing(file) => format!("./{below}"),
+            _ => file.file_name().unwrap_or_default().to_owned(),
+        };
+        let has_name_only = |file: &Utf8Path| is_drawing(file) || self.name_below(file, base).is_none();
+        let now = Fingerprint::within_files(findings, &place);
+        let keys = findings.iter().zip(now).zip(Fingerprint::of(findings));
+        let key = |((diagnostic, now), earlier): ((&Diagnostic, Fingerprint), Fingerprint)| FindingKey {
             fingerprint: now.to_string(),
             earlier: earlier.to_string(),
+            has_name_only: diagnostic.file.as_deref().is_some_and(has_name_only),
         };
-        keys.map(text).collect()
+        keys.map(key).collect()
     }
 
-    /// Returns the name of a file in fingerprints. A program is identified by its path from the directory of the baseline, because different
-    /// programs often have the same name. A drawing is identified by its name alone, so that its findings stay the same when it is moved.
-    fn place(&self, file: &Utf8Path, base: &Utf8Path) -> String {
-        let name = file.file_name().unwrap_or_default();
+    /// Returns the path of a file from the directory of the baseline, with slashes; `None` if the file is outside of it.
+    fn name_below(&self, file: &Utf8Path, base: &Utf8Path) -> Option<String> {
         let directory = clean(self.file.parent().unwrap_or(base));
         let full = clean(&base.join(file));
-        let below = full.strip_prefix(&directory).ok().filter(|_| !is_drawing(file));
-        below.map_or(name.to_owned(), |below| format!("./{}", below.as_str().replace('\\', "/")))
+        Some(full.strip_prefix(&directory).ok()?.as_str().replace('\\', "/"))
     }
 
-    /// Returns the entry for a finding, and the fingerprint in that entry. Entries of earlier versions identify a program by its file name alone, so
-    /// they apply only to the file that their description names.
-    fn entry(&self, diagnostic: &Diagnostic, key: &FindingKey, base: &Utf8Path) -> Option<(&str, &Entry)> {
-        let find = |fingerprint: &String| self.entries.get_key_value(fingerprint);
-        let is_of_file = |entry: &Entry| {
-            let bases = [base, self.file.parent().unwrap_or(base)];
-            let file = diagnostic.file.as_deref().map(|file| clean(&base.join(file)));
-            file.is_none_or(|file| entry.possible_files(bases).is_some_and(|named| named.contains(&file)))
+    /// Returns the entries for a finding; the last one applies. A fingerprint that contains only the name of a file could be that of another file, so
+    /// an entry with it applies to the file that its description names, or, once that one is missing, to a file of the same name.
+    fn entries(&self, diagnostic: &Diagnostic, key: &FindingKey, workspace: &Workspace) -> Vec<&Entry> {
+        let find = |fingerprint: &String| self.entries.get(fingerprint).into_iter().flatten();
+        let Some(file) = &diagnostic.file else { return find(&key.fingerprint).collect() };
+        let base = &workspace.working_directory;
+        let file = clean(&base.join(file));
+        let named = |entry: &Entry| entry.possible_files([base, self.file.parent().unwrap_or(base)]);
+        let is_own = |entry: &&Entry| named(entry).is_some_and(|named| named.contains(&file));
+        let own: Vec<&Entry> = find(&key.earlier).chain(find(&key.fingerprint)).filter(is_own).collect();
+        if !own.is_empty() {
+            return own;
+        }
+        let is_missing = |file: &Utf8PathBuf| workspace.system.kind(file) == FileKind::Missing;
+        let may_be_own = |entry: &&Entry| {
+            !key.has_name_only || named(entry).is_none_or(|named| named.iter().all(is_missing))
         };
-        let known = find(&key.fingerprint);
-        let known = known.or_else(|| find(&key.earlier).filter(|(_, entry)| is_of_file(entry)));
-        known.map(|(fingerprint, entry)| (fingerprint.as_str(), entry))
+        find(&key.fingerprint).filter(may_be_own).collect()
+    }
+
+    fn line(&self, fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, base: &Utf8Path) -> String {
+        let mut line = fingerprint.to_owned();
+        if let Some(depth) = depth(diagnostic) {
+            _ = write!(line, " depth={depth}");
+        }
+        if let Some(until) = waiver.until {
+            _ = write!(line, " until={until}");
+        }
+        if let Some(reason) = &waiver.reason {
+            _ = write!(line, " reason={}", serde_json::Value::from(&**reason));
+        }
+        if diagnostic.code().severity() == Severity::Error && !diagnostic.is_error() {
+            line.push_str(" severity=warning");
+        }
+        _ = writeln!(line, " {}", self.description(diagnostic, base));
+        line
+    }
+
+    /// Describes a finding without details that change whenever the CAD program saves the drawing, and always in English, so that the file does not
+    /// depend on the user's language. File names are relative to the directory of the baseline if possible, otherwise to `base`.
+    fn description(&self, diagnostic: &Diagnostic, base: &Utf8Path) -> String {
+        let name = |file: &Utf8Path| {
+            let name = self.name_below(file, base);
+            name.unwrap_or_else(|| file.strip_prefix(base).unwrap_or(file).as_str().to_owned())
+        };
+        let file = diagnostic.file.as_deref().map(name).unwrap_or_default();
+        let path = diagnostic.path.as_deref().unwrap_or_default();
+        let point =
+            diagnostic.place.point.map(|point| Value::from(point).render(Lang::En)).unwrap_or_default();
+        let code = diagnostic.code().to_string();
+        let words = [&code, &*file, path, &point, &diagnostic.text(Lang::En)];
+        let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
+        shown::line(&words.join(" ")).into_owned()
     }
 
     fn parse(&mut self) -> Vec<Diagnostic> {
@@ -212,7 +257,7 @@ impl Baseline {
             match entry(line) {
                 Ok((fingerprint, mut entry)) => {
                     entry.waiver.line = number;
-                    self.entries.insert(fingerprint.to_owned(), entry);
+                    self.entries.entry(fingerprint.to_owned()).or_default().push(entry);
                 }
                 Err(fault) => faults.push(fault.in_file(&self.file, number, line)),
             }
@@ -261,7 +306,7 @@ impl Workspace {
         let mut unused = self.unused_waivers(&findings, &coverage);
         if let Some(baseline) = baseline {
             unused.extend(baseline.unused(&findings.diagnostics, &Run::new(self, &coverage)));
-            findings = baseline.apply(findings, self.settings.date, &self.working_directory);
+            findings = baseline.apply(findings, self);
             let has_end = findings.waived.iter().any(|waived| waived.waiver.until.is_some());
             self.is_date_decisive.fetch_or(has_end, Ordering::Relaxed);
         }
@@ -274,45 +319,57 @@ impl Workspace {
 }
 
 struct Run<'a> {
-    system: &'a dyn System,
-    working_directory: &'a Utf8Path,
+    workspace: &'a Workspace,
     checked: BTreeSet<Utf8PathBuf>,
     has_directories: bool,
 }
 
 impl<'a> Run<'a> {
     fn new(workspace: &'a Workspace, coverage: &Coverage) -> Self {
-        let working_directory = &workspace.working_directory;
-        let checked = coverage.files.iter().map(|file| clean(&working_directory.join(file))).collect();
-        let system = &*workspace.system;
-        Self { system, working_directory, checked, has_directories: coverage.has_directories }
+        let checked = coverage.files.iter().map(|file| clean(&workspace.working_directory.join(file)));
+        Self { workspace, checked: checked.collect(), has_directories: coverage.has_directories }
     }
 
     /// Whether a run covered the file of an entry. If so, an entry without a match is no longer needed.
     fn covers(&self, baseline: &Baseline, entry: &Entry) -> bool {
-        let bases = [self.working_directory, baseline.file.parent().unwrap_or(self.working_directory)];
+        let Workspace { system, working_directory, .. } = self.workspace;
+        let bases = [working_directory, baseline.file.parent().unwrap_or(working_directory)];
         let Some(files) = entry.possible_files(bases) else { return false };
         files.iter().any(|file| self.checked.contains(file))
-            || self.has_directories && files.iter().all(|file| self.system.kind(file) == FileKind::Missing)
+            || self.has_directories && files.iter().all(|file| system.kind(file) == FileKind::Missing)
     }
 }
 
+/// A note about a finding that an entry does not accept, with its arguments except for the place of the entry.
+type Refusal = (&'static Message, Vec<(&'static str, Value)>);
+
 impl Entry {
-    /// Whether the entry accepts the depth of a finding. Findings without a depth always pass.
-    fn is_deep_enough(&self, diagnostic: &Diagnostic) -> bool {
-        depth(diagnostic).is_none_or(|depth| self.depth.is_some_and(|accepted| depth <= accepted))
+    /// Returns the reason why the entry does not accept a finding: it is deeper than stated, the depth is not stated, or a warning has become an
+    /// error.
+    fn refusal(&self, diagnostic: &Diagnostic) -> Option<Refusal> {
+        match (depth(diagnostic), self.accepted_depth()) {
+            (Some(depth), Some(accepted)) if depth > accepted => {
+                let measures = vec![("accepted", Value::from(accepted)), ("depth", Value::from(depth))];
+                Some((&messages::WAIVER_DEEPER, measures))
+            }
+            (Some(_), None) if must_state_depth(diagnostic.code()) => {
+                Some((&messages::WAIVER_WITHOUT_DEPTH, Vec::new()))
+            }
+            _ if self.is_for_warning && diagnostic.is_error() => {
+                Some((&messages::WAIVER_OF_WARNING, Vec::new()))
+            }
+            _ => None,
+        }
     }
 
-    /// Adds a note to a finding that is not accepted because the entry states a smaller depth, or none.
-    fn note_depth(&self, diagnostic: Diagnostic, file: &str) -> Diagnostic {
-        let place = ("place", Value::quoted(format!("{file}:{}", self.waiver.line)));
-        match (self.depth, depth(&diagnostic)) {
-            (Some(accepted), Some(depth)) => {
-                let depths = [("accepted", Value::from(accepted)), ("depth", Value::from(depth))];
-                diagnostic.note(&messages::WAIVER_DEEPER, [place].into_iter().chain(depths).collect())
-            }
-            _ => diagnostic.note(&messages::WAIVER_WITHOUT_DEPTH, vec![place]),
-        }
+    /// Returns the depth up to which the entry accepts a finding. Versions up to 0.2.0 wrote that of a cut into a part only in the description, and
+    /// whether it was a warning depended on it.
+    fn accepted_depth(&self) -> Option<f64> {
+        let described = || {
+            let (depth, _) = self.description.split_once(" mm into the part")?;
+            depth.rsplit(' ').next()?.parse().ok()
+        };
+        self.depth.or_else(|| described().map(rounded_up))
     }
 
     /// Returns the files that the description may name after the code, several because file names may contain spaces; `None` if the description
@@ -331,8 +388,9 @@ const HEADER_TEXT: &str = "\
 # Only the fingerprint at the beginning of a line counts, with until=DATE and reason=\"TEXT\" after it; the rest describes the finding.
 ";
 
-/// Returns how deep the tool is in the material, or how far it leaves the machine's travel, in mm, rounded up to 0.01 mm; `None` for findings without
-/// such a depth.
+/// Returns the measure in mm by which a finding can become worse at the same place, rounded up to 0.01 mm: the depth of the tool in the material, in a
+/// part or in a clamp, the way beyond the machine's travel, the lost part of a support bar, the material that remains at a part, or the excess over
+/// the length of the cutting edges. `None` for other findings.
 fn depth(diagnostic: &Diagnostic) -> Option<f64> {
     let number = |name| match diagnostic.arguments.iter().find(|(key, _)| *key == name) {
         Some((_, Value::Number(number))) => Some(number.0),
@@ -343,44 +401,38 @@ fn depth(diagnostic: &Diagnostic) -> Option<f64> {
         | Code::RapidPlunge
         | Code::EndNotRaised
         | Code::DiagonalRapid
-        | Code::ToolChangeAtDepth => number("height").or_else(|| number("surface"))? - number("z")?,
+        | Code::ToolChangeAtDepth
+        | Code::StopAtDepth
+        | Code::InsideKeepOut => number("height").or_else(|| number("surface"))? - number("z")?,
         Code::OutsideMachine => match (number("value"), number("size")) {
             (Some(value), _) => (number("least")? - value).max(value - number("most")?),
             (None, size) => size? - number("most")?,
         },
+        Code::GougedPart | Code::GougedNeighbour => number("depth")?,
+        Code::BarCutAway => number("lost")?,
+        Code::LeftoverAtPart => number("thickness").or_else(|| number("height"))?,
+        Code::CutDeeperThanEdges => number("depth")? - number("length")?,
         _ => return None,
     };
-    Some((depth * 100.0 - ROUNDING_SHARE).ceil() / 100.0)
+    Some(rounded_up(depth))
 }
 
-/// Fraction of 0.01 mm that is ignored as a rounding error instead of being rounded up.
-const ROUNDING_SHARE: f64 = 1e-6;
-
-fn line(fingerprint: &str, waiver: &Waiver, diagnostic: &Diagnostic, base: &Utf8Path) -> String {
-    let mut line = fingerprint.to_owned();
-    if let Some(depth) = depth(diagnostic) {
-        _ = write!(line, " depth={depth}");
-    }
-    if let Some(until) = waiver.until {
-        _ = write!(line, " until={until}");
-    }
-    if let Some(reason) = &waiver.reason {
-        _ = write!(line, " reason={}", serde_json::Value::from(&**reason));
-    }
-    _ = writeln!(line, " {}", description(diagnostic, base));
-    line
+/// Rounds a depth up to 0.01 mm, after rounding it to 0.001 mm as in messages.
+fn rounded_up(depth: f64) -> f64 {
+    ((depth * 1000.0).round() / 10.0).ceil() / 100.0
 }
 
-/// Describes a finding without details that change whenever the CAD program saves the drawing, and always in English, so that the file does not
-/// depend on the user's language. File names are relative to `base`.
-fn description(diagnostic: &Diagnostic, base: &Utf8Path) -> String {
-    let file = diagnostic.file.as_deref().map(|file| file.strip_prefix(base).unwrap_or(file).as_str());
-    let path = diagnostic.path.as_deref().unwrap_or_default();
-    let point = diagnostic.place.point.map(|point| Value::from(point).render(Lang::En)).unwrap_or_default();
-    let code = diagnostic.code().to_string();
-    let words = [&code, file.unwrap_or_default(), path, &point, &diagnostic.text(Lang::En)];
-    let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
-    shown::line(&words.join(" ")).into_owned()
+/// Whether entries for a finding with this code must state its depth. For other findings, versions up to 0.2.0 wrote no depth.
+fn must_state_depth(code: Code) -> bool {
+    matches!(
+        code,
+        Code::RapidInMaterial
+            | Code::RapidPlunge
+            | Code::EndNotRaised
+            | Code::DiagonalRapid
+            | Code::ToolChangeAtDepth
+            | Code::OutsideMachine
+    )
 }
 
 /// A fault in a line, with the part of the line that is wrong.
@@ -407,7 +459,7 @@ fn entry(line: &str) -> Result<(&str, Entry), LineFault> {
         let end = start + line.split_whitespace().next().unwrap_or_default().len();
         return Err(LineFault { message: &messages::BASELINE_LINE, part: start..end });
     };
-    let (mut waiver, mut depth) = (Waiver::default(), None);
+    let (mut waiver, mut depth, mut is_for_warning) = (Waiver::default(), None, false);
     let mut rest = line[fingerprint.len()..].trim_start();
     loop {
         let start = line.len() - rest.len();
@@ -427,9 +479,12 @@ fn entry(line: &str) -> Result<(&str, Entry), LineFault> {
             let Some(Ok(reason)) = texts.next() else { return Err(fault) };
             waiver.reason = Some(reason);
             rest = text[texts.byte_offset()..].trim_start();
+        } else if word == "severity=warning" {
+            is_for_warning = true;
+            rest = rest[word.len()..].trim_start();
         } else {
-            let description = rest.trim_end().to_owned();
-            return Ok((fingerprint, Entry { waiver, depth, description, line: line.to_owned() }));
+            let (description, line) = (rest.trim_end().to_owned(), line.to_owned());
+            return Ok((fingerprint, Entry { waiver, depth, is_for_warning, description, line }));
         }
     }
 }

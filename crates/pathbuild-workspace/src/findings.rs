@@ -242,17 +242,30 @@ impl Severities<'_> {
 pub struct Fingerprint(u128);
 
 impl Fingerprint {
-    /// Returns the fingerprints of findings, in the order of the findings. They do not depend on the directories of the files.
+    /// Returns the fingerprints of findings, in the order of the findings. They do not depend on the directories of the files. Equal findings are
+    /// numbered, so that each fingerprint occurs once.
     pub fn of(diagnostics: &[Diagnostic]) -> Vec<Self> {
-        Self::with_places(diagnostics, &|file| file.file_name().unwrap_or_default().to_owned())
+        let place = |file: &Utf8Path| file.file_name().unwrap_or_default().to_owned();
+        Self::numbered(diagnostics, &place, |_| None)
     }
 
-    /// Returns the fingerprints of findings, in the order of the findings. `place` returns the name of a file to use in the fingerprint.
-    pub(crate) fn with_places(diagnostics: &[Diagnostic], place: &dyn Fn(&Utf8Path) -> String) -> Vec<Self> {
-        let mut met: BTreeMap<u128, u32> = BTreeMap::new();
-        let mut fingerprint = |diagnostic: &Diagnostic| {
+    /// Like [`of`](Self::of), but equal findings are numbered within each file, so that the fingerprints of a file do not depend on other files.
+    /// `place` returns the name of a file to use in the fingerprint.
+    pub(crate) fn within_files(diagnostics: &[Diagnostic], place: &dyn Fn(&Utf8Path) -> String) -> Vec<Self> {
+        Self::numbered(diagnostics, place, |diagnostic| diagnostic.file.as_deref())
+    }
+
+    /// Numbers equal findings within each file that `group` returns.
+    fn numbered<'d>(
+        diagnostics: &'d [Diagnostic],
+        place: &dyn Fn(&Utf8Path) -> String,
+        group: impl Fn(&'d Diagnostic) -> Option<&'d Utf8Path>,
+    ) -> Vec<Self> {
+        let mut met: BTreeMap<(u128, Option<&Utf8Path>), u32> = BTreeMap::new();
+        let mut fingerprint = |diagnostic: &'d Diagnostic| {
             let hash = fnv(diagnostic, &diagnostic.file.as_deref().map(place).unwrap_or_default());
-            let number = met.entry(hash.0).and_modify(|number| *number += 1).or_insert(0);
+            let met = met.entry((hash.0, group(diagnostic)));
+            let number = met.and_modify(|number| *number += 1).or_insert(0);
             Self(hash.add_bytes(&number.to_le_bytes()).0)
         };
         diagnostics.iter().map(&mut fingerprint).collect()

@@ -319,10 +319,15 @@ messages! {
         en: "accepted until {until} by {place}; the date of this run is {date} ({source})",
         de: "laut {place} hingenommen bis {until}; das Datum dieses Laufs ist {date} ({source})",
     }
-    /// Note: a tool is deeper in the material than when the finding was accepted.
+    /// Note: the finding is worse than when it was accepted, for example a tool deeper in the material.
     WAIVER_DEEPER: InvalidConfiguration {
-        en: "accepted up to a depth of {accepted} mm by {place}; here it is {depth} mm",
-        de: "laut {place} hingenommen bis zu einer Tiefe von {accepted} mm; hier sind es {depth} mm",
+        en: "accepted up to {accepted} mm by {place}; here it is {depth} mm",
+        de: "laut {place} bis {accepted} mm hingenommen; hier sind es {depth} mm",
+    }
+    /// Note: a finding that was accepted as a warning is an error now.
+    WAIVER_OF_WARNING: InvalidConfiguration {
+        en: "accepted as a warning by {place}; here it is an error",
+        de: "laut {place} als Warnung hingenommen; hier ist es ein Fehler",
     }
     /// Note: a waiver written by an older version accepts a tool in the material without stating the depth.
     WAIVER_WITHOUT_DEPTH: InvalidConfiguration {
