@@ -466,3 +466,40 @@ fn the_index_is_not_touched() {
     since(&place, NOTHING);
     assert!(before == index());
 }
+
+/// Removing an entry takes back that its finding is accepted.
+#[test]
+fn after_a_change_of_the_baseline_everything_is_checked() {
+    for (option, name) in [("", "pathbuild-baseline.txt"), (" --baseline known.txt", "known.txt")] {
+        let place = library();
+        assert_eq!(place.run(&format!("check --update-baseline{option}")).status, Some(0));
+        commit(&place);
+        let since = format!("check --changed-since HEAD{option}");
+        assert_eq!(checked(&place, &since), "0 paths in 0 drawings");
+        let text = place.read(name);
+        fs::write(place.path().join(name), text.lines().take(2).collect::<Vec<_>>().join("\n")).unwrap();
+        let run = place.run(&since);
+        assert!(run.status == Some(1) && run.stderr.contains("PB503"), "{run}");
+        assert_eq!(checked(&place, &since), "5 paths in 5 drawings");
+        if option.is_empty() {
+            fs::remove_file(place.path().join(name)).unwrap();
+            assert_eq!(checked(&place, &since), "5 paths in 5 drawings");
+        }
+    }
+}
+
+/// Other results may contain the findings of an unchanged drawing, so only entries for changed ones are known to match nothing.
+#[test]
+fn entries_that_a_change_made_useless_are_told() {
+    let place = library();
+    assert_eq!(place.run("check --update-baseline").status, Some(0));
+    commit(&place);
+    fs::write(place.path().join("projects/8003.dxf"), dxf("8003.1P", 5, Some("1001.1P"))).unwrap();
+    let told = || place.run("check --changed-since HEAD").stderr.matches("PB610").count();
+    assert_eq!(told(), 1);
+    commit(&place);
+    assert_eq!(told(), 0);
+    fs::write(place.path().join("parts/1001.dxf"), dxf("1001.1P", 5, Some("1002.1P"))).unwrap();
+    assert_eq!(checked(&place, "check --changed-since HEAD"), "4 paths in 4 drawings");
+    assert_eq!(told(), 0, "8003 has not changed");
+}

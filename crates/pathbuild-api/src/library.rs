@@ -73,7 +73,8 @@ impl Library {
             let session = open.session(is_traced);
             let workspace = session.workspace();
             let inputs = if inputs.inputs.is_empty() { whole_library(workspace) } else { inputs };
-            let revision = |name: &String| revision_files(workspace, &inputs, name);
+            let file = baseline.file.as_deref();
+            let revision = |name: &String| revision_files(workspace, &inputs, file, name);
             let revision = options.changed_since.as_ref().map(revision).transpose()?;
             let changed = revision.as_ref().map(|revision| revision as &dyn EarlierFiles);
             let request =
@@ -81,9 +82,9 @@ impl Library {
             if options.has_timings {
                 session.timings.switch_on();
             }
-            let check::CheckOutcome { diagnostics, files } =
+            let check::CheckOutcome { diagnostics, files, covered } =
                 request.run(session).map_err(Error::from_failure)?;
-            let coverage = || request.coverage(workspace, &files);
+            let coverage = || request.coverage(workspace, covered);
             let settled = SettledFindings::new(workspace, diagnostics, &baseline, coverage)?;
             let timings =
                 if options.has_timings { session.timings.lines(workspace.lang()) } else { Vec::new() };
@@ -368,6 +369,7 @@ fn whole_library(workspace: &Workspace) -> Inputs {
 fn revision_files<'w>(
     workspace: &'w Workspace,
     inputs: &Inputs,
+    baseline: Option<&Utf8Path>,
     revision: &str,
 ) -> Result<RevisionFiles<'w>, Error> {
     // Git would look for a repository in the working directory of the process.
@@ -378,7 +380,7 @@ fn revision_files<'w>(
         ];
         return Err(Error::Refused(workspace.choose(en, de).to_owned()));
     }
-    RevisionFiles::new(workspace, inputs, revision).map_err(Error::Refused)
+    RevisionFiles::new(workspace, inputs, baseline, revision).map_err(Error::Refused)
 }
 
 /// Finds a path by its name, or by the name of a drawing with no other path.

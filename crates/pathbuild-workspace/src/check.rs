@@ -48,6 +48,8 @@ pub struct CheckOutcome {
     pub diagnostics: Vec<Diagnostic>,
     /// The checked drawings, sorted by path.
     pub files: Vec<CheckedFile>,
+    /// The checked drawings whose findings are all known. Those of an unchanged drawing may be in results that are not shown.
+    pub covered: Vec<Utf8PathBuf>,
 }
 
 /// A checked drawing with the names of its paths.
@@ -95,11 +97,11 @@ impl Request<'_> {
 
     /// Returns what the run covered, which decides whether a waiver without a match is reported. A run on single paths covers no drawing completely,
     /// and a run on some drawings does not cover the whole library.
-    pub fn coverage(&self, workspace: &Workspace, checked: &[CheckedFile]) -> waivers::Coverage {
+    pub fn coverage(&self, workspace: &Workspace, files: Vec<Utf8PathBuf>) -> waivers::Coverage {
         let is_directory = |name: &Utf8Path| workspace.system.kind(name) == FileKind::Directory;
         let mut inputs = self.inputs.iter();
         let has_paths = inputs.any(|input| matches!(input, Input::Name(name) if !is_directory(name.into())));
-        if has_paths || self.changed.is_some() {
+        if has_paths {
             return waivers::Coverage::default();
         }
         let mut places = self.inputs.iter().map(|input| match input {
@@ -107,9 +109,9 @@ impl Request<'_> {
             Input::Name(name) => Utf8Path::new(name),
         });
         waivers::Coverage {
-            files: checked.iter().map(|file| file.file.clone()).collect(),
+            files,
             has_directories: places.all(is_directory),
-            is_library: self.inputs.inputs.is_empty(),
+            is_library: self.inputs.inputs.is_empty() && self.changed.is_none(),
         }
     }
 
@@ -160,6 +162,7 @@ impl Request<'_> {
         for answer in each.into_iter().filter(|answer| filter.contains(answer)) {
             let (file, DrawingResult { names, diagnostics, .. }) =
                 (answer.drawing().to_owned(), answer.value);
+            checked.covered.extend(filter.knows_all_findings(&file).then(|| file.clone()));
             checked.files.push(CheckedFile { file, paths: names });
             checked.diagnostics.extend(diagnostics);
         }
@@ -499,6 +502,11 @@ impl<'a> ChangeFilter<'a> {
         let Some(changed) = &self.changed else { return true };
         let inputs = self.memo.dependencies(self.session.db(), answer);
         inputs.is_none_or(|inputs| changed.affects(&inputs))
+    }
+
+    /// Whether all results with findings of a drawing pass, because they depend on a change of it.
+    fn knows_all_findings(&self, drawing: &Utf8Path) -> bool {
+        self.changed.as_ref().is_none_or(|changed| changed.files.contains(drawing))
     }
 }
 

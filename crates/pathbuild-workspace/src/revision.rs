@@ -17,6 +17,8 @@ use crate::{Input, Inputs};
 pub struct RevisionFiles<'a> {
     workspace: &'a Workspace,
     repository: Repository<'a>,
+    /// The baseline of the run, which decides what is reported.
+    baseline: Utf8PathBuf,
     files: BTreeMap<Utf8PathBuf, String>,
     links: BTreeMap<Utf8PathBuf, String>,
     /// File names of the drawings, by directory.
@@ -27,11 +29,16 @@ pub struct RevisionFiles<'a> {
 const MOST_LINKS: usize = 40;
 
 impl<'a> RevisionFiles<'a> {
-    /// Reads a revision from the repository of the inputs.
+    /// Reads a revision from the repository of the inputs, for a run with this baseline; `None` is the default one.
     ///
     /// # Errors
     /// Git's message if it cannot read the revision.
-    pub fn new(workspace: &'a Workspace, inputs: &Inputs, revision: &str) -> Result<Self, String> {
+    pub fn new(
+        workspace: &'a Workspace,
+        inputs: &Inputs,
+        baseline: Option<&Utf8Path>,
+        revision: &str,
+    ) -> Result<Self, String> {
         let revision = git::revision(workspace, revision)?;
         let repository = Repository::of(workspace, &repository_place(workspace, inputs))?;
         let entries = match repository.tree(revision) {
@@ -41,7 +48,8 @@ impl<'a> RevisionFiles<'a> {
             Err(reason) => return Err(repository.shallow_clone_advice(revision).unwrap_or(reason)),
         };
         let (files, links, drawings) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
-        let mut revision_files = Self { workspace, repository, files, links, drawings };
+        let baseline = workspace.baseline_file(baseline);
+        let mut revision_files = Self { workspace, repository, baseline, files, links, drawings };
         for entry in entries.into_iter().filter(git::Entry::is_plain) {
             revision_files.add(entry.kind, entry.name.into(), entry.id);
         }
@@ -120,10 +128,12 @@ impl<'a> RevisionFiles<'a> {
         links.find(|(link, target)| !is_same(link, target.as_deref())).map(|(link, _)| link)
     }
 
-    /// Returns the files that determine what is checked and how, such as configurations: those of the revision, and the current ones.
+    /// Returns the files that determine what is checked and reported, such as configurations: those of the revision, and the current ones.
     fn rules(&self, directories: &[Utf8PathBuf]) -> Vec<Utf8PathBuf> {
+        let baseline = self.below_root(&self.real(&self.baseline));
         let is_rule = |file: &&Utf8PathBuf| {
             matches!(file.file_name(), Some(FILE_NAME | ".gitignore" | ".ignore"))
+                || Some(*file) == baseline.as_ref()
                 || file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("cbpp"))
         };
         let old = self.files.keys().filter(is_rule).map(|file| self.repository.root.join(file));
@@ -132,7 +142,7 @@ impl<'a> RevisionFiles<'a> {
         });
         let settings = &self.workspace.settings;
         let post = settings.directory().map(|directory| directory.join(&*settings.general.post.value.name));
-        let now = ignoring.chain(settings.file.clone()).chain(post);
+        let now = ignoring.chain(settings.file.clone()).chain(post).chain([self.baseline.clone()]);
         old.chain(now.filter(|file| self.workspace.system.kind(file) == FileKind::File)).collect()
     }
 }

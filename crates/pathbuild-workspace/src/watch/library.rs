@@ -10,7 +10,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 
 use super::events::{Changes, Update};
-use crate::check::{self, CheckedFile, NamedDrawing, check_drawings};
+use crate::check::{self, NamedDrawing, check_drawings};
 use crate::common_findings::{globs_without_file, patterns_without_layer, unused_configurations};
 use crate::emit::Scope;
 use crate::files::FILE_NAME;
@@ -107,8 +107,7 @@ impl<'a> Library<'a> {
     /// Returns what the checks cover, which decides whether a waiver without a match is reported.
     pub(super) fn coverage(&self) -> waivers::Coverage {
         let request = check::Request { inputs: self.inputs, with_all_values: false, changed: None };
-        let checked = self.drawings.keys().map(|file| CheckedFile { file: file.clone(), paths: Vec::new() });
-        request.coverage(self.session.workspace(), &checked.collect::<Vec<_>>())
+        request.coverage(self.session.workspace(), self.drawings.keys().cloned().collect())
     }
 
     /// Returns the drawings and directories that are watched.
