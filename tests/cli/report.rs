@@ -47,6 +47,8 @@ fn the_same_finding_is_reported_once_however_it_was_met() {
     };
     assert_eq!(Findings::new(vec![traced("8001.1P"), diagnostic(), traced("8001.2P")]).diagnostics.len(), 1);
     assert_eq!(Findings::new(vec![diagnostic().quoting("found", "y"), diagnostic()]).diagnostics.len(), 2);
+    let between = vec![diagnostic(), diagnostic().quoting("found", "y"), traced("8001.1P")];
+    assert_eq!(Findings::new(between).diagnostics.len(), 2);
     assert_eq!(
         Findings::new(vec![diagnostic(), diagnostic().at_point(Point::new(1.0, 2.001))]).diagnostics.len(),
         2

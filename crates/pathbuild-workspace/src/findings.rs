@@ -2,7 +2,7 @@
 //! threads.
 //! (book: reference/diagnostics)
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::fmt;
 use std::hash::Hash as Hashed;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -41,7 +41,8 @@ impl Findings {
         }
         diagnostics
             .sort_by(|a, b| a.sort_key().cmp(&b.sort_key()).then_with(|| a.message.key.cmp(b.message.key)));
-        diagnostics.dedup_by(|later, earlier| is_same(earlier, later));
+        let mut is_first = first_occurrences(diagnostics.iter());
+        diagnostics.retain(|_| is_first.next() == Some(true));
         Self { diagnostics, ..Self::default() }
     }
 
@@ -76,7 +77,8 @@ impl Workspace {
         };
         let findings = Findings::new(diagnostics.into_iter().filter_map(judge).collect());
         waived.sort_by(|a, b| a.diagnostic.sort_key().cmp(&b.diagnostic.sort_key()));
-        waived.dedup_by(|later, earlier| is_same(&earlier.diagnostic, &later.diagnostic));
+        let mut is_first = first_occurrences(waived.iter().map(|waived| &waived.diagnostic));
+        waived.retain(|_| is_first.next() == Some(true));
         Findings { waived, ..findings }
     }
 
@@ -115,9 +117,12 @@ impl Workspace {
     }
 }
 
-/// Whether two findings are the same except for their traces and notes.
-fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
-    identity(a) == identity(b)
+/// Returns, for each finding, whether it differs from all earlier ones in more than its trace and notes. Equal findings need not be adjacent, even
+/// if they are sorted: others that differ only in their arguments may lie between them.
+fn first_occurrences<'d>(findings: impl Iterator<Item = &'d Diagnostic>) -> std::vec::IntoIter<bool> {
+    let mut met = HashSet::new();
+    let is_first: Vec<bool> = findings.map(|found| met.insert(identity(found))).collect();
+    is_first.into_iter()
 }
 
 /// Returns the parts of a finding that distinguish it from others. The arguments of a finding about paths nested too deeply are left out: these paths
