@@ -135,7 +135,7 @@ codes! {
     217 LoosePart "loose-part" Warning "a finished part that is cut out all round without a support bar";
     218 BarCutAway "bar-cut-away" Error "a support bar that another cut removes";
     219 DoubtfulOutline "doubtful-outline" Warning "an outline of a finished part that is not closed or cannot be read";
-    220 OutlineNotCut "outline-not-cut" Warning "an outline of a finished part that no cut through the plate comes near";
+    220 OutlineNotCut "outline-not-cut" Warning "an outline of a finished part that no cut through the material comes near";
     221 DisplacedPath "displaced-path" Warning "paths that cut the same finished part, but place it differently";
     222 CutInLooseWaste "cut-in-loose-waste" Warning "a cut in a piece of waste that an earlier cut has made loose";
     223 PartInOpening "part-in-opening" Warning "an outline in an opening of a finished part that is cut as a part of its own";

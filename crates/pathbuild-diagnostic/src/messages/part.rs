@@ -47,8 +47,8 @@ messages! {
     SWEEP_ALONG_OUTLINE: LeftoverAtPart {
         en: "only a sweep runs along the outline of the part, from {from} to {to}, over {length} mm: this side is not cut (places: {count})",
         de: "am Umriss des Teils, von {from} bis {to}, auf {length} mm, verläuft nur eine Leerfahrt: diese Seite wird nicht gefräst (Stellen: {count})",
-        help_en: "check the line type: draw a cut CONTINUOUS, or BORDER for support bars; if this side is the edge of the plate, draw the sweep farther away",
-        help_de: "den Linientyp prüfen: einen Schnitt CONTINUOUS zeichnen, mit Stützstegen BORDER; ist diese Seite der Rand der Platte, die Leerfahrt weiter entfernt zeichnen",
+        help_en: "check the line type: draw a cut CONTINUOUS, or BORDER for support bars; if this side is the edge of the material, draw the sweep farther away",
+        help_de: "den Linientyp prüfen: einen Schnitt CONTINUOUS zeichnen, mit Stützstegen BORDER; ist diese Seite der Rand des Materials, die Leerfahrt weiter entfernt zeichnen",
     }
     /// Inner corners that are sharper than the cutter.
     UNREACHABLE_CORNER: UnreachableCorner {
@@ -68,15 +68,15 @@ messages! {
     SEVERED_PART: LoosePart {
         en: "after this cut, nothing holds the part of path {other} whose outline begins at {point}: it meets the cuts between the support bars",
         de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {point} beginnt: er verbindet sich mit den Schnitten zwischen den Stützstegen",
-        help_en: "place the parts farther apart, or draw support bars on a side where the plate remains",
-        help_de: "die Teile mit größerem Abstand anordnen oder Stützstege auf einer Seite zeichnen, an der die Platte stehen bleibt",
+        help_en: "place the parts farther apart, or draw support bars on a side where material remains",
+        help_de: "die Teile mit größerem Abstand anordnen oder Stützstege auf einer Seite zeichnen, an der Material stehen bleibt",
     }
     /// A part of another path of the project that is loose after the cuts of this path.
     SEVERED_NEIGHBOUR: LoosePart {
         en: "after this cut, nothing holds the part of path {other} whose outline begins at {place} in the program: it meets the cuts between the support bars",
         de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss im Programm bei {place} beginnt: er verbindet sich mit den Schnitten zwischen den Stützstegen",
-        help_en: "place the parts farther apart, or draw support bars on a side where the plate remains",
-        help_de: "die Teile mit größerem Abstand anordnen oder Stützstege auf einer Seite zeichnen, an der die Platte stehen bleibt",
+        help_en: "place the parts farther apart, or draw support bars on a side where material remains",
+        help_de: "die Teile mit größerem Abstand anordnen oder Stützstege auf einer Seite zeichnen, an der Material stehen bleibt",
     }
     /// Support bars that another cut removes.
     BAR_CUT_AWAY: BarCutAway {
@@ -129,8 +129,8 @@ messages! {
     }
     /// An outline of a part that no path cuts.
     OUTLINE_NOT_CUT: OutlineNotCut {
-        en: "no path of this drawing cuts through the plate along this outline",
-        de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang durch die Platte",
+        en: "no path of this drawing cuts through the material along this outline",
+        de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang durch das Material",
         help_en: "draw the missing path; give a path along it that ends above the plate a lower B; move a path that runs O or more away to half of O beside the outline; if this is not an outline of the part, move it to another layer",
         help_de: "den fehlenden Pfad zeichnen; einem Pfad daran, der über der Platte endet, ein tieferes B geben; einen Pfad, der um O oder mehr entfernt verläuft, auf die Hälfte von O neben den Umriss verschieben; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
     }

@@ -140,7 +140,7 @@ pub mod general {
         /// layers with clamps, by their whole names: no move may enter their outlines below the height
         /// that a text such as Z25 gives (PB407)
         keep_out: Option<Box<str>> = "keep-out", OPTIONAL_REGEX, None, "'Clamps.*'", Check;
-        /// layers with finished parts, by their whole names: cuts that go through the plate are compared with their outlines
+        /// layers with finished parts, by their whole names: cuts that go through the material are compared with their outlines
         /// (PB213 to PB223); a group in the expression names the path that cuts the part: 'Part_(.*)'
         part: Option<Box<str>> = "part", OPTIONAL_REGEX, None, "'Part.*'", Check;
         /// mm: how far a cut may miss the outline of a part on either side; at least 0.005
