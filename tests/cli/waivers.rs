@@ -554,3 +554,15 @@ fn an_accepted_move_into_a_clamp_holds_while_it_is_not_deeper() {
     std::fs::write(place.path().join("pathbuild-baseline.txt"), baseline).unwrap();
     assert_eq!(check("19.99").status, Some(0));
 }
+
+/// Elsewhere, `-` is standard input or output.
+#[test]
+fn files_to_be_named_are_not_called_hyphen() {
+    let place = place();
+    for arguments in ["check --baseline - --update-baseline", "emit --deps - 1235.1P"] {
+        let run = place.run(arguments);
+        assert!(run.status == Some(2) && run.stderr.contains("expected the name of a file"), "{run}");
+    }
+    assert!(!place.path().join("-").exists());
+    assert_eq!(place.run("check --baseline ./- --update-baseline").status, Some(0));
+}

@@ -13,7 +13,7 @@ use pathbuild_workspace::program::ReadingOptions;
 use pathbuild_workspace::waivers::Date;
 
 use super::completions;
-use super::shared::{Address, InputArgs, WaiverArgs, date};
+use super::shared::{Address, InputArgs, WaiverArgs, date, named_file};
 
 /// Arguments of `pathbuild check`.
 #[derive(Clone, Debug, Default, Args)]
@@ -67,7 +67,7 @@ pub struct EmitArgs {
     #[arg(long, value_name = "NAME")]
     pub join: Option<String>,
     /// Write the dependencies of the files into FILE, for make and Ninja
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = named_file)]
     pub deps: Option<Utf8PathBuf>,
     /// Write the program to standard output: `-o -`
     #[arg(short, long, value_name = "-", value_parser = ["-"], hide_possible_values = true)]

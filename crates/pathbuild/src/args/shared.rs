@@ -161,7 +161,7 @@ fn texts(option: &SettingOption, matches: &ArgMatches) -> Option<Vec<String>> {
 #[derive(Clone, Debug, Default, Args)]
 pub struct WaiverArgs {
     /// Report only findings that are not in this file (default: pathbuild-baseline.txt beside pathbuild.toml)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = named_file)]
     pub baseline: Option<Utf8PathBuf>,
     /// Write all findings into the baseline file instead of reporting them
     #[arg(long)]
@@ -186,6 +186,11 @@ fn code(text: &str) -> Result<Code, &'static str> {
 
 pub(super) fn date(text: &str) -> Result<Date, &'static str> {
     text.parse().map_err(|()| "expected a date such as 2026-12-31")
+}
+
+/// Refuses `-`, which stands for standard input or output elsewhere.
+pub(super) fn named_file(text: &str) -> Result<Utf8PathBuf, &'static str> {
+    if text == "-" { Err("expected the name of a file") } else { Ok(text.into()) }
 }
 
 /// Drawings, paths and directories given as arguments of a command.
@@ -382,6 +387,7 @@ german! {
         "Nimmt die Befunde mit diesem Code hin: schreibt sie mit --reason in die Datei von --baseline";
     "With --accept: the reason", "Mit --accept: der Grund";
     "With --accept: the last day on which this holds", "Mit --accept: der letzte Tag, an dem das gilt";
+    "expected the name of a file", "erwartet wird der Name einer Datei";
     "expected a date such as 2026-12-31", "erwartet wird ein Datum wie 2026-12-31";
     "there is no such diagnostic: `pathbuild explain` lists all codes",
         "eine solche Meldung gibt es nicht: `pathbuild explain` führt alle Codes auf";
