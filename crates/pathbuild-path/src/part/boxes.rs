@@ -40,17 +40,17 @@ impl BoxIndex {
     }
 
     /// Returns the numbers of the boxes that intersect `extent`, in ascending order, so that no result depends on the shape of the tree.
-    pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> impl DoubleEndedIterator<Item = usize> {
-        let (few, many) = match self {
-            Self::Few(boxes) => (Some(boxes.near(extent)), Vec::new()),
+    pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> std::vec::IntoIter<usize> {
+        let found = match self {
+            Self::Few(boxes) => boxes.near(&extent),
             Self::Many(tree) => {
                 let near = tree.locate_in_envelope_intersecting(extent);
                 let mut found: Vec<usize> = near.map(|found| found.data).collect();
                 found.sort_unstable();
-                (None, found)
+                found
             }
         };
-        few.into_iter().flatten().chain(many)
+        found.into_iter()
     }
 }
 
@@ -61,13 +61,19 @@ impl GroupedBoxes {
         Self { groups: boxes.chunks(GROUP_SIZE).map(merged).collect(), boxes }
     }
 
-    fn near(&self, extent: AABB<[f64; 2]>) -> impl DoubleEndedIterator<Item = usize> {
-        let groups = self.groups.iter().enumerate().filter(move |(_, around)| around.intersects(&extent));
-        groups.flat_map(move |(group, _)| {
+    fn near(&self, extent: &AABB<[f64; 2]>) -> Vec<usize> {
+        let mut found = Vec::new();
+        for (group, around) in self.groups.iter().enumerate() {
+            if !around.intersects(extent) {
+                continue;
+            }
             let first = GROUP_SIZE * group;
-            let numbers = first..self.boxes.len().min(first + GROUP_SIZE);
-            numbers.filter(move |number| self.boxes[*number].intersects(&extent))
-        })
+            let boxes = self.boxes[first..].iter().take(GROUP_SIZE);
+            found.extend(
+                (first..).zip(boxes).filter(|(_, own)| own.intersects(extent)).map(|(number, _)| number),
+            );
+        }
+        found
     }
 }
 
