@@ -303,13 +303,14 @@ pub(super) fn looks_like_parameters(text: ParameterText<'_>) -> bool {
 }
 
 impl PathCollector<'_> {
-    /// Whether all letters of a text would have an effect on an element without a text.
+    /// Whether a text would have an effect that spoils a part if it is missing, on an element without a text.
     fn would_apply(&self, text: ParameterText<'_>, candidate: &Candidate) -> bool {
         let Owner::Element(element) = candidate.owner else { return false };
         let element = &self.elements[element];
         let class = element.class(self.tool());
         let mut letters = text.pieces().iter().filter_map(|piece| piece.letter);
-        element.text.is_none() && letters.all(|letter| class.use_of(letter).counts())
+        let has_effect = |letter| ESSENTIAL_LETTERS.contains(letter) && class.use_of(letter).counts();
+        element.text.is_none() && letters.any(has_effect)
     }
 
     /// The cutter's diameter, if the start text gives it.

@@ -40,12 +40,16 @@ fn a_parameter_text_over_an_element_on_another_layer_has_no_effect() {
     for string in ["B2", "F120 B-0.3", "B2,5", "I0.5", "W4", "N1 B2", "B=D", " B2 ", "B2 Qgroove"] {
         assert_eq!(strays(&text("Notes", string, "20,0")), ["PB119"], "{string}");
     }
+    // On the layer of the path, the other letters are errors or have no effect.
+    for string in ["B1 D1.5", "B1 C1", "B1 S20", "B1 T2", "I0.5 U12"] {
+        assert_eq!(strays(&text("Notes", string, "20,0")), ["PB119"], "{string}");
+    }
     for mistyped in ["b2", "B 2", "B 0,5", "b  0.5", "B1,F100", "b1, f 100", "B1;F100", "n1 b2"] {
         assert_eq!(strays(&text("Notes", mistyped, "20,0")), ["PB119"], "{mistyped}");
     }
     for string in [
         "R5", "M6", "Maßstab", "B", "Bohrung", "N1", "B2 x", "B2 >1", "D1", "P3", "B2x4", "T5", "Qgroove",
-        "S20", "b", "B 2 mm", "B, 2", "ab 2", "b2 tief", "F", "n 3", "d 5",
+        "S20", "D1 T2", "b", "B 2 mm", "B, 2", "ab 2", "b2 tief", "F", "n 3", "d 5",
     ] {
         assert_eq!(strays(&text("Notes", string, "20,0")), [""; 0], "{string}");
     }
