@@ -146,6 +146,13 @@ messages! {
         help_en: "move the text away from the element that it should not belong to, make it smaller, or put text and element on a tilde layer of their own (the path's name with ~ and letters added)",
         help_de: "den Text von dem Element wegschieben, zu dem er nicht gehören soll, oder ihn verkleinern, oder Text und Element auf einen eigenen Tilde-Layer legen (Name des Pfads, ~ und Buchstaben)",
     }
+    /// A text inside a circle that takes it from far away, although the text is just beside another element or just beyond its end.
+    NEARER_BESIDE_TEXT: DoubtfulText {
+        en: "the text \"{text}\" belongs to {element} at {point}, though {other} at {other_point} is {margin} mm nearer: the text is beside that one or beyond its end",
+        de: "zum Text \"{text}\" gehört {element} bei {point}, obwohl {other} bei {other_point} {margin} mm näher ist: der Text liegt daneben oder hinter dessen Ende",
+        help_en: "move the text onto its element: to a circle, at its centre or on its edge",
+        help_de: "den Text auf sein Element schieben: bei einem Kreis in dessen Mitte oder auf dessen Rand",
+    }
     /// A text that is equally near to two elements, and belongs to the one that comes first in the file.
     FIRST_OF_EQUALS: DoubtfulText {
         en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}; it belongs to the latter only because the file lists that one first",

@@ -1,17 +1,18 @@
 //! Assigns each text of a path to its element. (book: language/parameter-texts)
 
+use std::cell::OnceCell;
 use std::mem::discriminant;
 use std::ops::Range;
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Value};
 
-use crate::approx::{above, near};
 use crate::element::{END_RADIUS, Element, Marker, Role, Shape, TURN_RADIUS, diagnostic_point};
 use crate::letter::{LetterUse, Letters};
 use crate::names::is_tilde_layer;
 use crate::read::candidates::{
-    AssignedCandidate, Candidate, Owner, SearchBudget, find, find_shape, find_taken, nearest_miss,
+    AssignedCandidate, Candidate, Doubt, Owner, Rival, SearchBudget, find, find_rival, find_shape,
+    find_taken, is_overlapped, nearest_miss,
 };
 use crate::read::collect::PathCollector;
 use crate::read::entities::{FoundText, TextCircle};
@@ -101,14 +102,12 @@ impl<'d> Texts<'d> {
             }
             let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
             let doubt = others.take(MAX_SEARCHED_LAYERS).find_map(|(_, other)| {
-                let nearer = find(&text.circle(), &other.candidates, &other.boxes, &budget)?;
-                let (index, closer) = nearer.nearer.unwrap_or((nearer.candidate, 0.0));
-                let distance = nearer.distance - closer;
-                let rival =
-                    (&messages::NEARER_ON_OTHER_LAYER, &other.candidates[index], found.distance - distance);
-                let doubt = above(found.distance, distance)
-                    .then(|| layer.doubt(text, found.candidate, [rival].into_iter(), path))?;
-                Some(doubt?.quoting("layer", &*other.name))
+                let is_nearer = |doubt| matches!(doubt, Doubt::NearerOfLaterKind | Doubt::NearerOfSameKind);
+                let (_, doubt) = layer.doubt(text, found, (other, 0.0), &budget, path, is_nearer)?;
+                Some(
+                    Diagnostic { message: &messages::NEARER_ON_OTHER_LAYER, ..doubt }
+                        .quoting("layer", &*other.name),
+                )
             });
             path.diagnostics.extend(doubt);
         }
@@ -124,10 +123,19 @@ impl<'d> LayerTexts<'d> {
         budget: &SearchBudget,
         mut remember: impl FnMut(&FoundText<'d>, AssignedCandidate),
     ) -> Option<Diagnostic> {
-        let last = self.each_match(budget, |layer, text, _, owners, found| {
+        // A candidate beside the text is no rival if a later text belongs to it.
+        let mut beside_text = Vec::new();
+        let last = self.each_match(budget, |layer, text, circle, owners, found| {
             let has_owner = !owners.is_empty();
-            let doubt = found.and_then(|found| layer.assignment_doubt(text, found, margin, path));
-            path.diagnostics.extend(doubt);
+            let is_of_layer = |doubt| doubt != Doubt::NearerOfSameKind;
+            let doubt =
+                found.and_then(|found| layer.doubt(text, &found, (layer, margin), budget, path, is_of_layer));
+            match doubt {
+                Some((rival, doubt)) if !is_overlapped(&circle, &layer.candidates[rival.candidate].shape) => {
+                    beside_text.push((rival.candidate, doubt));
+                }
+                doubt => path.diagnostics.extend(doubt.map(|(_, doubt)| doubt)),
+            }
             if let Some(found) = found {
                 remember(text, found);
             }
@@ -141,6 +149,8 @@ impl<'d> LayerTexts<'d> {
             }
             has_owner
         });
+        let beside_text = beside_text.into_iter().filter(|(rival, _)| !self.candidates[*rival].is_taken);
+        path.diagnostics.extend(beside_text.map(|(_, doubt)| doubt));
         let problem = Diagnostic::new(&messages::TEXTS_IN_A_CROWD).with("limit", MAX_EXAMINED_ELEMENTS);
         last.map(|last| self.origin(last.source, last.anchor()).at(problem))
     }
@@ -159,62 +169,53 @@ impl<'d> LayerTexts<'d> {
         }
     }
 
-    /// Returns PB116 if another element of the same kind is about as near, or one of another kind is nearer, or one that has a text already is
-    /// nearer. Ignores elements on which the text would be an error: a marker instead of an element or the reverse, and elements that do not accept
-    /// one of its letters.
-    fn assignment_doubt(
+    /// Returns PB116 if the text could belong to an element of the rivals' layer as well. Ignores elements on which the text would be an error: a
+    /// marker instead of an element or the reverse, and elements that do not accept one of its letters.
+    fn doubt(
         &self,
         text: &FoundText<'_>,
-        found: AssignedCandidate,
-        margin: f64,
+        found: &AssignedCandidate,
+        (rivals, margin): (&Self, f64),
+        budget: &SearchBudget,
         path: &PathCollector<'_>,
-    ) -> Option<Diagnostic> {
-        let others = [found.rival, found.nearer, found.nearer_with_text];
-        if others.iter().all(Option::is_none) {
-            return None;
-        }
-        let rival = found.rival.filter(|(_, farther)| *farther < margin || near(*farther, 0.0));
-        let rival = rival.map(|(rival, farther)| {
-            let is_equal = near(farther, 0.0);
-            let message = if is_equal { &messages::FIRST_OF_EQUALS } else { &messages::NEARLY_OTHER_ELEMENT };
-            (message, rival, farther)
-        });
-        let nearer = found.nearer.map(|(other, nearer)| (&messages::NEARER_OF_OTHER_KIND, other, nearer));
-        let has_text =
-            found.nearer_with_text.map(|(other, nearer)| (&messages::NEARER_HAS_A_TEXT, other, nearer));
-        let doubts = has_text.into_iter().chain(rival).chain(nearer);
-        let doubts = doubts.map(|(message, other, farther)| (message, &self.candidates[other], farther));
-        self.doubt(text, found.candidate, doubts, path)
-    }
-
-    /// Returns PB116 for a text and the first of these elements that it could belong to. Each comes with its message and a distance in mm.
-    fn doubt<'c>(
-        &self,
-        text: &FoundText<'_>,
-        candidate: usize,
-        mut doubts: impl Iterator<Item = (&'static Message, &'c Candidate, f64)>,
-        path: &PathCollector<'_>,
-    ) -> Option<Diagnostic> {
-        let element = &self.candidates[candidate];
+        is_reported: impl Fn(Doubt) -> bool,
+    ) -> Option<(Rival, Diagnostic)> {
+        let element = &self.candidates[found.candidate];
         let string = without_percent_codes(text.string());
-        let texts = ParameterTexts::from(&*string);
-        let is_possible = |other: &Candidate| {
+        let texts = OnceCell::new();
+        let read = || texts.get_or_init(|| ParameterTexts::from(&*string)).first();
+        let is_possible = |rival: &Rival| {
+            let other = &rivals.candidates[rival.candidate];
             let refuses = |text: ParameterText<'_>| refuses(other.owner, text, &path.elements);
-            discriminant(&element.owner) == discriminant(&other.owner) && !texts.first().is_some_and(refuses)
+            let is_part =
+                std::ptr::eq(self, rivals) && self.parts(found.candidate).contains(&rival.candidate);
+            is_reported(rival.doubt)
+                && !is_part
+                && discriminant(&element.owner) == discriminant(&other.owner)
+                && !read().is_some_and(refuses)
         };
-        let (message, other, farther) = doubts.find(|(_, other, _)| is_possible(other))?;
+        let index = (&*rivals.candidates, &rivals.boxes);
+        let rival = find_rival(&text.circle(), found, margin, index, budget, is_possible)?;
+        let other = &rivals.candidates[rival.candidate];
+        let message = match rival.doubt {
+            Doubt::NearerWithText => &messages::NEARER_HAS_A_TEXT,
+            Doubt::EquallyNear => &messages::FIRST_OF_EQUALS,
+            Doubt::HardlyFarther => &messages::NEARLY_OTHER_ELEMENT,
+            Doubt::NearerOfLaterKind | Doubt::NearerOfSameKind => &messages::NEARER_OF_OTHER_KIND,
+            Doubt::NearerBesideText => &messages::NEARER_BESIDE_TEXT,
+        };
         let mut doubt = Diagnostic::new(message)
             .quoting("text", string.replace('\n', " "))
             .with("element", element.word())
             .with("point", diagnostic_point(element.shape.point()))
             .with("other", other.word())
             .with("other_point", diagnostic_point(other.shape.point()))
-            .with("margin", farther);
+            .with("margin", rival.farther.abs());
         if let Some(given) = path.text_of(other.owner).filter(|_| other.is_taken) {
             doubt = doubt.quoting("other_text", given.as_str().replace('\n', " "));
         }
-        doubt.text = texts.first().map(ParameterText::whole_text_fault);
-        Some(self.origin(text.source, text.anchor()).at(doubt))
+        doubt.text = read().map(ParameterText::whole_text_fault);
+        Some((rival, self.origin(text.source, text.anchor()).at(doubt)))
     }
 
     fn missing_element_problem<'a>(

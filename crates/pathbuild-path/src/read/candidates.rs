@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{ElementId, Text, words};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, Envelope, RTree};
 
-use crate::approx::above;
+use crate::approx::{above, near};
 use crate::element::Shape;
 use crate::geometry::{Curve, Xy};
 use crate::read::entities::TextCircle;
@@ -63,14 +63,37 @@ enum OverlapKind {
 #[derive(Clone, Copy)]
 pub(crate) struct AssignedCandidate {
     pub(crate) candidate: usize,
+    kind: OverlapKind,
     /// The distance in mm from the centre of the text's circle to the centre of a circle, or to the arc or line.
-    pub(crate) distance: f64,
-    /// The second best candidate of the same kind, and how much farther away it is in mm.
-    pub(crate) rival: Option<(usize, f64)>,
-    /// A candidate of another kind that is nearer, and how much nearer it is in mm.
-    pub(crate) nearer: Option<(usize, f64)>,
-    /// A candidate that has a text already and is nearer, and how much nearer it is in mm.
-    pub(crate) nearer_with_text: Option<(usize, f64)>,
+    distance: f64,
+    /// The distance in mm that a person sees between the text's centre and the candidate.
+    visible_distance: f64,
+}
+
+/// A candidate that a person could take for the one that a text belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub(crate) struct Rival {
+    pub(crate) doubt: Doubt,
+    /// How much farther away it is in mm; negative if it is nearer.
+    pub(crate) farther: f64,
+    pub(crate) candidate: usize,
+}
+
+/// The reason why it is doubtful which candidate a text belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Doubt {
+    /// The other candidate is nearer and has a text already.
+    NearerWithText,
+    /// The other candidate is just as near.
+    EquallyNear,
+    /// The other candidate is hardly farther away.
+    HardlyFarther,
+    /// The other candidate is nearer, but its kind comes later.
+    NearerOfLaterKind,
+    /// The other candidate is nearer and of the same kind: it is on another layer, or is a circle with a centre farther away.
+    NearerOfSameKind,
+    /// The other candidate is nearer, but the text does not overlap it.
+    NearerBesideText,
 }
 
 /// Budget for examining candidates. It bounds the quadratic work if thousands of texts overlap thousands of elements.
@@ -105,47 +128,79 @@ pub(crate) fn find(
         return None;
     }
     let mut nearest: Option<(OverlapKind, f64, usize)> = None;
-    let mut second: Option<(OverlapKind, f64, usize)> = None;
-    let mut closest: Option<(f64, usize)> = None;
-    let mut closest_with_text: Option<(f64, usize)> = None;
-    let is_same_group = |one: Option<(OverlapKind, f64, usize)>, other: usize| {
-        let group = candidates[other].group;
-        group.is_some() && one.is_some_and(|(.., one)| candidates[one].group == group)
-    };
     boxes.each_touched(circle, |index| {
         let candidate = &candidates[index];
-        if !budget.spend() {
-            return;
-        }
-        let Some((kind, distance)) = overlap(circle, &candidate.shape) else { return };
-        let closest = if candidate.is_taken { &mut closest_with_text } else { &mut closest };
-        if closest.is_none_or(|closest| (distance, index) < closest) {
-            *closest = Some((distance, index));
-        }
-        if candidate.is_taken {
-            return;
-        }
-        let found = (kind, distance, index);
-        if nearest.is_none_or(|nearest| found < nearest) {
-            if !is_same_group(nearest, index) {
-                second = nearest;
-            }
-            nearest = Some(found);
-        } else if !is_same_group(nearest, index) && second.is_none_or(|second| found < second) {
-            second = Some(found);
+        if budget.spend()
+            && !candidate.is_taken
+            && let Some((kind, distance)) = overlap(circle, &candidate.shape)
+            && nearest.is_none_or(|nearest| (kind, distance, index) < nearest)
+        {
+            nearest = Some((kind, distance, index));
         }
     });
     nearest.filter(|_| !budget.is_exhausted()).map(|(kind, distance, candidate)| AssignedCandidate {
         candidate,
+        kind,
         distance,
-        rival: second.filter(|second| second.0 == kind).map(|(_, other, rival)| (rival, other - distance)),
-        nearer: closest
-            .filter(|(closest, other)| above(distance, *closest) && !is_same_group(nearest, *other))
-            .map(|(closest, other)| (other, distance - closest)),
-        nearer_with_text: closest_with_text
-            .filter(|(closest, _)| above(distance, *closest))
-            .map(|(closest, other)| (other, distance - closest)),
+        visible_distance: visible_distance(circle, &candidates[candidate].shape),
     })
+}
+
+/// Returns the first and nearest of the rivals for which `is_possible` holds. Candidates of the same kind as the text's own are doubtful if they are
+/// less than `margin` mm farther away, and so are arcs and lines.
+pub(crate) fn find_rival(
+    circle: &TextCircle,
+    own: &AssignedCandidate,
+    margin: f64,
+    (candidates, boxes): (&[Candidate], &CandidateIndex),
+    budget: &SearchBudget,
+    mut is_possible: impl FnMut(&Rival) -> bool,
+) -> Option<Rival> {
+    let mut most_doubtful: Option<Rival> = None;
+    let radius = circle.radius.max(own.visible_distance) + margin;
+    boxes.each_touched(&TextCircle { radius, ..*circle }, |candidate| {
+        if !budget.spend() {
+            return;
+        }
+        let Some((doubt, farther)) = doubt(circle, own, margin, &candidates[candidate]) else { return };
+        let rival = Rival { doubt, farther, candidate };
+        if most_doubtful.is_none_or(|known| rival < known) && is_possible(&rival) {
+            most_doubtful = Some(rival);
+        }
+    });
+    most_doubtful.filter(|_| !budget.is_exhausted())
+}
+
+/// Returns why another candidate could be the one that a text belongs to, and how much farther away it is in mm.
+fn doubt(
+    circle: &TextCircle,
+    own: &AssignedCandidate,
+    margin: f64,
+    other: &Candidate,
+) -> Option<(Doubt, f64)> {
+    let overlapped = overlap(circle, &other.shape);
+    let visible = visible_distance(circle, &other.shape) - own.visible_distance;
+    let is_nearer = above(0.0, visible);
+    if other.is_taken {
+        return (is_nearer && overlapped.is_some()).then_some((Doubt::NearerWithText, visible));
+    }
+    let (kind, distance) = overlapped.unwrap_or_else(|| possible_overlap(circle, &other.shape));
+    let farther = distance - own.distance;
+    if kind == own.kind && overlapped.is_some() && near(farther, 0.0) {
+        return Some((Doubt::EquallyNear, 0.0));
+    }
+    let is_alike = (kind == OverlapKind::Circle) == (own.kind == OverlapKind::Circle);
+    // A shift by the margin would let the text overlap the candidate.
+    let is_almost_overlapped = gap(circle, &other.shape) <= margin;
+    if is_alike && is_almost_overlapped && (near(farther, 0.0) || (0.0..margin).contains(&farther)) {
+        return Some((Doubt::HardlyFarther, farther.max(0.0)));
+    }
+    match overlapped {
+        _ if !is_nearer => None,
+        Some(_) if kind == own.kind => Some((Doubt::NearerOfSameKind, visible)),
+        Some(_) => Some((Doubt::NearerOfLaterKind, visible)),
+        None => Some((Doubt::NearerBesideText, visible)),
+    }
 }
 
 /// Returns the nearest candidate that a text overlaps and that has a text already.
@@ -232,6 +287,31 @@ fn overlap(text: &TextCircle, shape: &Shape) -> Option<(OverlapKind, f64)> {
     }
 }
 
+/// Whether a text is over a shape.
+pub(crate) fn is_overlapped(text: &TextCircle, shape: &Shape) -> bool {
+    overlap(text, shape).is_some()
+}
+
+/// Returns the kind of a shape that a text does not overlap, and the distance by which the text would belong to it.
+fn possible_overlap(text: &TextCircle, shape: &Shape) -> (OverlapKind, f64) {
+    match shape {
+        Shape::Circle { centre, .. } => (OverlapKind::Circle, text.distance_to_centre(*centre)),
+        Shape::Curve(curve @ Curve::Arc(_)) => (OverlapKind::Arc, text.distance_to_curve(curve)),
+        Shape::Curve(curve @ Curve::Line(_)) => (OverlapKind::Line, text.distance_to_curve(curve)),
+    }
+}
+
+/// Returns the distance in mm from the text's centre to what is drawn. The centre of a circle counts as drawn, because its text may be there.
+fn visible_distance(text: &TextCircle, shape: &Shape) -> f64 {
+    match shape {
+        Shape::Circle { centre, radius } => {
+            text.distance_to_centre(*centre).min(text.distance_to_circle(*centre, *radius))
+        }
+        Shape::Curve(curve) => text.distance_to_curve(curve),
+    }
+}
+
+/// Returns the distance in mm between a text's circle and a shape; 0 if they touch.
 fn gap(text: &TextCircle, shape: &Shape) -> f64 {
     match shape {
         Shape::Curve(curve) => text.gap_to(curve),
@@ -325,7 +405,7 @@ mod tests {
     use crate::geometry::{Arc, Curve, Line, Xy};
     use crate::read::candidates::Owner;
     use crate::read::candidates::{
-        Candidate, CandidateIndex, SearchBudget, find, gap, nearest_miss, overlap,
+        Candidate, CandidateIndex, Rival, SearchBudget, doubt, find, find_rival, gap, nearest_miss, overlap,
     };
     use crate::read::entities::TextCircle;
 
@@ -368,12 +448,20 @@ mod tests {
             let overlapped = free().filter_map(|(index, candidate)| overlap(&circle, &candidate.shape).map(|(kind, distance)| (kind, distance, index)));
             let mut overlapped: Vec<_> = overlapped.collect();
             overlapped.sort_by(|one, other| one.partial_cmp(other).expect("distances are numbers"));
-            let expected = overlapped.first().map(|(kind, distance, index)| {
-                let rival = overlapped.get(1).filter(|rival| rival.0 == *kind);
-                (*index, rival.map(|(_, other, index)| (*index, other - distance)))
-            });
-            let found = find(&circle, &candidates, &boxes, &SearchBudget::new(1000)).map(|found| (found.candidate, found.rival));
-            prop_assert_eq!(found, expected);
+            let expected = overlapped.first().map(|(.., index)| *index);
+            let budget = SearchBudget::new(1000);
+            let found = find(&circle, &candidates, &boxes, &budget);
+            prop_assert_eq!(found.map(|found| found.candidate), expected);
+            if let Some(own) = found {
+                let others = (0..).zip(&candidates).filter(|(other, _)| *other != own.candidate);
+                let rivals = others.filter_map(|(candidate, other)| {
+                    let (doubt, farther) = doubt(&circle, &own, 0.1, other)?;
+                    Some(Rival { doubt, farther, candidate })
+                });
+                let expected = rivals.reduce(|first, other| if other < first { other } else { first });
+                let is_other = |rival: &Rival| rival.candidate != own.candidate;
+                prop_assert_eq!(find_rival(&circle, &own, 0.1, (&candidates, &boxes), &budget, is_other), expected);
+            }
             let gaps = free().map(|(index, candidate)| (gap(&circle, &candidate.shape), index));
             let least = gaps.reduce(|best, other| if other < best { other } else { best });
             prop_assert_eq!(nearest_miss(&circle, &candidates, &boxes, &SearchBudget::new(1000)).map(|miss| (miss.distance, miss.candidate)), least);

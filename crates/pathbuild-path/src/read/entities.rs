@@ -145,12 +145,17 @@ impl TextCircle {
 
     /// Returns the gap between the rim of the circle and a curve, for help; 0 if they touch.
     pub fn gap_to(&self, curve: &Curve) -> f64 {
+        (self.distance_to_curve(curve) - self.radius).max(0.0)
+    }
+
+    /// Returns the distance from the circle's centre to the nearest point of a curve.
+    pub(crate) fn distance_to_curve(&self, curve: &Curve) -> f64 {
         let beside = match curve {
             Curve::Line(line) => self.distance_to_line(line),
             Curve::Arc(arc) => self.distance_to_arc(arc),
         };
         let to_ends = (curve.start() - self.centre).norm().min((curve.end() - self.centre).norm());
-        (beside.map_or(to_ends, |distance| distance.min(to_ends)) - self.radius).max(0.0)
+        beside.map_or(to_ends, |distance| distance.min(to_ends))
     }
 }
 

@@ -198,7 +198,7 @@ impl<'d> LayerTexts<'d> {
     }
 
     /// Returns the range of indices of a candidate and the other parts of its polyline, which are consecutive.
-    fn parts(&self, index: usize) -> Range<usize> {
+    pub(super) fn parts(&self, index: usize) -> Range<usize> {
         let group = self.candidates[index].group;
         if group.is_none() {
             return index..index + 1;

@@ -169,6 +169,67 @@ fn a_peck_depth_that_nothing_uses_is_told() {
     }
 }
 
+/// Returns the codes for a path with lines or circles and a small text, with a circle of 0.7 mm around it.
+fn at_small_text(statements: &str, at: &str) -> Vec<String> {
+    texts(&format!("{statements}\nmtext {at} \"B1\" height 1 align middle centre"), 0.1)
+}
+
+/// The text is on one line or arc, and would be on the other after a small shift.
+#[test]
+fn a_text_at_the_joint_of_two_elements_is_doubtful() {
+    let lines = "mill 0,0 20,0\nmill 20,0 40,0";
+    for (x, is_doubtful) in
+        [("19.999", true), ("20", true), ("20.001", true), ("19.7", false), ("20.3", false)]
+    {
+        assert_eq!(at_small_text(lines, &format!("{x},0.2")) == ["PB116"], is_doubtful, "{x}");
+    }
+    // The text is 0.2 mm away from one line, and 0.29 or 0.31 mm from the end of the other.
+    assert_eq!(at_small_text(lines, "19.79,0.2"), ["PB116"]);
+    assert_eq!(at_small_text(lines, "19.76,0.2"), [""; 0]);
+    let arc = "mill 0,0 20,0\nmill arc centre 20,10 r 10 from 270 to 0";
+    for x in ["19.999", "20", "20.001"] {
+        assert_eq!(at_small_text(arc, &format!("{x},0.2")), ["PB116"], "{x}");
+    }
+    let other = format!("{lines}\nmtext 19.999,0.2 \"B2\" height 1 align middle centre");
+    assert_eq!(at_small_text(&other, "30,0.2"), [""; 0], "the other line has a text of its own");
+}
+
+#[test]
+fn an_element_just_out_of_the_texts_reach_is_a_rival() {
+    let holes = "circle 20,0 d 2\ncircle 23.4,0 d 2";
+    assert_eq!(at_small_text(holes, "21.69,0"), ["PB116"]);
+    assert_eq!(at_small_text(holes, "21.64,0"), [""; 0], "1.64 and 1.76 mm");
+    let lines = "mill 0,0 40,0\nmill 0,1.36 40,1.36";
+    assert_eq!(at_small_text(lines, "20,0.65"), ["PB116"]);
+    assert_eq!(at_small_text(lines, "20,0.62"), [""; 0], "0.62 and 0.74 mm");
+}
+
+/// A ring takes each text inside it, however far away its edge is.
+#[test]
+fn a_text_in_a_ring_is_doubtful_if_another_element_is_nearer() {
+    let ring = "mill 0,0 30,0\ncircle 30,0 d 40";
+    for y in ["0.69", "0.71", "5"] {
+        assert_eq!(at_small_text(ring, &format!("20,{y}")), ["PB116"], "{y}");
+    }
+    // The text is at the ring's centre or edge.
+    assert_eq!(at_small_text("mill 0,9 30,9\ncircle 30,0 d 40", "30,1"), [""; 0]);
+    assert_eq!(at_small_text("mill 0,9 15,9\ncircle 30,0 d 40", "11,0"), [""; 0]);
+    let hole = "circle 20,0 d 2\ncircle 30,0 d 40";
+    assert_eq!(at_small_text(hole, "20,1.75"), ["PB116"]);
+    let with_text = format!("{hole}\nmtext 20,1 \"B2\" height 1 align middle centre");
+    assert_eq!(at_small_text(&with_text, "20,3"), [""; 0], "the hole has its text");
+}
+
+/// The second text over a hole or ring belongs to the line that ends at its centre.
+#[test]
+fn a_second_text_over_a_circle_is_doubtful() {
+    let hole = "mill 0,0 20,0\ncircle 20,0 d 2\nmtext 20,0 \"F100\" height 1 align middle centre";
+    assert_eq!(at_small_text(hole, "19.9,0.65"), ["PB116"]);
+    let ring = "mill 0,0 20,0\ncircle 20,0 d 6\nmtext 20,0 \"F100\" height 1 align middle centre";
+    assert_eq!(at_small_text(ring, "17.1,0.5"), ["PB116"]);
+    assert_eq!(at_small_text(ring, "15.9,0.5"), [""; 0], "the text is beside the ring");
+}
+
 /// Returns the codes for a path with lines or circles and a text.
 fn texts(statements: &str, margin: f64) -> Vec<String> {
     let drawing = format!("layer 1234.1P\nstart 500,0 \"T5 O3 I1 B0 D2\"\nend 500,90\n{statements}");
@@ -463,7 +524,7 @@ fn a_letter_without_effect_for_two_reasons_is_one_mistake() {
 
 #[test]
 fn a_nearer_element_of_another_kind_is_a_rival() {
-    // The distance to a circle is the distance to its centre, 3.7 mm; the line is 0 to 3.8 mm away.
+    // The text is 0.7 mm away from the circle; the line is 0 to 3 mm away.
     let ring = "mill 0,0 17,0\ncircle 20,0 d 6";
     let at = |y: f64, string: &str| {
         texts(&format!("{ring}\ntext 16.3,{y} \"{string}\" height 1 align centre middle"), 0.1)
