@@ -211,6 +211,12 @@ impl Printer {
         }
     }
 
+    /// Whether writing to standard output or standard error has failed, usually because their reader has ended.
+    pub fn has_failed(&self) -> bool {
+        let failures = self.failures();
+        failures.stdout.is_some() || failures.stderr.is_some()
+    }
+
     fn failures(&self) -> MutexGuard<'_, Failures> {
         self.failures.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -79,14 +79,24 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                     thread::sleep(CONFIGURATION_INTERVAL);
                     change_directory(&home);
                 }
+                tell_restart(
+                    &context,
+                    context.choose("the configuration was corrected", "die Konfiguration wurde berichtigt"),
+                );
             }
             Err(because) => {
                 has_begun = true;
                 had_file |= context.settings.file.is_some();
                 context.printer.status(because);
+                tell_restart(&context, because);
             }
         }
     }
+}
+
+/// Tells readers of JSON that all findings so far are void, because watching starts again.
+fn tell_restart(context: &Context, reason: &str) {
+    context.json_row(|| ("watch_restart", serde_json::json!({ "reason": reason })));
 }
 
 /// Changes back to the working directory, which may have been replaced. Unless all arguments are absolute, waits until it exists again.

@@ -356,6 +356,7 @@ fn lines_of_json_tell_the_findings_after_each_change() {
                 assert_eq!(line["errors"], findings.len());
                 return line;
             }
+            "watch_restart" => findings.clear(),
             kind => assert_eq!(kind, "header"),
         }
     };
@@ -370,6 +371,45 @@ fn lines_of_json_tell_the_findings_after_each_change() {
     assert_eq!((&third["number"], &third["fixed"], &third["errors"]), (&2.into(), &1.into(), &0.into()));
     fs::remove_file(place.path().join("library/projects/8002.dxf")).unwrap();
     assert_eq!(change()["removed"], json!(["library/projects/8002.dxf"]));
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    assert_eq!(change()["errors"], 1);
+    // The error of the configuration and the findings before it are void when watching starts again.
+    watch.write("pathbuild.toml", format!("typo = 1\n{CONFIGURATION}"));
+    watch.lines.until("nothing is checked until this is fixed");
+    watch.write("pathbuild.toml", CONFIGURATION);
+    let again = change();
+    assert_eq!((&again["number"], &again["new"], &again["errors"]), (&0.into(), &1.into(), &1.into()));
+}
+
+/// An editor's plug-in may end without ending `watch`.
+#[cfg(unix)]
+#[test]
+fn watch_ends_when_its_output_is_read_no_more() {
+    let place = library();
+    let mut watch = Watch::begin(&place, "watch --format json");
+    drop(watch.child.stdout.take());
+    watch.write("library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    let until = std::time::Instant::now() + Duration::from_mins(1);
+    while watch.child.try_wait().unwrap().is_none() {
+        assert!(std::time::Instant::now() < until, "it still runs");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// The drawing that contained the path with a similar name now contains another one, so the note about it is wrong.
+#[test]
+fn a_finding_with_other_notes_is_reported_again() {
+    let place = library().file("library/projects/8002.dxf", dxf("8002.1P", 5, &["1002.01P"]));
+    let watch = Watch::begin(&place, "watch");
+    assert!(
+        watch.beginning.iter().any(|line| line.contains("similar names: 1002.1P")),
+        "{:#?}",
+        watch.beginning
+    );
+    watch.write("library/parts/1002.dxf", dxf("1002.3P", 5, &[]));
+    let said = watch.until("1002.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("PB503")), "{said:#?}");
+    assert!(said.last().unwrap().contains(", 1 fixed"), "{said:#?}");
 }
 
 #[test]

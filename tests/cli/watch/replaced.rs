@@ -48,6 +48,21 @@ fn a_working_directory_that_is_replaced_is_watched() {
     }
 }
 
+/// The system reports the move in the parent directory, where the directory `shared` is watched, and then ends the watches of the moved one.
+#[test]
+fn a_working_directory_that_is_moved_and_moved_back_is_watched() {
+    let search = CONFIGURATION.replace("search = [", "search = [\"../shared\", ");
+    let place = library_in("work").file("work/pathbuild.toml", search).file("shared/readme.txt", "");
+    let watch = Watch::begin_in(&place, "work", program(), "watch --format concise");
+    watch.rename("work", "aside");
+    std::thread::sleep(Duration::from_millis(500));
+    watch.rename("aside", "work");
+    watch.until("watching 2 paths");
+    watch.write("work/library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
+    let said = watch.until("parts/1001.dxf: changed");
+    assert!(said.iter().any(|line| line.contains("PB506")), "{said:#?}");
+}
+
 /// A parent of the working directory is replaced.
 #[test]
 fn what_leads_to_the_working_directory_may_be_replaced() {

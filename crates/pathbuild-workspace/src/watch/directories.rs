@@ -203,7 +203,11 @@ impl WatchedDirectories {
     /// example when programs are written into it.
     pub(super) fn are_changed(&self, kind: EventKind, path: &EventPath, system: &dyn System) -> bool {
         if is_creation_or_removal(kind) {
-            return self.names.contains(&path.reported) || self.names.contains(&path.resolved);
+            // The watches of a moved directory end even if it is moved back.
+            let is_working_directory = path.reported.as_str().is_empty() && self.are_relative();
+            return is_working_directory
+                || self.names.contains(&path.reported)
+                || self.names.contains(&path.resolved);
         }
         self.refused.contains(&path.reported) && system.list(&path.reported).is_ok()
     }

@@ -229,10 +229,11 @@ impl WatchLoop<'_> {
 struct FindingTally(FxHashMap<CountedFinding, usize>);
 
 impl FindingTally {
-    /// Replaces previous findings by current ones.
+    /// Replaces previous findings by current ones, and their traces and notes by the current ones.
     fn replace(&mut self, before: &[Diagnostic], now: &[Diagnostic]) {
-        for found in now {
-            *self.0.entry(CountedFinding(found.clone())).or_default() += 1;
+        for found in now.iter().cloned().map(CountedFinding) {
+            let count = self.0.remove(&found).unwrap_or_default();
+            self.0.insert(found, count + 1);
         }
         for found in before.iter().cloned().map(CountedFinding) {
             match self.0.get_mut(&found) {
@@ -248,10 +249,14 @@ impl FindingTally {
     }
 }
 
-/// Returns the findings that are not among `others`.
+/// Returns the findings that are not, with the same notes, among `others`.
 fn without(findings: &[Diagnostic], others: &[Diagnostic]) -> Vec<Diagnostic> {
-    let others: HashSet<_> = others.iter().map(identity).collect();
-    findings.iter().filter(|found| !others.contains(&identity(found))).cloned().collect()
+    let others: HashSet<_> = others.iter().map(shown_parts).collect();
+    findings.iter().filter(|found| !others.contains(&shown_parts(found))).cloned().collect()
+}
+
+fn shown_parts(found: &Diagnostic) -> impl Eq + Hash + '_ {
+    (identity(found), &found.notes)
 }
 
 /// A finding that is compared by its identity, without trace and notes.

@@ -1,5 +1,6 @@
 //! `pathbuild watch`: checks drawings, and with `--emit` writes programs, whenever drawings change. (book: reference/commands)
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 use camino::Utf8PathBuf;
@@ -46,7 +47,10 @@ pub(crate) fn run(
     let inputs = if is_everything { &here } else { &*args.inputs };
     let request = Request { inputs, emits: args.emit, lists: page.is_some(), polls: args.poll };
     let page = page.unwrap_or_else(|| Box::new(()));
-    Ok(match request.run(context, &WatchPrinter { context, page, is_configuration_current }) {
+    let wake_handle = OnceCell::new();
+    let has_page = server.is_some();
+    let printer = WatchPrinter { context, page, has_page, wake_handle, is_configuration_current };
+    Ok(match request.run(context, &printer) {
         WatchEnd::ConfigurationChanged => {
             return Err(context.choose(
                 "the configuration, its post-processor or its baseline has changed",
@@ -94,6 +98,8 @@ pub(crate) fn run(
 struct WatchPrinter<'a> {
     context: &'a Context,
     page: Box<dyn Listener + 'a>,
+    has_page: bool,
+    wake_handle: OnceCell<WakeHandle>,
     is_configuration_current: &'a dyn Fn() -> bool,
 }
 
@@ -109,6 +115,16 @@ impl WatchPrinter<'_> {
         row["new"] = new.into();
         self.context.json_row(|| ("watch_change", row));
     }
+
+    /// Ends watching if nobody reads what is printed any more, unless a page is served.
+    fn end_without_reader(&self) {
+        if let Some(wake_handle) = self.wake_handle.get()
+            && self.context.printer.has_failed()
+            && !self.has_page
+        {
+            wake_handle.end();
+        }
+    }
 }
 
 impl Listener for WatchPrinter<'_> {
@@ -117,6 +133,7 @@ impl Listener for WatchPrinter<'_> {
     }
 
     fn set_wake_handle(&self, bell: WakeHandle) {
+        _ = self.wake_handle.set(bell.clone());
         self.page.set_wake_handle(bell);
     }
 
@@ -158,6 +175,7 @@ impl Listener for WatchPrinter<'_> {
         context.printer.status(format_args!(
             "{begin} {paths} in {drawings}: {errors}, {warnings}{known} ({milliseconds:.0} ms)"
         ));
+        self.end_without_reader();
     }
 
     fn batch_done(&self, update: &Update) {
@@ -200,6 +218,7 @@ impl Listener for WatchPrinter<'_> {
         for (path, what) in changed.chain(tried_again) {
             context.printer.status(format_args!("[{revision}] {path}: {what}; {tail}"));
         }
+        self.end_without_reader();
     }
 
     fn not_watched(&self, drawings: &[(Utf8PathBuf, String)]) {

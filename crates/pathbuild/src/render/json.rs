@@ -76,7 +76,7 @@ pub(crate) fn header(command: &str) -> String {
     serde_json::to_string(&header).unwrap_or_default()
 }
 
-/// Serializes an object so that its type is the first key.
+/// Serializes an object with at least one key so that its type is the first key.
 pub(crate) fn serialize_with_type(kind: &str, object: &Value) -> String {
     format!("{{\"type\":\"{kind}\",{}", object.to_string().trim_start_matches('{'))
 }
