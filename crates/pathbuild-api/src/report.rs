@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use camino::Utf8PathBuf;
+use pathbuild_diagnostic::messages::drawing::WIDTH_IGNORED;
 use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Lang};
 use pathbuild_path::PathName;
 use pathbuild_workspace::Workspace;
@@ -253,7 +254,9 @@ impl EmitReport {
 impl LeftOutElements {
     /// Counts the elements of each path that are not part of its program, by type.
     fn of(diagnostics: &[Diagnostic]) -> Vec<Self> {
-        let curves = diagnostics.iter().filter(|found| found.code() == Code::UnsupportedCurve);
+        let is_left_out =
+            |found: &&Diagnostic| found.code() == Code::UnsupportedCurve && *found.message != WIDTH_IGNORED;
+        let curves = diagnostics.iter().filter(is_left_out);
         let curves: BTreeSet<_> = curves.map(|found| (&found.path, &found.file, &found.place)).collect();
         let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
         for (path, file, place) in curves {
