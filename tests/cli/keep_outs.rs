@@ -255,6 +255,31 @@ fn a_fault_within_a_component_has_the_components_heights() {
     assert_eq!(codes(&run), ["407"], "{run}");
 }
 
+/// A component has a sweep height of its own, whatever that of the project.
+#[test]
+fn the_path_that_must_sweep_higher_is_named() {
+    let component = "layer 1235.1P\nstart 0,0 \"T5 O2 I5 B0 MAl\"\nmill 0,0 5,0\nsweep 5,0 15,0\n\
+        mill 15,0 20,0\nend 20,0\n";
+    let help = |height: &str, own: &str| {
+        let project = format!(
+            "sweep 0,0 20,0\nsubpath 20,0 40,0 \">1235.1P{height}\"\nend 40,0\nlayer clamps\n\
+             polyline 29,-1 31,-1 31,1 29,1 closed\ntext 30,0 \"Z20\" height 0.5\n"
+        );
+        let component = component.replace("MAl", &format!("MAl{own}"));
+        let place = embedding(&project).file("1235.1P.dxf", dxf(&component));
+        let run = place.run("check 8001.1P.dxf");
+        run.stderr.lines().find(|line| line.contains("help: ")).map(str::to_owned)
+    };
+    for (height, own, expected) in
+        [("", "", Some("20")), (" H2", "", Some("18")), ("", " S20", None), (" H2", " S17.9", Some("18"))]
+    {
+        let expected = expected.map(|height| format!("give path 1235.1P an S of {height} or more"));
+        let help = help(height, own);
+        assert_eq!(help.is_some(), expected.is_some(), "{height} {own}: {help:?}");
+        assert!(help.unwrap_or_default().contains(&expected.unwrap_or_default()), "{height} {own}");
+    }
+}
+
 /// The emitted path may have a greater O than the paths that it embeds.
 #[test]
 fn the_largest_cutter_of_a_program_keeps_away() {

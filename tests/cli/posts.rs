@@ -264,6 +264,34 @@ fn macros_of_the_configuration_win_over_the_posts() {
     assert!(place.run("emit 1234.1P --post my.cbpp -o -").stdout.starts_with("(anna)"));
 }
 
+/// A mistake in a macro is reported where the macro stands.
+#[test]
+fn a_wrong_macro_of_the_configuration_is_not_a_mistake_of_the_post() {
+    let post = |macros: &str| {
+        format!(
+            "<PostProcessor><PostProcessorMacros>{macros}</PostProcessorMacros><PostFile>{{$who}}\n{{$mops}}\n{{$footer}}</PostFile></PostProcessor>"
+        )
+    };
+    for (value, problem) in [("{$nix}", "unknown macro {$nix}"), ("{$nix", "a macro")] {
+        let place = library("").file("my.cbpp", post(&format!("$who={value}")));
+        let run = place.run("emit 1234.1P --post my.cbpp -o - --format concise");
+        assert!(run.stderr.starts_with("my.cbpp:1:"), "{run}");
+        assert!(run.stderr.contains(&format!("{problem} in PostProcessorMacros")), "{run}");
+        let macros = format!("[macros]\nwho = \"{value}\"\n[tool.2mm]");
+        let place = Place::of(&LIBRARY.replace("[tool.2mm]", &macros)).file("my.cbpp", post(""));
+        let run = place.run("emit 1234.1P --post my.cbpp -o - --format concise");
+        assert!(run.stderr.contains(&format!("] {problem} in [macros]")), "{run}");
+        assert!(!run.stderr.starts_with("my.cbpp"), "{run}");
+    }
+    for (name, is_ignored) in [("mop.name", true), ("tool.length", false)] {
+        let macros = format!("[macros]\nwho = \"\"\n\"{name}\" = \"7\"\n[tool.2mm]");
+        let place = Place::of(&LIBRARY.replace("[tool.2mm]", &macros)).file("my.cbpp", post(""));
+        let run = place.run("emit 1234.1P --post my.cbpp -o - --format concise");
+        let note = format!("${name} is built in; its definition is ignored");
+        assert_eq!(run.stderr.contains(&note), is_ignored, "{run}");
+    }
+}
+
 #[test]
 fn emit_says_what_verify_says_of_the_written_program() {
     for (z, is_low) in [("-10", false), ("-10.1", true)] {

@@ -396,6 +396,13 @@ fn combinations_beyond_a_thousand_are_cut_with_a_warning() {
     let cut = place(":A?0123456789 :B?0123456789 :C0,1,2,3,4,5,6,7,8,9,21")
         .run("check --all-bindings 2051.dxf --lang de");
     assert_snapshot!(without_times(&cut.to_string()));
+    for (count, is_each_checked) in [(1000, true), (1001, false)] {
+        let values: Vec<String> =
+            (0..count).map(|number| format!("{}", f64::from(number) / 1000.0)).collect();
+        let definitions = format!(":A{} :B?01 :C?01", values.join(","));
+        let cut = place(&definitions).run("check --all-bindings 2051.dxf");
+        assert_eq!(!cut.stderr.contains("not even each value"), is_each_checked, "{cut}");
+    }
 }
 
 /// Removes the durations, which vary between runs.

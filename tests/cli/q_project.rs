@@ -291,6 +291,21 @@ fn a_proxy_line_must_agree_with_its_path() {
     expect(&[(PROXY, &PROXY.replace("subpath 0,0 40,0", "subpath arc 0,30 40,30 r 30"))], 0);
 }
 
+/// An umlaut may be one character or two, which look the same.
+#[test]
+fn materials_that_only_look_the_same_are_told_apart() {
+    let library = PAIR.split_once("\n== ").unwrap().1.replace("MPlate", "MBl\u{e4}ch");
+    for (drawn, code) in [(PROXY, "PB517"), (EMBEDDING, "PB516")] {
+        let drawn = drawn.replace("MPlate", "MBl\u{e4}ch");
+        for (material, is_noted) in [("MBla\u{308}ch", true), ("MBlech", false)] {
+            let changed = library.replace(&drawn, &drawn.replace("MBl\u{e4}ch", material));
+            let run = Place::of(&format!("== {changed}")).run("check --format json");
+            let mut lines = run.stdout.lines().filter(|line| line.contains(code));
+            assert_eq!(lines.any(|line| line.contains("as two characters")), is_noted, "{run}");
+        }
+    }
+}
+
 #[test]
 fn a_proxy_line_from_start_to_end_of_another_path_has_the_wrong_name() {
     let second =

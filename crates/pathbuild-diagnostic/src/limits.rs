@@ -16,8 +16,6 @@ words! {
     TEXT_WITH_VALUES: "the length of a text with the values of its variables", "die Länge eines Textes mit den Werten seiner Variablen";
     /// The quantity that the limit `seconds-per-path` bounds.
     TIME_OF_PATH: "the time that this path takes", "die Zeit, die dieser Pfad braucht";
-    /// The quantity that the limit `embedding-moves` bounds, for a program with moves that `z-split` divides.
-    MOVES_CUT: "the number of moves after division by z-split ({moves})", "die Zahl der Bewegungen nach der Teilung durch z-split ({moves})";
     /// The quantity that `file-size` and other limits of sizes bound.
     FILE_SIZE: "the file's size of {size} bytes", "die Dateigröße von {size} Bytes";
     /// Reason why a file is not read: it is larger than a limit such as `file-size`.
@@ -38,11 +36,6 @@ pub fn exceeded(what: impl Into<Value>, limit: impl Into<Value>, key: &str) -> D
 /// Returns PB005 for a file of `size` bytes.
 pub fn file_too_large(size: u64, limit: u64, key: &str) -> Diagnostic {
     exceeded(Sentence::new(&FILE_SIZE).with("size", size), bytes(limit), key)
-}
-
-/// Returns the quantity that the limit `embedding-moves` bounds: the number of moves after `z-split` has divided them.
-pub fn moves_after_splitting(moves: u64) -> Sentence {
-    Sentence::new(&MOVES_CUT).with("moves", moves)
 }
 
 /// Returns the reason why a file of `size` bytes is not read.

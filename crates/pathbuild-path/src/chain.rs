@@ -6,7 +6,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::parameters as messages;
 
 use crate::approx::above;
-use crate::element::Origin;
+use crate::element::{Cut, Origin};
 use crate::geometry::{Curve, Line, Xy};
 use crate::letter::Letter;
 use crate::path::{CutParameters, Path, Segment, SegmentKind};
@@ -167,6 +167,7 @@ impl<'a> ChainBuilder<'a> {
                     Chain { infeed, first_depth: parameters.first_depth, members: *chained..members.len() };
                 let doubt = chain.doubtful_first_depth(path, &members[*chained..]);
                 diagnostics.extend(doubt.filter(|doubt| is_new(diagnostics, doubt)));
+                diagnostics.extend(chain.rise_in_groove(path, &members[*chained..]));
                 items.push(Item::Chain(chain));
             }
             None => diagnostics.push(first.missing_infeed(path)),
@@ -207,6 +208,19 @@ impl Chain {
         let own = path.drawn.text(first.cut(path).chain_letters);
         let fault = own.and_then(|text| text.fault_of(Letter::W));
         Some(first.origin(path).at(problem).with_text(fault))
+    }
+
+    /// Returns PB211 if a slot cutter would rise in the groove that it mills: to the support bars of a segment, or to one with a higher bottom.
+    fn rise_in_groove(&self, path: &Path, members: &[ChainSegment]) -> Option<Diagnostic> {
+        self.first_depth.filter(|_| path.may_be_slot_cutter)?;
+        let top = |cut: &CutParameters| {
+            let bars = cut.bars.as_ref().filter(|_| cut.cut == Cut::Support);
+            bars.map_or(cut.bottom, |bars| bars.top.max(cut.bottom))
+        };
+        let lowest = members.iter().map(|member| member.cut(path).bottom).fold(f64::INFINITY, f64::min);
+        let higher = members.iter().find(|member| above(top(member.cut(path)), lowest))?;
+        let problem = Diagnostic::new(&messages::RISE_IN_GROOVE).with("height", top(higher.cut(path)));
+        Some(higher.origin(path).at(problem))
     }
 }
 

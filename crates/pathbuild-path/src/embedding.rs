@@ -85,9 +85,14 @@ pub struct SubpathCall {
 /// The letters of a subpath segment that are compared with the embedding path and with the embedded path.
 const COMPARED_LETTERS: [Letter; 5] = [Letter::Embed, Letter::T, Letter::O, Letter::M, Letter::H];
 
-/// Whether a character is drawn over the letter before it: a with U+0308 looks like ä.
-fn is_combining_mark(character: char) -> bool {
-    ('\u{300}'..='\u{36f}').contains(&character)
+/// Adds a note to a finding about two texts that differ if one of them has a character that is drawn over the letter before it: a with U+0308
+/// looks like ä.
+pub(crate) fn with_note_on_combined_letters(problem: Diagnostic) -> Diagnostic {
+    let is_combining_mark = |character| ('\u{300}'..='\u{36f}').contains(&character);
+    let is_combined = ["here", "there", "segment", "path"]
+        .iter()
+        .any(|name| problem.quoted(name).is_some_and(|text| text.contains(is_combining_mark)));
+    if is_combined { problem.note(&messages::COMBINED_LETTERS, Vec::new()) } else { problem }
 }
 
 impl PathHeader {
@@ -592,10 +597,8 @@ impl<'a> SubpathChecker<'a> {
         let place = match (&call.subpath.material, &inner.material) {
             (Some(here), Some(there)) => {
                 let differs = || {
-                    let problem =
-                        self.mismatch(call, Letter::M, &Value::quoted(here), &Value::quoted(there), inner);
-                    let is_combined = [here, there].into_iter().any(|text| text.contains(is_combining_mark));
-                    if is_combined { problem.note(&messages::COMBINED_LETTERS, Vec::new()) } else { problem }
+                    let (here, there) = (Value::quoted(here), Value::quoted(there));
+                    with_note_on_combined_letters(self.mismatch(call, Letter::M, &here, &there, inner))
                 };
                 return (here != there).then(differs);
             }

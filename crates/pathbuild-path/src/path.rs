@@ -21,6 +21,8 @@ pub struct Path {
     pub name: CaseSensitiveName,
     /// Cutter diameter (O) in mm.
     pub tool: f64,
+    /// Whether the cutter may be wider than its shank, so that it must not rise in its groove: a configured slot cutter, or one that is not configured.
+    pub may_be_slot_cutter: bool,
     /// Thickness of the material (T) in mm.
     pub thickness: f64,
     /// S in mm, if the path gives it; the default depends on its role: [`Path::embedded_sweep_height`].

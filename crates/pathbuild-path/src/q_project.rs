@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value};
 
 use crate::approx::{coincide, near};
 use crate::bind::bind;
-use crate::embedding::CHORD_TOLERANCE;
+use crate::embedding::{CHORD_TOLERANCE, with_note_on_combined_letters};
 use crate::language::Language;
 use crate::letter::Letter;
 use crate::names::PathName;
@@ -314,7 +314,7 @@ fn differing(
     name: &PathName,
 ) -> Diagnostic {
     let problem = Diagnostic::new(message).quoting("name", name.as_str()).quoting("letter", letter);
-    problem.with("here", here).with("there", there).with_text(text)
+    with_note_on_combined_letters(problem.with("here", here).with("there", there).with_text(text))
 }
 
 /// Returns the differences in T, O and M between a proxy line and its path.

@@ -215,10 +215,12 @@ fn not_a_number(letter: Letter, value: &str) -> Diagnostic {
         false => &messages::NOT_A_NUMBER,
     };
     let visible = value.replace(is_special_space, "\u{2423}");
-    // Only B is usually negative, and S is above the material.
+    // Only B is usually negative, S is above the material, and a feed is in mm/min.
     let example = match letter {
         Letter::B => "-0.3",
         Letter::S => "5.5",
+        Letter::F => "150",
+        Letter::Z => "50",
         _ => "0.3",
     };
     let problem = Diagnostic::new(message).with("letter", letter.as_char()).quoting("value", visible);

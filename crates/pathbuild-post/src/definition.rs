@@ -266,11 +266,6 @@ impl PostDefinition {
         let stands = |operation: &&Operation| {
             operation.cuts() && (operation.speed.is_none() || !operation.spindle.is_some_and(Turning::is_on))
         };
-        if let Engine::Cad6(definition) = &self.engine
-            && definition.has_one_speed_per_tool()
-        {
-            check_one_speed_per_tool(job)?;
-        }
         match job.operations.iter().find(stands).filter(|_| options.needs_speed && is_switched) {
             Some(operation) => {
                 let tool = &operation.tool;
@@ -282,7 +277,12 @@ impl PostDefinition {
                 };
                 Err(Box::new(diagnostic.quoting("operation", &*operation.name)))
             }
-            None => Ok(()),
+            None => match &self.engine {
+                Engine::Cad6(definition) if definition.has_one_speed_per_tool() => {
+                    check_one_speed_per_tool(job)
+                }
+                _ => Ok(()),
+            },
         }
     }
 
@@ -374,9 +374,11 @@ fn check_one_speed_per_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
         }
         let (operation, other) = if first.speed.is_some() { (first, later) } else { (later, first) };
         if let Some(speed) = operation.speed {
-            let diagnostic =
-                Diagnostic::new(&posts::ONE_SPEED_A_TOOL).with("index", u64::from(operation.tool.index));
-            let diagnostic = diagnostic.with("speed", speed).with("other", other.speed.unwrap_or(0.0));
+            let diagnostic = match other.speed {
+                Some(other) => Diagnostic::new(&posts::ONE_SPEED_A_TOOL).with("other", other),
+                None => Diagnostic::new(&posts::SPEED_OF_SOME_OPERATIONS),
+            };
+            let diagnostic = diagnostic.with("index", u64::from(operation.tool.index)).with("speed", speed);
             return Err(Box::new(diagnostic.quoting("operation", &*other.name)));
         }
     }

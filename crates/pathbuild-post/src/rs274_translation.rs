@@ -55,11 +55,12 @@ impl ModeWords {
             self.unstated.push(unit.at_line(number, None));
         }
         let is_arc = states(&[20, 30]);
-        for (mode, words, taken) in [(1, "G90, G91", "G90"), (2, "G17", "G17")] {
-            if (mode == 1 || is_arc) && !std::mem::replace(&mut self.stated[mode], true) {
-                let diagnostic = Diagnostic::new(&gcode::MODES_NOT_STATED).quoting("words", words);
-                self.unstated.push(diagnostic.quoting("taken", taken).at_line(number, None));
-            }
+        if !std::mem::replace(&mut self.stated[1], true) {
+            self.unstated.push(Diagnostic::new(&gcode::DISTANCE_NOT_STATED).at_line(number, None));
+        }
+        if is_arc && !std::mem::replace(&mut self.stated[2], true) {
+            let plane = Diagnostic::new(&gcode::MODES_NOT_STATED).quoting("words", "G17");
+            self.unstated.push(plane.quoting("taken", "G17").at_line(number, None));
         }
     }
 }

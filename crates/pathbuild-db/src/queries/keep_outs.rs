@@ -142,7 +142,8 @@ impl<'t> Search<'t> {
         let map =
             KeepOutMap::new(self.clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline)));
         let radius = program.largest_cutter() / 2.0;
-        let mut entries: BTreeMap<CollisionKey, Collision> = BTreeMap::new();
+        // Each with the path of its first move.
+        let mut entries: BTreeMap<CollisionKey, (u32, Collision)> = BTreeMap::new();
         // The last lift belongs to no step.
         let milling = program
             .moves()
@@ -158,25 +159,35 @@ impl<'t> Search<'t> {
                 let (occurrence, element) =
                     self.occurrences().innermost_common_path(step, self.clamps[clamp].occurrence);
                 let entry = CollisionKey { clamp, occurrence, element, probe, what: what.en };
-                entries.entry(entry).or_insert(Collision::new(what)).add(&way);
+                let (_, collision) = entries.entry(entry).or_insert((step.occurrence, Collision::new(what)));
+                collision.add(&way);
             }
         }
-        entries.iter().map(|(entry, collision)| self.finding(entry, collision)).collect()
+        let finding =
+            |(entry, (mover, collision)): (&CollisionKey, &(u32, Collision))| self.finding(entry, *mover, collision);
+        entries.iter().map(finding).collect()
     }
 
-    fn finding(&self, entry: &CollisionKey, collision: &Collision) -> Diagnostic {
+    fn finding(&self, entry: &CollisionKey, mover: u32, collision: &Collision) -> Diagnostic {
         let TracedProgram { program, trace, .. } = self.traced;
         let around = &trace.occurrences[entry.occurrence as usize];
         let clamp = &self.clamps[entry.clamp];
         let message = match entry.probe {
             Some(_) => &messages::PROBING_INTO_CLAMP,
-            None if collision.what == &words::RAPID_MOVE => &messages::MOVES_INTO_CLAMP,
-            None => &messages::CUTS_INTO_CLAMP,
+            None if collision.what != &words::RAPID_MOVE => &messages::CUTS_INTO_CLAMP,
+            None if mover != entry.occurrence => &messages::COMPONENT_INTO_CLAMP,
+            None => &messages::MOVES_INTO_CLAMP,
         };
         let found = collision
             .diagnostic(message, program.largest_cutter(), clamp, around.raised)
             .with("clamp", self.place_of(clamp, entry.occurrence));
         let all = self.occurrences();
+        let found = if mover == entry.occurrence {
+            found
+        } else {
+            let sweep_height = clamp.placed.height - trace.occurrences[mover as usize].raised;
+            found.quoting("component", all.part(mover).path.name.as_str()).with("sweep_height", sweep_height)
+        };
         match entry.probe.filter(|probe| probe.occurrence == entry.occurrence) {
             Some(ProbeOrigin { occurrence, probe }) => {
                 all.at_origin(occurrence, &all.part(occurrence).path.probes[probe].origin, found)

@@ -6,7 +6,8 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, Severity};
 use pathbuild_dxf::Drawing;
 use pathbuild_path::{
-    AssignedText, Bindings, CaseSensitiveName, Combinations, PathName, Position, RawPath, SourceMap,
+    AssignedText, Bindings, CaseSensitiveName, Combinations, Definition, PathName, Position, RawPath,
+    SourceMap,
 };
 
 use crate::database::{Db, abandon_query, catch_bugs};
@@ -161,7 +162,13 @@ pub fn combinations(
     let Combinations { chosen, all } = Combinations::new(&raw.definitions, limit);
     let is_cut = (chosen.len() as u64) < all;
     let warning = || {
-        let mut warning = Diagnostic::new(&messages::COMBINATIONS_CUT)
+        let has_many_values = |definition: &Definition| definition.corner_values().len() > limit;
+        let message = if raw.definitions.iter().any(has_many_values) {
+            &messages::VALUES_CUT
+        } else {
+            &messages::COMBINATIONS_CUT
+        };
+        let mut warning = Diagnostic::new(message)
             .with("checked", chosen.len())
             .with("all", all)
             .in_path(raw.name.as_str())

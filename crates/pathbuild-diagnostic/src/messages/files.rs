@@ -104,6 +104,13 @@ messages! {
         help_en: "check infeed I and depth B (a wrong I gives thousands of passes), or embed fewer paths in one project; if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I und Tiefe B prüfen (ein falsches I ergibt tausende Durchgänge) oder weniger Pfade in einem Projekt einbetten; wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
+    /// A path with more moves than the limit permits once `z-split` has divided them.
+    TOO_MANY_PIECES: LimitReached {
+        en: "z-split divides the moves of this path into {count}, which exceeds the limit of {limit}",
+        de: "z-split teilt die Bewegungen dieses Pfads in {count} und überschreitet damit die Grenze von {limit}",
+        help_en: "raise `z-split`, which is the length of a piece; if that many are intended, raise `{key}` under [limits] in pathbuild.toml",
+        help_de: "`z-split`, die Länge eines Stücks, erhöhen; sind so viele gewollt, `{key}` unter [limits] in pathbuild.toml erhöhen",
+    }
     /// A program that would take more memory than the limit permits.
     TOO_MUCH_MEMORY: LimitReached {
         en: "this path has {count} moves, which take about {size} bytes of memory; the limit is {limit}",

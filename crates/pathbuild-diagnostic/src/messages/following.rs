@@ -251,7 +251,14 @@ messages! {
         help_en: "choose the right meaning with `--unit-codes`: the table of XpertMILL's import filter contradicts its examples",
         help_de: "mit `--unit-codes` die richtige Bedeutung wählen: die Tabelle des Importfilters von XpertMILL widerspricht seinen Beispielen",
     }
-    /// A program that does not state a mode such as G90 or G17.
+    /// A program that does not state whether its coordinates are absolute.
+    DISTANCE_NOT_STATED: ModesNotStated {
+        en: "there is neither G90 nor G91 before the first move that depends on it; G90 is assumed",
+        de: "vor der ersten Bewegung, die davon abhängt, fehlt G90 oder G91; G90 wird angenommen",
+        help_en: "state it: the control keeps what the previous program set",
+        help_de: "das Wort angeben: die Steuerung behält sonst, was das vorige Programm gesetzt hat",
+    }
+    /// A program that does not state a mode such as G17.
     MODES_NOT_STATED: ModesNotStated {
         en: "there is no {words} before the first move that depends on it; {taken} is assumed",
         de: "vor der ersten Bewegung, die davon abhängt, fehlt {words}; {taken} wird angenommen",

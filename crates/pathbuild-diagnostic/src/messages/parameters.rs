@@ -272,6 +272,13 @@ messages! {
         help_en: "write W{example} for a first pass of one infeed: W is the height of the first pass above the plate",
         help_de: "W{example} schreiben, wenn der erste Durchgang eine Zustellung tief sein soll: W ist seine Höhe über der Platte",
     }
+    /// Sweepless milling in which the cutter rises.
+    RISE_IN_GROOVE: DoubtfulValue {
+        en: "the chain is milled with W, so the cutter stays in its groove; but here it rises to {height} by rapid move, and a T-slot cutter would break",
+        de: "die Kette wird mit W gefräst, der Fräser bleibt also in seiner Nut; hier fährt er aber im Eilgang auf {height} hinauf, und ein T-Nutenfräser bräche ab",
+        help_en: "in a T-slot, give all segments of the chain the same B, without marks and support bars; if the cutter is no T-slot cutter, describe it as [tool.NAME] in pathbuild.toml, or leave out W",
+        help_de: "in einer T-Nut allen Segmenten der Kette dasselbe B geben, ohne Markierungen und Stützstege; ist es kein T-Nutenfräser, ihn als [tool.NAME] in pathbuild.toml beschreiben oder W weglassen",
+    }
     /// Support bars that end below the plate or hardly above it.
     THIN_BARS: DoubtfulValue {
         en: "D is {value}: the support bars end at this height, measured from the plate, too low to hold anything",
@@ -656,6 +663,13 @@ messages! {
         de: "{checked} von {all} Kombinationen der Variablenwerte wurden geprüft",
         help_en: "check the project if a certain combination matters: projects are checked with the values that they set; here each value occurred in at least one combination",
         help_de: "kommt es auf eine bestimmte Kombination an, das Projekt prüfen: Projekte werden mit den Werten geprüft, die sie setzen; hier kam jeder Wert in mindestens einer Kombination vor",
+    }
+    /// More values of one variable than combinations are checked.
+    VALUES_CUT: LimitReached {
+        en: "{checked} of {all} combinations of the variables' values were checked, and not even each value",
+        de: "{checked} von {all} Kombinationen der Variablenwerte wurden geprüft, und nicht einmal jeder Wert",
+        help_en: "check the projects that embed the path: projects are checked with the values that they set",
+        help_de: "die Projekte prüfen, die den Pfad einbetten: Projekte werden mit den Werten geprüft, die sie setzen",
     }
     /// Note: the values of the variables with which the problem occurs.
     WITH_VALUES: VariableValueNotAllowed {

@@ -164,6 +164,13 @@ messages! {
         help_en: "raise S to {height} or more (rapids at S are straight), or move the clamp",
         help_de: "S auf {height} oder mehr erhöhen (Eilgänge auf S verlaufen gerade) oder das Spannmittel versetzen",
     }
+    /// An embedded path that moves into a clamp, reported at the segment that embeds it.
+    COMPONENT_INTO_CLAMP: InsideKeepOut {
+        en: "the tool, O{tool}, hits the clamp of layer {layer} {clamp}, which is {height} mm high: {what} in path {component}, lowest Z {z}, moves: {count}",
+        de: "der Fräser, O{tool}, trifft das Spannmittel auf Layer {layer} {clamp}, das {height} mm hoch ist: {what} in Pfad {component}, tiefstes Z {z}, Bewegungen: {count}",
+        help_en: "give path {component} an S of {sweep_height} or more (rapids at S are straight), or move the clamp",
+        help_de: "Pfad {component} ein S von {sweep_height} oder mehr geben (Eilgänge auf S verlaufen gerade) oder das Spannmittel versetzen",
+    }
     /// A program that cuts into a clamp, reported at the drawn element.
     CUTS_INTO_CLAMP: InsideKeepOut {
         en: "the tool, O{tool}, hits the clamp of layer {layer} {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
@@ -305,7 +312,7 @@ messages! {
         help_en: "if the value of the path is right, write its {letter} on the segment; otherwise embed another component",
         help_de: "ist der Wert des Pfads richtig, sein {letter} an das Segment schreiben; sonst ein anderes Bauteil einbetten",
     }
-    /// Note: one of two materials that differ has an accent as a character of its own, so that they may look the same.
+    /// Note: one of two texts that differ has an accent as a character of its own, so that they may look the same.
     COMBINED_LETTERS: SubpathParameterDiffers {
         en: "one of them has a letter and its accent as two characters, which look like one: type the text anew there",
         de: "in einem der Texte besteht ein Buchstabe aus zwei Zeichen, etwa a und ¨, die wie eines aussehen: dort den Text neu eintippen",

@@ -134,6 +134,13 @@ messages! {
         help_en: "give the second speed a tool number of its own in pathbuild.toml, or write a program for each path",
         help_de: "der zweiten Drehzahl in pathbuild.toml eine eigene Werkzeugnummer geben oder je Pfad ein Programm schreiben",
     }
+    /// A spindle speed for some operations of a tool only, with a definition that writes the speed only at tool changes.
+    SPEED_OF_SOME_OPERATIONS: NothingToPost {
+        en: "T{index} runs at {speed} 1/min, but for {operation} no speed is known, and this post writes one speed for each tool",
+        de: "T{index} läuft mit {speed} 1/min, für {operation} ist aber keine Drehzahl bekannt, und dieser Postprozessor schreibt eine je Werkzeug",
+        help_en: "state S before the first cut of the program, or nowhere in it",
+        help_de: "S vor dem ersten Schnitt des Programms angeben oder nirgends im Programm",
+    }
     /// Note: the coolant is not switched as the program or the tool table says, because the definition lacks the macro for it.
     COOLANT_NOT_WRITTEN: DoubtfulPost {
         en: "the post has no {macro}: the output does not follow the coolant that the program or the tool table sets",

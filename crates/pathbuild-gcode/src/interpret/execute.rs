@@ -2,7 +2,7 @@
 //! the text.
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Message, Severity};
+use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
 use pathbuild_motion::{Action, Axes, Change, Group, Move, Pace, Step};
 
 use super::codes;
@@ -65,11 +65,11 @@ impl<'i> Interpreter<'i> {
         let has_end = [20, 300].iter().any(|code| self.rules.words.has_m(*code));
         if !self.ended && !is_framed && has_end {
             let words = match self.rules.spelling.percent {
-                Percent::Frame => "M2, M30, %",
-                Percent::Start | Percent::Title => "M30",
-                Percent::Refused => "M2, M30",
+                Percent::Frame => &Text { en: "M2, M30 or %", de: "M2, M30 oder %" },
+                Percent::Start | Percent::Title => &Text { en: "M30", de: "M30" },
+                Percent::Refused => &Text { en: "M2 or M30", de: "M2 oder M30" },
             };
-            self.problems.add_at_line(&say::NO_END, last_line, |d| d.quoting("words", words));
+            self.problems.add_at_line(&say::NO_END, last_line, |d| d.with("words", words));
         }
         self.problems.append(self.half_circles.finish());
         self.problems

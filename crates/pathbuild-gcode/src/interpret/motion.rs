@@ -139,9 +139,7 @@ impl Interpreter<'_> {
             return;
         }
         if !std::mem::replace(&mut self.state.stated.distance, true) {
-            self.report(block, &say::MODES_NOT_STATED, span, |d| {
-                d.quoting("words", "G90, G91").quoting("taken", "G90")
-            });
+            self.report(block, &say::DISTANCE_NOT_STATED, span, |d| d);
         }
         let depends_on_plane = matches!(motion, Motion::Arc { .. }) && !self.rules.one_command;
         if depends_on_plane && !std::mem::replace(&mut self.state.stated.plane, true) {

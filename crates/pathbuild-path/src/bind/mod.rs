@@ -152,6 +152,7 @@ impl<'a> Binder<'a> {
         let mut path = Path {
             name: self.raw.name.clone(),
             tool: tool.unwrap_or_default(),
+            may_be_slot_cutter: self.tool.as_ref().is_none_or(|tool| tool.is_slot_cutter),
             thickness: thickness.unwrap_or_default(),
             sweep_height,
             material: self.path_text(Letter::M),

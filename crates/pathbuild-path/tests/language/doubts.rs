@@ -1,7 +1,7 @@
 //! Tests permitted values that are suspicious to a machinist: PB116 and PB211.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_path::{Bindings, DoubtThresholds, Language, examine};
+use pathbuild_path::{Bindings, DoubtThresholds, Language, PathTool, PathTools, examine};
 
 use crate::support::{codes, compile, compile_raw, language, path, raw, read_as};
 
@@ -459,9 +459,41 @@ fn the_first_depth_lies_in_the_material_of_the_chain() {
     assert_eq!(line("T5 O2 I1 B1", "W6"), ["PB211 W6"]);
     // W applies to the whole chain, so it is compared with the lowest bottom of all segments, B1.
     let deeper = path("T5 O2 I1 B3 W1", "mill 0,0 20,0\nmill 20,0 40,0 \"B1\"\nend 40,0");
-    assert_eq!(findings(&deeper, MACHINE), [""; 0]);
+    let found = findings(&deeper, MACHINE);
+    assert!(found.iter().all(|found| !found.contains("W1")), "{found:?}");
     let chains = "mill 0,0 10,0\nsweep 10,0 20,0\nmill 20,0 30,0\nend 30,0";
     assert_eq!(findings(&path("T5 O2 I1 B1 W9", chains), MACHINE), ["PB211 "], "the path's is said once");
+}
+
+/// The rapid move up to a higher segment, a mark or the bars breaks a slot cutter.
+#[test]
+fn a_slot_cutter_stays_at_its_depth() {
+    let tool = |is_slot_cutter| PathTool {
+        name: "a".into(),
+        is_named: false,
+        chip_load: None,
+        cutting_length: None,
+        is_slot_cutter,
+    };
+    let doubts = |start: &str, second: &str, tool: Option<PathTool>| {
+        let tools = PathTools::new(move |_, _| tool.clone());
+        let drawing = path(start, &format!("mill 0,0 20,0\n{second}\nend 40,0"));
+        all_codes(&drawing, &Language { tools, ..language() })
+    };
+    let start = "T5 O2 I1 B1 D2 P3 U9 W4";
+    for (second, rises) in [
+        ("mill 20,0 40,0", false),
+        ("mill 20,0 40,0 \"B1.01\"", true),
+        ("mill 20,0 40,0 \"B0.9\"", true),
+        ("mark 20,0 40,0 \"D4\"", true),
+        ("bars 20,0 40,0", true),
+    ] {
+        let expected = Vec::from_iter(rises.then_some("PB211"));
+        assert_eq!(doubts(start, second, None), expected, "{second}");
+        assert_eq!(doubts(start, second, Some(tool(true))), expected, "{second}");
+        assert_eq!(doubts(start, second, Some(tool(false))), [""; 0], "{second}");
+        assert_eq!(doubts(&start.replace(" W4", ""), second, None), [""; 0], "{second}");
+    }
 }
 
 #[test]

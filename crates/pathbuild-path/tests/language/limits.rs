@@ -92,7 +92,7 @@ fn an_elements_values_are_greater_than_0() {
     let table = [
         ("mill 0,0 40,0 \"#\"", "FICW"),
         ("mark 0,0 40,0 \"D0 #\"", "FICW"),
-        ("bars 0,0 40,0 \"#\"", "FICWP"),
+        ("bars 0,0 40,0 \"#\"", "FICP"),
         ("sweep 0,0 40,0\ncircle 40,0 d 3 \"#\"", "FC"),
         ("sweep 0,0 40,0\ncircle 40,0 d 8 \"#\"", "FI"),
         ("sweep 0,0 40,0\ncircle BORDER 40,0 d 10 \"#\"", "FIP"),

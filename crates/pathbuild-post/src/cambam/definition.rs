@@ -367,7 +367,7 @@ fn user_macro(line: &str) -> Option<(&str, &str)> {
 }
 
 /// Whether a macro with this name is built in and cannot be redefined. Built-in values that may be missing can be defined by the user.
-fn is_built_in(name: &str) -> bool {
+pub(super) fn is_built_in(name: &str) -> bool {
     match Macro::parse(name) {
         Ok(Macro::User(_)) => false,
         Ok(Macro::Value(value)) => !value.may_be_missing(),
@@ -382,7 +382,16 @@ fn template_error(section: Section, error: &TemplateError, file: &Utf8Path) -> D
             .quoting("macro", format!("{{${call}}}"))
             .with("expected", *expected),
     };
-    diagnostic.quoting("section", section.name()).in_file(file).at_line(error.line, None)
+    in_section(diagnostic, section, file, error.line)
+}
+
+/// Adds a section to a finding, and its place in the definition unless it is a macro of the configuration.
+fn in_section(diagnostic: Diagnostic, section: Section, file: &Utf8Path, line: u32) -> Diagnostic {
+    let diagnostic = diagnostic.quoting("section", section.name());
+    match section {
+        Section::ConfiguredMacro => diagnostic,
+        _ => diagnostic.in_file(file).at_line((line > 0).then_some(line), None),
+    }
 }
 
 /// Maximum number of macro names that an undefined macro is compared with to suggest one, so that files with many undefined macros are
@@ -410,7 +419,7 @@ impl<'a> Plan<'a> {
         options: &'a PostOptions<'a>,
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut diagnostics = Vec::new();
-        let section = Section::UserMacro;
+        let section = Section::ConfiguredMacro;
         let mut macros = Vec::new();
         for PostMacro { name, value } in options.macros.iter().filter(|own| !is_built_in(&own.name)) {
             match Template::parse(section, value, 0) {
@@ -475,8 +484,7 @@ impl<'a> Plan<'a> {
 
     /// Adds the position in the definition to a diagnostic.
     pub(super) fn locate(&self, diagnostic: Diagnostic, section: Section, line: u32) -> Diagnostic {
-        let line = (line > 0).then_some(line);
-        diagnostic.quoting("section", section.name()).in_file(self.file).at_line(line, None)
+        in_section(diagnostic, section, self.file, line)
     }
 }
 

@@ -24,7 +24,7 @@ use crate::job::{Job, Units};
 use crate::line_words::words;
 use crate::rs274_translation::{Rs274Translation, TranslatedText};
 use crate::target::Target;
-use definition::{Plan, macro_in_braces};
+use definition::{Plan, is_built_in, macro_in_braces};
 use macros::{Macro, State};
 use template::Template;
 use writer::Writer;
@@ -44,6 +44,9 @@ pub(super) fn write(
     let post_build = post_build(definition, file, job, options).map_err(one)?;
     let mut output = Writer::new(&plan).run().map_err(one)?;
     note_switches(&mut output, &plan);
+    for ignored in options.macros.iter().filter(|own| is_built_in(&own.name)) {
+        output.note(&posts::POST_SHADOWED_MACRO, "macro", &format!("${}", ignored.name));
+    }
     match post_build {
         Some(command) if !options.run_post_build => {
             output.note(&posts::POST_BUILD_SKIPPED, "command", &command.join(" "));

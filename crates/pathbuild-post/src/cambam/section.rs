@@ -10,6 +10,8 @@ macro_rules! sections {
             $($variant,)*
             /// The value of a user macro, which is stored like a section although it has no element of its own.
             UserMacro,
+            /// The value of a user macro of the configuration, which is in no line of the definition.
+            ConfiguredMacro,
         }
 
         impl Section {
@@ -21,13 +23,14 @@ macro_rules! sections {
                 match self {
                     $(Self::$variant => $name,)*
                     Self::UserMacro => "PostProcessorMacros",
+                    Self::ConfiguredMacro => "[macros]",
                 }
             }
 
             /// Whether the section contains entire lines instead of words within a line.
             pub(super) fn holds_lines(self) -> bool {
                 use Section::{
-                    ArcCcw, ArcCw, CannedCycleEnd, CannedCycleStart, Drill, DrillDwell, DrillPeck, Dwell,
+                    ArcCcw, ArcCw, CannedCycleEnd, CannedCycleStart, ConfiguredMacro, Drill, DrillDwell, DrillPeck, Dwell,
                     EndCut, FeedMove, Footer, Header, Mop, PostFile, Probe, Rapid, StartCut, ToolChange,
                     ToolTableItem, UserMacro,
                 };
@@ -35,7 +38,7 @@ macro_rules! sections {
                     self,
                     ArcCcw | ArcCw | CannedCycleEnd | CannedCycleStart | Drill | DrillDwell | DrillPeck
                         | Dwell | EndCut | FeedMove | Footer | Header | Mop | PostFile | Probe | Rapid | StartCut
-                        | ToolChange | ToolTableItem | UserMacro
+                        | ToolChange | ToolTableItem | UserMacro | ConfiguredMacro
                 )
             }
 
@@ -43,7 +46,7 @@ macro_rules! sections {
             pub(super) fn default_text(self) -> &'static str {
                 match self {
                     $(Self::$variant => $default,)*
-                    Self::UserMacro => "",
+                    Self::UserMacro | Self::ConfiguredMacro => "",
                 }
             }
         }

@@ -144,7 +144,7 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn write_template(&mut self, template: &'a Template) -> WriteResult {
-        let kind = usize::from(template.section == Section::UserMacro);
+        let kind = usize::from(matches!(template.section, Section::UserMacro | Section::ConfiguredMacro));
         if self.depth[kind] == MAX_DEPTH {
             let diagnostic = Diagnostic::new(&posts::MACRO_DEPTH).with("limit", MAX_DEPTH);
             return Err(Box::new(self.plan.locate(diagnostic, template.section, 0)));

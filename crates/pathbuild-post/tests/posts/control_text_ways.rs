@@ -240,18 +240,21 @@ fn xpertmill_has_one_speed_for_each_layer() {
     let mill = |tool, speed| {
         let steps = vec![rapid(1.0, 0.0, 5.0), feed(1.0, 0.0, -1.0), rapid(1.0, 0.0, 5.0)];
         let spindle = Some(Turning::Clockwise);
-        Operation { speed: Some(speed), spindle, ..operation("1111.1P", tool, steps) }
+        Operation { speed, spindle, ..operation("1111.1P", tool, steps) }
     };
     let write = |second, speed| {
-        let job = Job { operations: vec![mill(1, 12_000.0), mill(second, speed)], ..job(vec![]) };
+        let job = Job { operations: vec![mill(1, Some(12_000.0)), mill(second, speed)], ..job(vec![]) };
         load("xpertmill").unwrap().write(&job, &PostOptions::default())
     };
-    assert!(
-        texts(&write(1, 6000.0).unwrap_err())[0]
-            .starts_with("PB765 T1 runs at 12000 and, in 1111.1P, at 6000")
-    );
+    for (speed, expected) in [
+        (Some(6000.0), "PB765 T1 runs at 12000 and, in 1111.1P, at 6000"),
+        (None, "PB765 T1 runs at 12000 1/min, but for 1111.1P no speed is known"),
+    ] {
+        let problems = texts(&write(1, speed).unwrap_err());
+        assert!(problems[0].starts_with(expected), "{problems:?}");
+    }
     for (tool, speed) in [(1, 12_000.0), (2, 6000.0)] {
-        let text = write(tool, speed).map(|it| String::from_utf8(it.text).unwrap());
+        let text = write(tool, Some(speed)).map(|it| String::from_utf8(it.text).unwrap());
         let text = text.unwrap_or_else(|errors| panic!("{:?}", texts(&errors)));
         assert!(text.contains(&format!("S{speed}")), "{text}");
     }

@@ -9,7 +9,6 @@ use pathbuild_db::{
     Collision, Database, PlacedKeepOut, Target, check_joined_parts, closure, locate, placed_keep_outs,
     program, summary, traced_program,
 };
-use pathbuild_diagnostic::limits::{exceeded, moves_after_splitting};
 use pathbuild_diagnostic::messages::gcode::FEED_TOO_HIGH;
 use pathbuild_diagnostic::messages::{files, parameters, paths as messages, probes};
 use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity, words};
@@ -174,7 +173,8 @@ fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Op
     // `memory` adds a comment to each move, but `steps` already includes the comments.
     let size = memory(steps) / 2;
     if moves > writing.most_moves {
-        Some(exceeded(moves_after_splitting(moves), writing.most_moves, "embedding-moves"))
+        let problem = Diagnostic::new(&files::TOO_MANY_PIECES).quoting("key", "embedding-moves");
+        Some(problem.with("count", moves).with("limit", writing.most_moves))
     } else if size > writing.most_memory {
         let problem = Diagnostic::new(&files::TOO_MUCH_MEMORY).quoting("key", "program-memory");
         Some(problem.with("count", moves).with("size", size).with("limit", writing.most_memory))
