@@ -163,8 +163,9 @@ impl<'t> Search<'t> {
                 collision.add(&way);
             }
         }
-        let finding =
-            |(entry, (mover, collision)): (&CollisionKey, &(u32, Collision))| self.finding(entry, *mover, collision);
+        let finding = |(entry, (mover, collision)): (&CollisionKey, &(u32, Collision))| {
+            self.finding(entry, *mover, collision)
+        };
         entries.iter().map(finding).collect()
     }
 
