@@ -11,12 +11,13 @@ use pathbuild::german::{self, catalogue};
 use pathbuild_diagnostic::Lang;
 
 /// Texts of the catalogue that are not part of the command line's definition: reasons for rejecting a value.
-const REFUSALS: [&str; 8] = [
+const REFUSALS: [&str; 9] = [
     "expected a number from 1 to 1024",
     "expected a date such as 2026-12-31",
     "there is no such diagnostic: `pathbuild explain` lists all codes",
     "expected FORMAT=FILE",
     "the format is full, concise, json, sarif, github, gitlab, junit or html",
+    "expected the name of a file",
     "the name of the file is missing",
     "unknown dialect",
     "an address is PORT, IP, IP:PORT, localhost or NAME:PORT (drawings, paths and directories stand before --serve)",
