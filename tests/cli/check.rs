@@ -1,6 +1,8 @@
 //! Tests the output of `check`: streams, formats, reports, baseline, summary, exit status. The findings themselves are tested elsewhere.
 //! (book: reference/commands)
 
+use std::fs;
+
 use crate::support::{Place, Run};
 use insta::assert_snapshot;
 use pathbuild_testkit::sheet;
@@ -139,6 +141,7 @@ fn a_baseline_survives_a_move_and_a_save_but_not_another_fault() {
     let place = library();
     assert_eq!(place.run("check --baseline known.txt --update-baseline").status, Some(0));
     let moved = place.file("parts/sub/1236.1P.dxf", dxf(&format!("version R2010\nlineends lf\n{WRONG}")));
+    fs::remove_file(moved.path().join("parts/1236.1P.dxf")).unwrap();
     assert_eq!(moved.run("check parts/sub/1236.1P.dxf --baseline known.txt").status, Some(0));
     let other = moved.file("parts/1236.1P.dxf", dxf(&WRONG.replace("B6", "B7")));
     assert_eq!(other.run("check --baseline known.txt").status, Some(1));

@@ -71,10 +71,12 @@ fn a_file_of_rules_must_be_a_file() {
 /// Writing to a pipe without a reader fails at once; an existing reader gets everything.
 #[test]
 fn a_report_into_a_pipe_has_a_reader_or_is_refused() {
-    for arguments in ["--report json=pipe", "--baseline pipe --update-baseline"] {
+    for (arguments, status, code) in
+        [("--report json=pipe", 1, "PB004"), ("--baseline pipe --update-baseline", 2, "PB003")]
+    {
         let place = place("fifo", "pipe");
         let run = place.run(&format!("check 1202.1P.dxf {arguments}"));
-        assert_eq!((run.status, run.stderr.contains("PB004")), (Some(1), true), "{run}");
+        assert_eq!((run.status, run.stderr.contains(code)), (Some(status), true), "{run}");
     }
     let place = place("fifo", "pipe");
     let reader =

@@ -269,8 +269,8 @@ messages! {
     BASELINE_UNREADABLE: InvalidConfiguration {
         en: "cannot read the baseline: {reason}",
         de: "die Liste bekannter Befunde ist nicht lesbar: {reason}",
-        help_en: "check the file's name, or write a new baseline with --update-baseline",
-        help_de: "den Dateinamen prüfen oder mit --update-baseline eine neue Liste schreiben",
+        help_en: "check the file's name, or write a new baseline with --update-baseline, after moving away a file that cannot be read",
+        help_de: "den Dateinamen prüfen oder mit --update-baseline eine neue Liste schreiben und eine unlesbare Datei vorher woanders ablegen",
     }
     /// A line of a baseline that does not begin with a fingerprint.
     BASELINE_LINE: InvalidConfiguration {

@@ -418,7 +418,7 @@ fn a_text_that_took_the_start_marker_is_told() {
         notes.collect::<Vec<_>>().concat()
     };
     let took = notes("text 0,0.2 \"B1\" height 2 align left baseline");
-    assert!(took.contains("the text \"T5 O3 I1 B0\" at (0, -0.2) has O and T"), "{took}");
+    assert!(took.contains("O and T are in the text \"T5 O3 I1 B0\" at (0, -0.2)"), "{took}");
     assert_eq!(notes("text 9,0.6 \"B1\" height 2 align left baseline"), "");
 }
 

@@ -109,10 +109,14 @@ fn several_tools_and_exact_stop() {
 #[test]
 fn grbl_without_tool_change() {
     let file = "grbl-okkcnc-cb_simple_test.ngc";
-    let Some((original, mut written)) = both(file, "grbl-okkcnc.cbpp", "simple_test", "1/9/2020 12:39:24 PM")
+    let Some((mut original, mut written)) =
+        both(file, "grbl-okkcnc.cbpp", "simple_test", "1/9/2020 12:39:24 PM")
     else {
         return;
     };
+    // The last retract, by the footer there, is a move of the operation here.
+    let end = original.iter().position(|line| line.starts_with("(MOP End")).unwrap();
+    original.swap(end, end + 1);
     // The published definition is slightly older than the one that produced this file; these lines differ.
     assert_eq!(written[1..3], ["( Grbl Post Processor v 1.1)", "( modified by onekk )"]);
     written.splice(1..3, original[1..3].to_vec());

@@ -111,20 +111,26 @@ impl ExpandedPath<'_> {
 
     /// Returns one finding for each clamp, each element of the innermost path that contains both, and each kind of move.
     fn findings(&self) -> Vec<Finding> {
-        let mut entries: BTreeMap<_, (u32, f64)> = BTreeMap::new();
+        // The number of moves, their lowest Z, and the path of the first one.
+        let mut entries: BTreeMap<_, (u32, f64, usize)> = BTreeMap::new();
         for (number, occurrence) in self.occurrences.iter().enumerate() {
             let drawing = &self.model.drawings[occurrence.instance.0];
             for (clamp, drawn) in drawing.clamps.iter().enumerate() {
                 for motion in self.moves.iter().filter(|motion| self.is_in(motion, occurrence, drawn)) {
                     let (holder, element) = self.common(number, motion);
                     let entry = entries.entry((number, clamp, holder, element, motion.what));
-                    let (moves, lowest) = entry.or_insert((0, f64::INFINITY));
+                    let (moves, lowest, _) = entry.or_insert((0, f64::INFINITY, motion.occurrence));
                     (*moves, *lowest) = (*moves + 1, lowest.min(motion.z));
                 }
             }
         }
-        let finding = |(entry, (moves, lowest)): ((usize, usize, usize, _, _), (u32, f64))| {
+        let finding = |(entry, (moves, lowest, mover)): ((usize, usize, usize, _, _), (u32, f64, usize))| {
             let (number, clamp, holder, element, what) = entry;
+            let of_component = if what == "rapid move" && mover != holder {
+                format!(" in path {}", self.occurrences[mover].path.name)
+            } else {
+                String::new()
+            };
             let [around, holder] = [number, holder].map(|number: usize| &self.occurrences[number]);
             let clamp = &self.model.drawings[around.instance.0].clamps[clamp];
             let lowest = lowest - holder.place.raised;
@@ -148,7 +154,7 @@ impl ExpandedPath<'_> {
                 handle: element,
                 words: vec![
                     format!("the clamp of layer {} {from}", clamp.layer),
-                    format!(": {what}, lowest Z {lowest}, moves: {moves}"),
+                    format!(": {what}{of_component}, lowest Z {lowest}, moves: {moves}"),
                 ],
             }
         };
