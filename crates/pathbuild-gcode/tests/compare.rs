@@ -192,6 +192,20 @@ fn the_way_to_the_first_place_must_be_the_same_if_all_moves_count() {
     }
 }
 
+/// A position of which no axis is known has the coordinates of the machine.
+#[test]
+fn a_difference_before_the_position_is_known_names_what_is_known() {
+    let said = |found: &str, expected: &str| {
+        let read = |text: &str| interpret(text.as_bytes(), LinuxCnc, &Options::default()).moves();
+        let all = Tolerance { ends: Ends::All, ..Tolerance::of_decimals(3) };
+        compare(&read(found), &read(expected), &all).expect("a difference").diagnostic().text(Lang::En)
+    };
+    let raised = said("G21 G90\nG0 Z-5\nM30\n", "G21 G90\nG0 Z15\nM30\n");
+    assert!(raised.contains("here the tool goes to Z-5.000, but in line 2"), "{raised}");
+    let machine = said("G21 G90\nG53 G0 Z-80\nM30\n", "G21 G90\nG53 G0 Z-1\nM30\n");
+    assert!(machine.contains("Z-80.000") && machine.contains("Z-1.000"), "{machine}");
+}
+
 #[test]
 fn heads_and_feet_of_a_post_processor_may_be_left_out() {
     let (found, expected) =

@@ -184,10 +184,14 @@ fn diagnostic_of_kind(kind: DifferenceKind, found: &(u32, Move), expected: &(u32
     }
 }
 
-/// Formats the axes that are known at a position.
+/// Formats the axes that are known at a position; if there are none, the coordinates of the machine.
 fn place(at: &Position) -> String {
-    let known = (0..3).filter(|axis| at.known.has(Axes::of(*axis)));
-    known.map(|axis| format!("{}{:.3}", ['X', 'Y', 'Z'][axis], at.at[axis])).collect::<Vec<_>>().join(" ")
+    let is_shown = |axis: &usize| at.known.is_empty() || at.known.has(Axes::of(*axis));
+    (0..3)
+        .filter(is_shown)
+        .map(|axis| format!("{}{:.3}", ['X', 'Y', 'Z'][axis], at.at[axis]))
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 fn difference(kind: DifferenceKind, found: &Walker<'_>, expected: &Walker<'_>) -> Difference {
