@@ -164,9 +164,15 @@ impl Placement {
         self.turn * point + self.shift
     }
 
-    /// Turns a vector as the placement turns its points.
-    pub fn turned(&self, vector: Vector2<f64>) -> Vector2<f64> {
-        self.turn * vector
+    /// Returns the placement of a helical circle with this centre, which moves with its path but does not turn: the cutter begins at the point with
+    /// the least Y in the program.
+    pub fn of_circle(&self, centre: Xy) -> Self {
+        Self { turn: UnitComplex::identity(), shift: self.place(centre) - centre }
+    }
+
+    /// Whether the placement turns a path.
+    pub fn is_turned(&self) -> bool {
+        self.turn.re < 0.0 || self.turn.im.abs() > MIN_TURN
     }
 
     /// Returns the point that the placement moves to this one.
@@ -189,6 +195,9 @@ impl Placement {
         }
     }
 }
+
+/// Angle in radians from which a path counts as turned: less moves nothing by a digit of a program.
+const MIN_TURN: f64 = 1e-8;
 
 /// Returns the point of a circle at an angle in degrees. Quarter turns are exact, so that points drawn at 90 degrees stay there.
 pub fn on_circle(centre: Xy, radius: f64, degrees: f64) -> Xy {

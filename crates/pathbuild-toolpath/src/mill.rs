@@ -2,9 +2,8 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::Vector2;
 use pathbuild_path::approx::{above, at_least};
-use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Xy};
+use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Placement, Xy};
 
 use crate::fold::{Fold, FoldPaths, MAX_RESERVED_STEPS, PlacedPath, Tip};
 use crate::moves::LAST_DIGIT;
@@ -146,31 +145,30 @@ struct Circle {
     centre: Xy,
     radius: f64,
     feed: f64,
-    /// The vector to the centre from the point where full circles begin and end.
-    to_centre: Vector2<f64>,
 }
 
 impl Circle {
-    /// Returns a circle that begins at its point with the least Y.
-    fn from_least_y(centre: Xy, radius: f64, feed: f64) -> Self {
-        Self { centre, radius, feed, to_centre: Vector2::new(0.0, radius) }
+    fn new(helix: &Helix, tool: f64, feed: f64, placement: &Placement) -> Self {
+        Self { centre: placement.place(helix.centre), radius: helix.axis_radius(tool), feed }
     }
 
-    fn start(&self) -> Xy {
-        self.centre - self.to_centre
+    /// Returns the point with the least Y, where full circles begin and end.
+    fn low(&self) -> Xy {
+        Xy::new(self.centre.x, self.centre.y - self.radius)
     }
 
-    fn opposite(&self) -> Xy {
-        self.centre + self.to_centre
+    fn high(&self) -> Xy {
+        Xy::new(self.centre.x, self.centre.y + self.radius)
     }
 
-    /// Returns the full circle, clockwise.
+    /// Returns the full circle, clockwise from its lowest point.
     fn curve(&self) -> Curve {
+        let low = self.low();
         Curve::Arc(Arc {
             centre: self.centre,
             radius: self.radius,
-            start: self.start(),
-            end: self.start(),
+            start: low,
+            end: low,
             clockwise: true,
             degrees: 360.0,
         })
@@ -179,12 +177,13 @@ impl Circle {
 
 impl<P: FoldPaths> Fold<'_, P> {
     pub(crate) fn mill_helix(&mut self, place: &PlacedPath<'_>, origin: &Origin, helix: &Helix) {
-        let circle = self.placed_circle(place, helix);
+        let feed = self.feed_or_default(helix.feed);
+        let circle = Circle::new(helix, place.path.tool, feed, &place.placement);
         let bottom = place.raised + helix.bottom;
         self.add_element_comment(ElementKind::HelicalCircle, origin, bottom, place, None);
-        self.plunge(place.surface + place.path.tool, place.surface, circle.feed);
+        self.plunge(place.surface + place.path.tool, place.surface, feed);
         self.add_question_comment(helix.comment.as_deref());
-        self.sweep(circle.start(), circle.radius);
+        self.sweep(circle.low(), circle.radius);
         let mut done = self.mill_half_circles(&circle, place.surface, helix.infeed, bottom);
         if let Some((depth, bars)) = &helix.bars {
             done = self.mill_circles_with_bars(place, &circle, (done, helix.infeed), *depth, bars);
@@ -193,18 +192,6 @@ impl<P: FoldPaths> Fold<'_, P> {
             self.lift_corrected_at(place.sweep_height, circle.centre, place.sweep_height - done);
         }
         self.sweep(circle.centre, circle.radius);
-    }
-
-    /// Returns the circle of a helix. A circle with support bars begins at the point with the least Y in its drawing, so that the bars, which are
-    /// distributed from there, turn with the path. All other circles, and those in compatible mode, begin at the point with the least Y in the
-    /// program, as in PathDxf2GCode.
-    fn placed_circle(&self, place: &PlacedPath<'_>, helix: &Helix) -> Circle {
-        let (centre, feed) = (place.placement.place(helix.centre), self.feed_or_default(helix.feed));
-        let circle = Circle::from_least_y(centre, helix.axis_radius(place.path.tool), feed);
-        if helix.bars.is_none() || self.compatible {
-            return circle;
-        }
-        Circle { to_centre: place.placement.turned(circle.to_centre), ..circle }
     }
 
     /// Mills half circles down to the bottom, the last two at the bottom. Returns the depth from which the last two were computed, which may be below
@@ -216,9 +203,8 @@ impl<P: FoldPaths> Fold<'_, P> {
         }
         loop {
             let half = (depth - infeed / 2.0).max(bottom);
-            self.mill_half_circle(circle, circle.opposite(), circle.to_centre, half);
-            let next = (half - infeed / 2.0).max(bottom);
-            self.mill_half_circle(circle, circle.start(), Vector2::zeros() - circle.to_centre, next);
+            self.mill_half_circle(circle, circle.high(), circle.radius, half);
+            self.mill_half_circle(circle, circle.low(), -circle.radius, (half - infeed / 2.0).max(bottom));
             if at_least(bottom, depth) {
                 return depth;
             }
@@ -226,15 +212,15 @@ impl<P: FoldPaths> Fold<'_, P> {
         }
     }
 
-    fn mill_half_circle(&mut self, circle: &Circle, to: Xy, to_centre: Vector2<f64>, z: f64) {
+    fn mill_half_circle(&mut self, circle: &Circle, to: Xy, j: f64, z: f64) {
         let height = Height { z, at: circle.centre };
         let half = PlannedMove::Arc {
             feed: circle.feed,
             clockwise: true,
-            centre: to_centre.into(),
+            centre: Xy::new(0.0, j),
             to,
             z: height,
-            is_spiral: to_centre.x == 0.0,
+            is_spiral: true,
         };
         let count = Count { class: MoveClass::Milling, length: PI * circle.radius, feed: Some(circle.feed) };
         self.step(half, count, Tip { at: to, z });
@@ -265,15 +251,15 @@ impl<P: FoldPaths> Fold<'_, P> {
     }
 }
 
-/// Returns the full circle on which the cutter's axis moves, in the coordinates of its drawing.
-pub(crate) fn axis_circle(helix: &Helix, tool: f64) -> Curve {
-    Circle::from_least_y(helix.centre, helix.axis_radius(tool), 0.0).curve()
+/// Returns the full circle on which the cutter's axis moves, clockwise from its point with the least Y in the program. The first support bar stands
+/// there, however the path is turned.
+pub fn axis_circle(helix: &Helix, tool: f64, placement: &Placement) -> Curve {
+    Circle::new(helix, tool, 0.0, placement).curve()
 }
 
-/// Returns the last turns of a helix and, if it has support bars, the circle that leaves them, as if each were milled in a single pass. Uses the
-/// coordinates of the helix's drawing.
-pub(crate) fn last_turns(helix: &Helix, surface: f64, tool: f64) -> Vec<Section> {
-    let curve = axis_circle(helix, tool);
+/// Returns the last turns of a helix along its [`axis_circle`] and, if it has support bars, the circle that leaves them, as if each were milled in a
+/// single pass.
+pub(crate) fn last_turns(helix: &Helix, surface: f64, tool: f64, curve: &Curve) -> Vec<Section> {
     let half = curve.length() / 2.0;
     let mut sections = Vec::new();
     if !at_least(helix.bottom, surface) {
@@ -290,7 +276,7 @@ pub(crate) fn last_turns(helix: &Helix, surface: f64, tool: f64) -> Vec<Section>
         && above(bars.top, *low)
         && let Some(plan) = BarPlan::new(bars, *low, tool, curve.length())
     {
-        sections.extend(plan.sections(&curve, *low, bars.top));
+        sections.extend(plan.sections(curve, *low, bars.top));
     }
     sections
 }

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use pathbuild_path::{
-    Bars, Curve, Cut, CutElement, EmbeddedPlace, Item, Line, MAX_WEAK_BRIDGE, PartCut, PartSweep, Path,
-    PathCuts, PlacedSubpath, Role, SegmentKind, Shape, StandingBar, TipMove, WalkedPath, Xy, approx,
+    Bars, Curve, Cut, CutElement, EmbeddedPlace, Helix, Item, Line, MAX_WEAK_BRIDGE, PartCut, PartSweep,
+    Path, PathCuts, PlacedSubpath, Placement, Role, SegmentKind, Shape, StandingBar, TipMove, WalkedPath, Xy,
+    approx,
 };
 
 use crate::chain::last_pass;
@@ -20,20 +21,21 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
             Item::Chain(chain) => {
                 for member in walked.members(chain) {
                     let supported = member.cut(path).bars.map(|_| member.curve(path));
-                    found.add(member.element(path), supported, last_pass(path, member, is_compatible));
+                    found.add(member.element(path), supported, None, last_pass(path, member, is_compatible));
                 }
             }
             Item::Hole { segment, hole } => {
                 let (segment, z) = (&path.segments[*segment], path.holes[*hole as usize].bottom);
                 let [start, end] = path.ends(segment);
                 let curve = Curve::Line(Line { start, end });
-                found.add(segment.element, None, [Section { curve, from_z: z, to_z: z }]);
+                found.add(segment.element, None, None, [Section { curve, from_z: z, to_z: z }]);
             }
             Item::Helix { segment, helix } => {
                 let helix = &path.helices[*helix as usize];
-                let supported = helix.bars.map(|_| axis_circle(helix, path.tool));
-                let turns = last_turns(helix, path.thickness, path.tool);
-                found.add(path.segments[*segment].element, supported, turns);
+                let curve = drawn_circle(path, helix);
+                let supported = helix.bars.map(|_| curve);
+                let turns = last_turns(helix, path.thickness, path.tool, &curve);
+                found.add(path.segments[*segment].element, supported, Some(helix.centre), turns);
             }
             Item::Subpath(placed) => embedded.extend(embedded_place(path, placed, found.cuts.len())),
             Item::Sweep(_) => {}
@@ -65,8 +67,15 @@ struct CutCollector<'p> {
 }
 
 impl CutCollector<'_> {
-    /// Adds those sections of an element that lie in the material. `supported` is the whole segment if it has bars.
-    fn add(&mut self, drawn: u32, supported: Option<Curve>, sections: impl IntoIterator<Item = Section>) {
+    /// Adds those sections of an element that lie in the material. `supported` is the whole segment if it has bars, `circle` the centre of a helical
+    /// circle.
+    fn add(
+        &mut self,
+        drawn: u32,
+        supported: Option<Curve>,
+        circle: Option<Xy>,
+        sections: impl IntoIterator<Item = Section>,
+    ) {
         let number = self.numbers.get(&drawn).copied().unwrap_or(self.elements.len());
         let element = u32::try_from(number).unwrap_or(u32::MAX);
         let mut lowest = f64::INFINITY;
@@ -81,7 +90,7 @@ impl CutCollector<'_> {
             return;
         }
         if number == self.elements.len() {
-            self.elements.push(cut_element(self.path, drawn, supported));
+            self.elements.push(CutElement { supported, circle, ..cut_element(self.path, drawn) });
             self.numbers.insert(drawn, number);
         }
         let element = &mut self.elements[number];
@@ -95,7 +104,7 @@ impl CutCollector<'_> {
             let shape = self.path.drawn.elements[segment.element as usize].shape;
             let (SegmentKind::Sweep { .. }, Shape::Curve(curve)) = (&segment.kind, shape) else { continue };
             let element = u32::try_from(self.elements.len()).unwrap_or(u32::MAX);
-            self.elements.push(cut_element(self.path, segment.element, None));
+            self.elements.push(cut_element(self.path, segment.element));
             sweeps.push(PartSweep { curve, element });
         }
         sweeps
@@ -109,9 +118,15 @@ fn embedded_place(path: &Path, placed: &PlacedSubpath, cuts_before: usize) -> Op
 }
 
 /// Creates an element without cuts.
-fn cut_element(path: &Path, number: u32, supported: Option<Curve>) -> CutElement {
+fn cut_element(path: &Path, number: u32) -> CutElement {
     let element = &path.drawn.elements[number as usize];
-    CutElement { origin: path.drawn.origin(element), lowest: f64::INFINITY, supported }
+    let origin = path.drawn.origin(element);
+    CutElement { origin, lowest: f64::INFINITY, supported: None, circle: None }
+}
+
+/// Returns the circle of a helix in a program of its own path.
+fn drawn_circle(path: &Path, helix: &Helix) -> Curve {
+    axis_circle(helix, path.tool, &Placement::from_origin(Xy::origin()))
 }
 
 fn bars(path: &Path) -> Vec<StandingBar> {
@@ -127,16 +142,17 @@ fn bars(path: &Path) -> Vec<StandingBar> {
                 else {
                     continue;
                 };
-                let of_segment = SegmentBars { bars, bottom: cut.bottom, curve };
+                let of_segment = SegmentBars { bars, bottom: cut.bottom, curve, circle: None };
                 halves.extend([curve.start(), curve.end()]);
                 all.extend(of_segment.places(path.tool));
             }
             SegmentKind::Helix(number) => {
                 let helix = &path.helices[*number as usize];
                 let Some((bottom, bars)) = &helix.bars else { continue };
-                let curve = axis_circle(helix, path.tool);
+                let curve = drawn_circle(path, helix);
                 halves.extend([curve.start(), curve.end()]);
-                all.extend(SegmentBars { bars, bottom: *bottom, curve }.places(path.tool));
+                let circle = Some(helix.centre);
+                all.extend(SegmentBars { bars, bottom: *bottom, curve, circle }.places(path.tool));
             }
             SegmentKind::Hole(_) | SegmentKind::Sweep { .. } | SegmentKind::Subpath(_) => {}
         }
@@ -150,6 +166,8 @@ struct SegmentBars<'b> {
     bars: &'b Bars,
     bottom: f64,
     curve: Curve,
+    /// The centre of a helical circle.
+    circle: Option<Xy>,
 }
 
 /// A bar, and its position along its segment in mm.
@@ -160,6 +178,7 @@ struct BarPlace {
     /// Upper bound on the length in mm of the slopes beside the bar.
     slope: f64,
     top: f64,
+    circle: Option<Xy>,
 }
 
 impl SegmentBars<'_> {
@@ -173,6 +192,7 @@ impl SegmentBars<'_> {
             to,
             slope: self.bars.top - self.bottom,
             top: self.bars.top,
+            circle: self.circle,
         };
         spans.into_iter().map(place).collect()
     }
@@ -195,6 +215,6 @@ impl BarPlace {
             // nothing of the bar must be found; one between other such segments stands anyway.
             (is_at_end == [true; 2] && is_whole[0] == is_whole[1]).then_some(self.curve)
         };
-        StandingBar { middle, foot, top: self.top }
+        StandingBar { middle, foot, top: self.top, circle: self.circle }
     }
 }

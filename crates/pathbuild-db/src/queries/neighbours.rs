@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{
-    Curve, LostBar, NeighbourGouge, Origin, Part, PartSettings, PathCuts, PlacedCuts, PlacedPart, Placement,
-    SeveredPart, TipMove, Xy, gouging_moves,
+    Curve, LostBar, NeighbourCuts, NeighbourGouge, Origin, Part, PartSettings, PathCuts, PlacedCuts,
+    PlacedPart, Placement, SeveredPart, TipMove, Xy, gouging_moves,
 };
 use pathbuild_toolpath::tip_move;
 
@@ -156,8 +156,9 @@ impl<'db> PlacedProgram<'db> {
     fn findings(&self) -> Vec<Diagnostic> {
         let mut found = self.cuts_into_own_parts();
         for owner in 0..self.paths.len() {
-            let foreign = (0..self.paths.len()).filter(|cutting| self.is_foreign(owner, *cutting));
-            found.extend(self.cuts_into(owner, &self.paths[owner].cuts, foreign));
+            let taken =
+                (0..self.paths.len()).filter_map(|cutting| Some((cutting, self.harm(owner, cutting)?)));
+            found.extend(self.cuts_into(owner, &self.paths[owner].cuts, taken));
             found.extend(self.severed(owner).iter().map(|severed| {
                 let (path, origin) = self.innermost_common_path(severed.path, severed.element, owner);
                 self.at(path, origin, self.severed_problem(owner, severed))
@@ -168,17 +169,35 @@ impl<'db> PlacedProgram<'db> {
         found
     }
 
+    /// Returns what a path takes away from the parts and support bars of another. Of a path of the same drawing at the same place, which the drawing's
+    /// own check covers, only what the embedding adds; `None` if nothing is compared.
+    fn harm(&self, owner: usize, cutting: usize) -> Option<NeighbourCuts> {
+        let (owned, by, tolerance) =
+            (&self.paths[owner].cuts, &self.paths[cutting].cuts, self.settings.tolerance);
+        if self.is_foreign(owner, cutting) {
+            return Some(owned.cuts_made_by(by, tolerance));
+        }
+        let bars = || owned.bars_lost_by_turning(by, tolerance);
+        self.is_together(owner, cutting).then(|| NeighbourCuts { bars: bars(), ..NeighbourCuts::default() })
+    }
+
+    /// Whether two paths of a program belong to the same drawing at the same place, or are the same path.
+    fn is_together(&self, owner: usize, cutting: usize) -> bool {
+        let PlacedPath { instance, cuts, .. } = &self.paths[cutting];
+        let is_compared = !self.is_joined || self.root(owner) != self.root(cutting);
+        is_compared && self.is_at(&self.paths[owner], *instance, &cuts.placement)
+    }
+
     /// Returns PB214 for cuts of other paths into the parts of a path, and PB218 for cuts through its support bars.
     fn cuts_into(
         &self,
         owner: usize,
         owned: &PlacedCuts<'_>,
-        others: impl Iterator<Item = usize>,
+        others: impl Iterator<Item = (usize, NeighbourCuts)>,
     ) -> Vec<Diagnostic> {
         let mut gouges: BTreeMap<_, (NeighbourGouge, usize, &Origin)> = BTreeMap::new();
         let mut bars: BTreeMap<_, (&Origin, BTreeMap<usize, LostBar>)> = BTreeMap::new();
-        for cutting in others {
-            let taken = owned.cuts_made_by(&self.paths[cutting].cuts, self.settings.tolerance);
+        for (cutting, taken) in others {
             for gouge in taken.gouges {
                 let (path, origin) = self.innermost_common_path(cutting, gouge.element, owner);
                 let key = (gouge.part, path, origin.id.0);
@@ -212,7 +231,13 @@ impl<'db> PlacedProgram<'db> {
         let Some(project) = self.paths.first().filter(|_| !parts.is_empty()) else { return Vec::new() };
         let without_bars = PathCuts { bars: Vec::new(), ..project.cuts.cuts.clone() };
         let own = PlacedCuts::new(&without_bars, parts, project.cuts.placement, 0.0);
-        self.cuts_into(0, &own, 1..self.paths.len())
+        let taken = self
+            .paths
+            .iter()
+            .enumerate()
+            .skip(1)
+            .map(|(cutting, path)| (cutting, own.cuts_made_by(&path.cuts, self.settings.tolerance)));
+        self.cuts_into(0, &own, taken)
     }
 
     /// Returns the parts that are drawn in the project's own drawing, except for parts that only show a component's part once more, or the sheet
@@ -235,16 +260,17 @@ impl<'db> PlacedProgram<'db> {
         (0..all.parts.len()).filter(is_own).map(|part| all.parts[part]).collect()
     }
 
-    /// Returns the parts of a path that cuts of other paths leave loose.
+    /// Returns the parts of a path that cuts of other paths, or its own in a turned embedding, leave loose.
     fn severed(&self, owner: usize) -> Vec<SeveredPart> {
         if self.settings.is_held_otherwise {
             return Vec::new();
         }
         let (others, own): (Vec<_>, Vec<_>) =
             (0..self.paths.len()).partition(|path| self.is_foreign(owner, *path));
-        let own: Vec<_> = own.into_iter().map(|path| &self.paths[path].cuts).collect();
-        let others: Vec<_> = others.into_iter().map(|path| (path, &self.paths[path].cuts)).collect();
-        self.paths[owner].cuts.severed_by(&own, &others)
+        let with_cuts = |paths: Vec<usize>| -> Vec<_> {
+            paths.into_iter().map(|path| (path, &self.paths[path].cuts)).collect()
+        };
+        self.paths[owner].cuts.severed_by(&with_cuts(own), &with_cuts(others))
     }
 
     fn severed_problem(&self, owner: usize, severed: &SeveredPart) -> Diagnostic {
@@ -263,13 +289,18 @@ impl<'db> PlacedProgram<'db> {
         parts.collect()
     }
 
-    /// Returns the middle lines of the bars that cuts of other paths take away.
+    /// Returns the middle lines of the bars that cuts of other paths, or of their own path in a turned embedding, take away.
     fn lost_bars(&self) -> Vec<Curve> {
         let numbers = 0..self.paths.len();
         let pairs = numbers.clone().flat_map(|owner| numbers.clone().map(move |cutting| (owner, cutting)));
-        let foreign = pairs.filter(|(owner, cutting)| self.is_foreign(*owner, *cutting));
-        let taken = foreign.flat_map(|(owner, cutting)| {
-            self.paths[owner].cuts.cuts_made_by(&self.paths[cutting].cuts, self.settings.tolerance).bars
+        let taken = pairs.flat_map(|(owner, cutting)| {
+            let is_together = self.is_together(owner, cutting) && self.paths[owner].cuts.has_displaced_bars();
+            let (owned, by) = (&self.paths[owner].cuts, &self.paths[cutting].cuts);
+            if is_together || self.is_foreign(owner, cutting) {
+                owned.bars_taken_by(by, self.settings.tolerance)
+            } else {
+                Vec::new()
+            }
         });
         taken.flat_map(|lost| lost.sections).collect()
     }
@@ -372,6 +403,8 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
         let findings = instance_of(db, target, cutting).and_then(|instance| part_findings(db, instance));
         let (Some(found), Some((findings, place))) = (found, findings) else { continue };
         let own = &findings.parts[place];
+        let has_bars_on_circles = cutting.path.helices.iter().any(|helix| helix.bars.is_some());
+        let has_displaced_bars = occurrence.placement.is_turned() && has_bars_on_circles;
         let placed_here = |part: usize| {
             let thickness = cutting.path.thickness;
             placed(&found.parts[part], occurrence.placement, occurrence.raised, thickness)
@@ -380,10 +413,13 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
             let mut part_of_path = placed_here(*part);
             part_of_path.is_loose |= findings.loose.iter().any(|(loose, _)| loose == part);
             part_of_path.corners = &findings.corners[*part];
-            // The material left and the bars are known by path, not by part: list them with the first part only.
+            // The material left and the bars are known by path, not by part: list them with the first part only. Bars that stand elsewhere than in the
+            // drawing are among those of the program.
             if index == 0 {
-                (part_of_path.left, part_of_path.lost_bars) =
-                    (&findings.left[place], &findings.lost_bars[place]);
+                part_of_path.left = &findings.left[place];
+                if !has_displaced_bars {
+                    part_of_path.lost_bars = &findings.lost_bars[place];
+                }
             }
             all.push(part_of_path);
         }

@@ -7,6 +7,7 @@ mod drawings;
 mod embedded;
 mod outlines;
 mod random;
+mod rings;
 
 use std::sync::Arc;
 use std::time::Duration;

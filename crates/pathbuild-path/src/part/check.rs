@@ -387,6 +387,7 @@ mod tests {
             },
             lowest: 0.0,
             supported: None,
+            circle: None,
         };
         let cut = |(number, line): (u32, Line)| PartCut {
             way: TipMove { curve: Curve::Line(line), from_z: 0.0, to_z: 0.0 },

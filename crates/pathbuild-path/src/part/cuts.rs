@@ -57,6 +57,8 @@ pub struct CutElement {
     pub lowest: f64,
     /// For an element with support bars, its whole segment: the cuts, and the sections with bars.
     pub supported: Option<Curve>,
+    /// The centre of a helical circle. Its cuts and bars are placed by [`Placement::of_circle`](crate::Placement::of_circle).
+    pub circle: Option<Xy>,
 }
 
 /// A move in the material.
@@ -87,6 +89,8 @@ pub struct StandingBar {
     pub foot: Curve,
     /// Z of the bar's top in mm.
     pub top: f64,
+    /// The centre of the helical circle on which the bar stands.
+    pub circle: Option<Xy>,
 }
 
 /// Z in mm up to which a cut is considered to go through the plate: a cut that ends at Z0.001 still does.

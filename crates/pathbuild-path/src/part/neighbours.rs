@@ -70,12 +70,30 @@ impl<'c> PlacedCuts<'c> {
     /// Places a path and its parts, and computes their bounding boxes.
     pub fn new(cuts: &'c PathCuts, parts: Vec<&'c Part>, placement: Placement, raised: f64) -> Self {
         let merged = |one: AABB<[f64; 2]>, other: AABB<[f64; 2]>| one.merged(&other);
-        let swept = cuts.cuts.iter().map(|cut| widened_box(&cut.way.curve, cuts.radius)).reduce(merged);
-        let rims = parts.iter().flat_map(|part| &part.rings[0].curves);
-        let bars = cuts.bars.iter().filter_map(|bar| bar.middle.as_ref());
-        let kept = rims.chain(bars).map(|curve| widened_box(curve, 0.0)).reduce(merged);
-        let placed = |extent: AABB<[f64; 2]>| placed_box(&placement, extent);
-        Self { cuts, parts, placement, raised, swept: swept.map(placed), kept: kept.map(placed) }
+        let mut new = Self { cuts, parts, placement, raised, swept: None, kept: None };
+        let swept = cuts.cuts.iter().map(|cut| new.place(&cut.way.curve, new.circle_of(cut)));
+        let rims = new.parts.iter().flat_map(|part| &part.rings[0].curves);
+        let rims = rims.map(|curve| placement.place_curve(curve));
+        let bars = cuts.bars.iter().filter_map(|bar| Some(new.place(&bar.middle?, bar.circle)));
+        let kept = rims.chain(bars).map(|curve| widened_box(&curve, 0.0)).reduce(merged);
+        new.swept = swept.map(|curve| widened_box(&curve, cuts.radius)).reduce(merged);
+        new.kept = kept;
+        new
+    }
+
+    /// Returns a curve of the path as placed. `circle` is the centre of the helical circle to which it belongs.
+    pub(super) fn place(&self, curve: &Curve, circle: Option<Xy>) -> Curve {
+        let placement = circle.map_or(self.placement, |centre| self.placement.of_circle(centre));
+        placement.place_curve(curve)
+    }
+
+    pub(super) fn circle_of(&self, cut: &PartCut) -> Option<Xy> {
+        self.cuts.elements[cut.element as usize].circle
+    }
+
+    /// Whether support bars on helical circles stand elsewhere than in the path's drawing, because the path is turned and they are not.
+    pub fn has_displaced_bars(&self) -> bool {
+        self.placement.is_turned() && self.cuts.bars.iter().any(|bar| bar.circle.is_some())
     }
 
     /// Whether cuts of another path may reach the parts or bars of this one.
@@ -104,35 +122,60 @@ impl<'c> PlacedCuts<'c> {
                 NeighbourGouge { part: number, element, at: gouge.at, depth: gouge.depth }
             }));
         }
-        let cutting = other.placed(self.raised);
-        let paths = [&own, &cutting];
-        let is_taken = |lost: &LostBar| (lost.of, lost.by) == (0, 1);
-        let bars = lost_bars(&CutIndex::new(&paths), tolerance).into_iter().filter(is_taken).collect();
-        NeighbourCuts { gouges: gouged, bars }
+        NeighbourCuts { gouges: gouged, bars: bars_taken(&own, &other.placed(self.raised), tolerance) }
     }
 
-    /// Returns the parts that come loose because of cuts of other paths beside them: the cuts of `own` alone would leave material that holds them.
-    /// `own` are the paths that belong to the same drawing at the same place, including this one; `others` are the remaining paths by their index.
-    pub fn severed_by(&self, own: &[&Self], others: &[(usize, &Self)]) -> Vec<SeveredPart> {
+    /// Returns the support bars of this path that another path takes away.
+    pub fn bars_taken_by(&self, other: &Self, tolerance: f64) -> Vec<LostBar> {
+        bars_taken(&self.placed(self.raised), &other.placed(self.raised), tolerance)
+    }
+
+    /// Returns the support bars of this path that a path of the same drawing at the same place takes away because helical circles do not turn with
+    /// them. Bars that it takes away in the drawing as well are reported there.
+    pub fn bars_lost_by_turning(&self, other: &Self, tolerance: f64) -> Vec<LostBar> {
+        if !self.has_displaced_bars() && !other.has_displaced_bars() {
+            return Vec::new();
+        }
+        let drawn = [self, other].map(|path| path.placed_as_drawn(self.raised));
+        let drawn = bars_taken(&drawn[0], &drawn[1], tolerance);
+        let is_new = |lost: &LostBar| {
+            !drawn.iter().any(|known| (known.bar, known.element) == (lost.bar, lost.element))
+        };
+        self.bars_taken_by(other, tolerance).into_iter().filter(is_new).collect()
+    }
+
+    /// Returns the parts that come loose because of cuts of other paths beside them, or because helical circles with support bars do not turn with
+    /// them: in their drawing, the cuts of `own` alone leave material that holds them. `own` are the paths that belong to the same drawing at the
+    /// same place, including this one; `others` are the remaining paths. Both are given with their index.
+    pub fn severed_by(&self, own: &[(usize, &Self)], others: &[(usize, &Self)]) -> Vec<SeveredPart> {
         let is_near = |(_, other): &&(usize, &Self)| {
             let reach = reach(self.cuts.radius.max(other.cuts.radius));
             self.kept.zip(other.swept).is_some_and(|(kept, swept)| widened(&kept, reach).intersects(&swept))
         };
         let others: Vec<&(usize, &Self)> = others.iter().filter(is_near).collect();
-        if self.parts.is_empty() || others.is_empty() {
+        let is_displaced = own.iter().any(|(_, path)| path.has_displaced_bars());
+        if self.parts.is_empty() || others.is_empty() && !is_displaced {
             return Vec::new();
         }
-        let all = own.iter().copied().chain(others.iter().map(|(_, other)| *other));
-        let placed: Vec<PathCuts> = all.map(|path| path.placed(self.raised)).collect();
+        let all: Vec<&(usize, &Self)> = own.iter().chain(others).collect();
+        let placed: Vec<PathCuts> = all.iter().map(|(_, path)| path.placed(self.raised)).collect();
         let paths: Vec<&PathCuts> = placed.iter().collect();
         let cuts = CutIndex::new(&paths);
         let contours = cuts.contours.iter().enumerate();
         let is_own: Vec<bool> = contours.map(|(path, is_contour)| *is_contour && path < own.len()).collect();
+        let as_drawn: Vec<PathCuts> = own.iter().map(|(_, path)| path.placed_as_drawn(self.raised)).collect();
+        let as_drawn: Vec<&PathCuts> = as_drawn.iter().collect();
         let severed = self.parts.iter().enumerate().filter_map(|(number, part)| {
             let part = placed_part(part, &self.placement);
             let prepared = PreparedPart::new(&part);
-            let cut = Enclosure::new(&prepared, &cuts, &is_own).severing_cut()?;
-            Some(SeveredPart { part: number, path: others[cut.path - own.len()].0, element: cut.cut.element })
+            let enclosure = Enclosure::new(&prepared, &cuts, &is_own);
+            let is_held_as_drawn = || {
+                let cuts = CutIndex::new(&as_drawn);
+                Enclosure::new(&prepared, &cuts, &is_own[..own.len()]).own_cut().is_none()
+            };
+            let of_own = || enclosure.own_cut().filter(|_| is_displaced && is_held_as_drawn());
+            let cut = enclosure.severing_cut().or_else(of_own)?;
+            Some(SeveredPart { part: number, path: all[cut.path].0, element: cut.cut.element })
         });
         severed.collect()
     }
@@ -162,38 +205,43 @@ impl<'c> PlacedCuts<'c> {
 
     /// Returns the path as placed, with heights above a level.
     fn placed(&self, level: f64) -> PathCuts {
+        self.placed_with(level, |curve, circle| self.place(curve, circle))
+    }
+
+    /// Returns the path as if its helical circles turned with it, so that everything lies as in its drawing.
+    fn placed_as_drawn(&self, level: f64) -> PathCuts {
+        self.placed_with(level, |curve, _| self.place(curve, None))
+    }
+
+    fn placed_with(&self, level: f64, place: impl Fn(&Curve, Option<Xy>) -> Curve) -> PathCuts {
         let raised = self.raised - level;
-        let curve = |curve: &Curve| self.placement.place_curve(curve);
-        let way = |way: &TipMove| TipMove {
-            curve: curve(&way.curve),
-            from_z: way.from_z + raised,
-            to_z: way.to_z + raised,
+        let way = |cut: &PartCut| TipMove {
+            curve: place(&cut.way.curve, self.circle_of(cut)),
+            from_z: cut.way.from_z + raised,
+            to_z: cut.way.to_z + raised,
         };
         let mut placed = PathCuts { sweeps: Vec::new(), ..self.cuts.clone() };
-        placed.cuts.iter_mut().for_each(|cut| *cut = PartCut { way: way(&cut.way), ..*cut });
+        placed.cuts.iter_mut().for_each(|cut| *cut = PartCut { way: way(cut), ..*cut });
         placed.elements.iter_mut().for_each(|element| {
             element.lowest += raised;
-            element.supported = element.supported.map(|segment| curve(&segment));
+            element.supported = element.supported.map(|segment| place(&segment, element.circle));
         });
         placed.bars.iter_mut().for_each(|bar| {
-            let StandingBar { middle, foot, top } = *bar;
+            let StandingBar { middle, foot, top, circle } = *bar;
             *bar = StandingBar {
-                middle: middle.map(|middle| curve(&middle)),
-                foot: curve(&foot),
+                middle: middle.map(|middle| place(&middle, circle)),
+                foot: place(&foot, circle),
                 top: top + raised,
+                circle,
             };
         });
         placed
     }
 }
 
-/// Returns the bounding box of a box that is placed, and thus possibly rotated.
-fn placed_box(placement: &Placement, extent: AABB<[f64; 2]>) -> AABB<[f64; 2]> {
-    let ([left, low], [right, high]) = (extent.lower(), extent.upper());
-    let corners = [[left, low], [right, low], [left, high], [right, high]];
-    let placed = corners.map(|[x, y]| {
-        let at = placement.place(Xy::new(x, y));
-        [at.x, at.y]
-    });
-    AABB::from_points(&placed)
+/// Returns the support bars of one path that another one takes away.
+fn bars_taken(own: &PathCuts, cutting: &PathCuts, tolerance: f64) -> Vec<LostBar> {
+    let paths = [own, cutting];
+    let is_taken = |lost: &LostBar| (lost.of, lost.by) == (0, 1);
+    lost_bars(&CutIndex::new(&paths), tolerance).into_iter().filter(is_taken).collect()
 }

@@ -64,7 +64,7 @@ impl PlacedCuts<'_> {
     fn curves_below(&self, cuts: Range<usize>, height: f64) -> impl Iterator<Item = (u32, Curve)> {
         self.cuts.cuts.iter().take(cuts.end).skip(cuts.start).filter_map(move |cut| {
             let below = cut.way.part_below(height - self.raised)?;
-            Some((cut.element, self.placement.place_curve(&below)))
+            Some((cut.element, self.place(&below, self.circle_of(cut))))
         })
     }
 }

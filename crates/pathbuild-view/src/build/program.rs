@@ -5,8 +5,8 @@ use pathbuild_gcode::interpret::{Heights, Options, interpret_each};
 use pathbuild_gcode::native::FIRST_PARAMETER;
 use pathbuild_gcode::statistics::{Summary, statistics};
 use pathbuild_motion::{Axes, Move, Pace, Position, Step};
-use pathbuild_path::{Arc, Curve, Path, Placement, SegmentKind, Shape as DrawnShape, Xy};
-use pathbuild_toolpath::{Occurrence, Program, StepOrigin, Trace, support_bars};
+use pathbuild_path::{Curve, Path, Placement, SegmentKind, Shape as DrawnShape};
+use pathbuild_toolpath::{Occurrence, Program, StepOrigin, Trace, axis_circle, support_bars};
 
 use super::drawn::{DrawnSource, curve_shape, pair};
 use crate::scene::{
@@ -139,10 +139,8 @@ impl Builder {
                 }
                 (SegmentKind::Helix(helix), _) => {
                     let helix = &path.helices[*helix as usize];
-                    let radius = helix.axis_radius(path.tool);
-                    helix
-                        .bars
-                        .map(|(bottom, bars)| (bars, bottom, circle(placement.place(helix.centre), radius)))
+                    let circle = axis_circle(helix, path.tool, placement);
+                    helix.bars.map(|(bottom, bars)| (bars, bottom, circle))
                 }
                 _ => None,
             };
@@ -182,12 +180,6 @@ impl Builder {
             }
         }
     }
-}
-
-/// Returns the full circle on which a cutter's centre moves, clockwise from the point with the least Y.
-fn circle(centre: Xy, radius: f64) -> Curve {
-    let low = Xy::new(centre.x, centre.y - radius);
-    Curve::Arc(Arc { centre, radius, start: low, end: low, clockwise: true, degrees: 360.0 })
 }
 
 /// The input for the scene of a G-code program.
