@@ -1,8 +1,8 @@
 //! Converts binary DXF to ASCII. (book: reference/dxf; 24 of 3306 files from the wild)
 //!
 //! Binary files are too rare for a reader of their own. Each pair is rewritten as two lines, which also gives it the line number that
-//! diagnostics refer to. Numbers are written with enough digits to be read back exactly. Conversion stops at the end of ENTITIES, so the
-//! text stays within a few times the size of the file.
+//! diagnostics refer to. Numbers are written with enough digits to be read back exactly. Conversion stops at the end of ENTITIES unless a
+//! clipping boundary follows, so the text stays within a few times the size of the file.
 
 use std::io::Write;
 
@@ -10,6 +10,9 @@ use memchr::{memchr, memmem};
 
 /// The first bytes of a binary file.
 const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
+
+/// The object with the clipping boundary of an insertion.
+const FILTER: &[u8] = b"SPATIAL_FILTER";
 
 /// Number of bytes at the end of a file that are searched for the end mark.
 const SEARCHED_BYTES: usize = 4096;
@@ -31,7 +34,7 @@ pub(crate) fn to_ascii(file: &[u8]) -> Option<Vec<u8>> {
         }
         section = section.after(code, &text[value..]);
         text.push(b'\n');
-        if section == Section::AfterEntities {
+        if section == Section::AfterEntities && memmem::find(rest.bytes, FILTER).is_none() {
             if ends_with_eof(rest.bytes) {
                 text.extend_from_slice(b"0\nEOF\n");
             }

@@ -67,8 +67,10 @@ pub(crate) enum FillDecision {
     Note,
 }
 
-/// Number of slots: one per role that keeps its value, and one for all others.
-const SLOTS: usize = 85;
+/// Number of slots: one per role that keeps its value, one for all others, and one for the extension dictionary.
+const SLOTS: usize = 86;
+
+const DICTIONARY_SLOT: usize = SLOTS - 1;
 
 impl<'a> Value<'a> {
     pub(crate) fn new(bytes: &'a [u8], line: u32) -> Self {
@@ -146,7 +148,15 @@ impl<'a> Fields<'a> {
             // An embedded object (in the MTEXT of R2018) extends to the end of the entity.
             Role::EMBEDDED => return Ok(Some((groups.next_zero()?, FillDecision::Keep))),
             _ if group.raw.trim_ascii().starts_with(b"{") => {
-                return Ok(skip_application_group(groups)?.map(|next| (next, FillDecision::Keep)));
+                let is_dictionary = group.raw.trim_ascii() == b"{ACAD_XDICTIONARY";
+                let entity = self.entity;
+                let end = skip_application_group(groups, |group| {
+                    if is_dictionary {
+                        self.slots[DICTIONARY_SLOT] =
+                            Value { bytes: group.value(), line: group.line(), entity };
+                    }
+                });
+                return Ok(end?.map(|next| (next, FillDecision::Keep)));
             }
             _ => {}
         }
@@ -224,20 +234,34 @@ impl<'a> Fields<'a> {
     /// Returns the handle, if it is present and hexadecimal.
     #[inline]
     pub(crate) fn handle(&self) -> Option<Handle> {
-        let digits = self.get(5)?.bytes.trim_ascii();
-        if digits.is_empty() || digits.len() > 16 {
-            return None;
-        }
-        let digit = |digit: &u8| char::from(*digit).to_digit(16).map(u64::from);
-        let number = digits.iter().try_fold(0, |number, byte| Some(number << 4 | digit(byte)?));
-        number.map(Handle)
+        handle(self.get(5)?.bytes)
+    }
+
+    /// Returns the handle of the entity's extension dictionary, if it has one.
+    pub(crate) fn dictionary(&self) -> Option<Handle> {
+        let value = self.slots[DICTIONARY_SLOT];
+        if value.entity == self.entity { handle(value.bytes) } else { None }
     }
 }
 
-/// Skips from `102/{NAME` to `102/}`, inside which codes belong to an application. Returns the first pair of the next entity if that comes
-/// first.
-fn skip_application_group<'a>(groups: &mut Groups<'a>) -> Result<Option<Pair<'a>>, Stop<'a>> {
+/// Parses a handle; `None` if it is not hexadecimal.
+pub(crate) fn handle(text: &[u8]) -> Option<Handle> {
+    let digits = text.trim_ascii();
+    if digits.is_empty() || digits.len() > 16 {
+        return None;
+    }
+    let digit = |digit: &u8| char::from(*digit).to_digit(16).map(u64::from);
+    let number = digits.iter().try_fold(0, |number, byte| Some(number << 4 | digit(byte)?));
+    number.map(Handle)
+}
+
+/// Passes over the groups from `102/{NAME` to `102/}`, whose codes belong to an application. Returns the first pair of the next entity if
+/// that comes first.
+fn skip_application_group<'a>(
+    groups: &mut Groups<'a>,
+    pass: impl FnMut(&Group<'a>),
+) -> Result<Option<Pair<'a>>, Stop<'a>> {
     let is_end = |role| matches!(role, Role::BEGIN | Role::APPLICATION);
-    let end = groups.pass_until(is_end, |_| {})?;
+    let end = groups.pass_until(is_end, pass)?;
     Ok((end.role == Role::BEGIN).then(|| end.pair()))
 }

@@ -154,13 +154,13 @@ impl<'a> File<'a> {
             text: options.max_text,
             curves: options.approximate_curves,
         };
-        let mut model = Model::new(&mut reader, Collector::new(drawing, limits), self.blocks);
+        let mut model = Model::new(&mut reader, Collector::new(drawing, limits), self.blocks, self.pairs);
         let mut records = Records::new(self.pairs).map_err(|stop| stop_error(stop, "ENTITIES"))?;
         model.add_all(&mut records, (scale != 1.0).then(|| Placement::scaled(scale)))?;
         if !records.head.is("ENDSEC") {
             return Err(missing_end_error("ENTITIES", &records.head));
         }
-        if let Some(section) = records.groups.pairs().next_section(&READ_SECTIONS) {
+        if let Some((section, _)) = records.groups.pairs().next_section(&READ_SECTIONS) {
             return Err(pair_error(&SECTION_MISPLACED, &section));
         }
         drawing.has_noted_text = reader.has_noted_text;

@@ -7,6 +7,7 @@
 mod binary;
 mod block_prefilter;
 mod blocks;
+mod clips;
 mod collect;
 mod drawing;
 mod encoding;

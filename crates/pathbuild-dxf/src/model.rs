@@ -5,15 +5,16 @@
     reason = "an entity is made where it ends up, without copies from function to function"
 )]
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
 
-use pathbuild_diagnostic::Point;
-use pathbuild_diagnostic::messages::drawing::{BLOCK_ELSEWHERE, BLOCK_MISSING};
+use pathbuild_diagnostic::messages::drawing::{BLOCK_ELSEWHERE, BLOCK_MISSING, INSERT_CLIPPED};
+use pathbuild_diagnostic::{Handle, Point};
 use smol_str::SmolStr;
 
 use crate::Origin;
 use crate::blocks::{BlockId, Blocks, StepBudget};
+use crate::clips::clipping_dictionaries;
 use crate::collect::{Collector, PlacedEntity};
 use crate::entities::{CommonProperties, EntityReader, Item, Shape, Space};
 use crate::faults::{EntityError, Fatal, stop_error};
@@ -30,6 +31,10 @@ pub(crate) struct Model<'r, 'a, 'o> {
     /// The BLOCKS section, until it is indexed.
     section: Option<Pairs<'a>>,
     blocks: Blocks<'a>,
+    /// The pairs from ENTITIES on, which OBJECTS follows.
+    entities: Pairs<'a>,
+    /// The extension dictionaries with a clipping boundary, once they are looked up.
+    clipping: Option<HashSet<Handle>>,
     /// The insertions in progress, outermost first.
     open: Vec<BlockId>,
     steps: StepBudget,
@@ -60,9 +65,19 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         reader: &'r mut EntityReader<'a, 'o>,
         collector: Collector<'r>,
         blocks: Option<Pairs<'a>>,
+        entities: Pairs<'a>,
     ) -> Self {
         let steps = StepBudget::new(reader.options.max_entities);
-        Self { reader, collector, section: blocks, blocks: Blocks::default(), open: Vec::new(), steps }
+        Self {
+            reader,
+            collector,
+            section: blocks,
+            blocks: Blocks::default(),
+            entities,
+            clipping: None,
+            open: Vec::new(),
+            steps,
+        }
     }
 
     /// Adds all entities of the section. `placement` scales model space to millimetres.
@@ -154,10 +169,29 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
                 around,
             );
         }
+        if self.is_clipped(insert.dictionary)? {
+            let trouble = EntityError::LeftOut {
+                message: &INSERT_CLIPPED,
+                point: insert.array.ok().map(|array| array.begin()),
+                block: Some(insert.block.as_str().into()),
+                layers: Arc::default(),
+            };
+            return self.refuse_insertion(traits, &wanted, &trouble, around);
+        }
         match insert.array.and_then(|array| Ok(array.copies(self.blocks.base(block)?))) {
             Ok(copies) => self.add_copies(traits, layer, block, copies, around),
             Err(trouble) => self.refuse_insertion(traits, &wanted, &trouble, around),
         }
+    }
+
+    /// Whether an insertion with this extension dictionary has a clipping boundary, so that only a part of its block is visible.
+    fn is_clipped(&mut self, dictionary: Option<Handle>) -> Result<bool, Fatal> {
+        let Some(dictionary) = dictionary else { return Ok(false) };
+        if self.clipping.is_none() {
+            let found = clipping_dictionaries(&self.entities);
+            self.clipping = Some(found.map_err(|stop| stop_error(stop, "OBJECTS"))?);
+        }
+        Ok(self.clipping.as_ref().is_some_and(|clipping| clipping.contains(&dictionary)))
     }
 
     /// Adds the contents of a block at each of these placements.

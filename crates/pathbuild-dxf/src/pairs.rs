@@ -218,8 +218,8 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// Returns the name of the next section that has one of these names.
-    pub(crate) fn next_section(&self, names: &[&str]) -> Option<Pair<'a>> {
+    /// Returns the name of the next section that has one of these names, and the pairs after it.
+    pub(crate) fn next_section(&self, names: &[&str]) -> Option<(Pair<'a>, Self)> {
         let from = self.consumed();
         let mut found = SECTION.find_iter(&self.bytes()[from..]);
         found.find_map(|at| {
@@ -232,7 +232,8 @@ impl<'a> Pairs<'a> {
             // Lines are only counted for the section that is returned.
             let mut pairs = *self;
             pairs.jump_to(start);
-            pairs.next().and_then(|_| pairs.next()).ok()
+            let name = pairs.next().and_then(|_| pairs.next()).ok()?;
+            Some((name, pairs))
         })
     }
 

@@ -651,6 +651,13 @@ messages! {
         help_en: "bind external references before saving, or delete the insertion",
         help_de: "externe Referenzen vor dem Speichern binden oder die Einfügung löschen",
     }
+    /// An INSERT that shows only a part of its block.
+    INSERT_CLIPPED: UnsupportedCurve {
+        en: "block {block} is left out: it is clipped (XCLIP), so only a part of it is visible",
+        de: "Block {block} wird ausgelassen: er ist mit XCLIP (XZUSCHNEIDEN) zugeschnitten, also nur zum Teil sichtbar",
+        help_en: "delete the clipping boundary, or explode the block and trim it",
+        help_de: "die Zuschneidegrenze löschen oder den Block auflösen und stutzen",
+    }
     /// An INSERT on a layer that is read, of a block that draws only on other layers.
     BLOCK_ELSEWHERE: UnsupportedCurve {
         en: "block {block} is inserted on this layer, but its contents lie on other layers ({layers}) and are ignored",

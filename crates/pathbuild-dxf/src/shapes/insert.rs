@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use pathbuild_diagnostic::Point;
 use pathbuild_diagnostic::messages::drawing::INSERT_SCALED;
+use pathbuild_diagnostic::{Handle, Point};
 use smol_str::SmolStr;
 
 use crate::Point3;
@@ -19,6 +19,8 @@ pub(crate) struct Insert<'a> {
     pub(crate) block: SmolStr,
     /// The placement of the copies. A fault in it matters only if the block draws on a wanted layer.
     pub(crate) array: Result<Array, EntityError<'a>>,
+    /// The extension dictionary, which may hold a clipping boundary.
+    pub(crate) dictionary: Option<Handle>,
 }
 
 /// The placement of the copies of a block, computed on demand because most blocks draw on no wanted layer.
@@ -46,7 +48,7 @@ impl<'a> Insert<'a> {
         let name = fields.get(2).ok_or(BadGroup::Missing { code: 2 })?;
         let block: SmolStr = decoder.decode(name.bytes, name.line).trim().into();
         let array = Array::read(fields, &block);
-        Ok(Self { block, array })
+        Ok(Self { block, array, dictionary: fields.dictionary() })
     }
 }
 

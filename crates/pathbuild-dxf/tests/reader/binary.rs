@@ -2,7 +2,7 @@
 
 use pathbuild_dxf::{Drawing, Geometry};
 
-use crate::support::{file, file_faults, lines, read_all};
+use crate::support::{file, file_faults, lines, read_all, section};
 
 const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
@@ -50,6 +50,20 @@ const HEADER: &str = "9 $ACADVER\n1 AC1021\n9 $INSUNITS\n70 4";
 const TABLES: &str = "0 TABLE\n2 LAYER\n0 LAYER\n2 A\n70 1\n62 7\n6 DASHED\n290 1\n370 -3\n0 ENDTAB";
 const BLOCKS: &str = "0 BLOCK\n2 B\n10 1\n20 0\n0 CIRCLE\n8 A\n10 1\n20 0\n40 1\n0 ENDBLK";
 const ENTITIES: &str = "0 LINE\n5 1F\n8 A\n420 16711680\n10 0.1\n20 -1e-7\n11 1e5\n21 3\n1001 APP\n1070 5\n1071 70000\n1040 1.5\n1004 abc\n0 TEXT\n8 A\n10 0\n20 0\n40 2.5\n1 T3 94°\n160 5\n310 xyz\n0 INSERT\n8 A\n2 B\n10 5\n20 5\n";
+
+#[test]
+fn clipping_boundaries_after_the_entities_are_read() {
+    let insert = "0 INSERT\n102 {ACAD_XDICTIONARY\n360 D1\n102 }\n8 A\n2 B\n10 5\n20 5";
+    let objects = "0 DICTIONARY\n5 D1\n3 ACAD_FILTER\n360 D2\n0 DICTIONARY\n5 D2\n3 SPATIAL\n360 F1\n0 SPATIAL_FILTER\n5 F1\n71 1";
+    let before = file(HEADER, TABLES, BLOCKS, insert).replace("  0\nEOF\n", "");
+    let ascii = before + &section("OBJECTS", objects) + "  0\nEOF\n";
+    let expected = read_all(&ascii);
+    assert_eq!((expected.entities.len(), expected.left_out.len()), (0, 1));
+    assert_eq!(expected.diagnostics, []);
+    for codes in [Codes::OneByte, Codes::TwoBytes] {
+        assert_eq!(read_all(binary(&ascii, codes)), expected, "{codes:?}");
+    }
+}
 
 #[test]
 fn both_kinds_are_read_like_ascii() {

@@ -1,9 +1,9 @@
 //! Tests INSERT: insertions are replaced by the contents of their blocks. (book: language/layers-and-names; book: reference/dxf)
 
 use pathbuild_diagnostic::{Code, EntityKind, Handle, Lang, Point};
-use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, Options, Origin, Point3, read};
+use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, OmittedCurve, Options, Origin, Point3, read};
 
-use crate::support::{faults, file, file_faults, options, read_all};
+use crate::support::{faults, file, file_faults, options, read_all, section};
 
 const LAYERS: &str = "0 TABLE\n2 LAYER\n0 LAYER\n2 P\n6 DASHED\n0 LAYER\n2 Q\n6 DOT\n0 ENDTAB";
 
@@ -476,4 +476,51 @@ fn entities_of_mirrored_insertions_are_marked() {
     for groups in ["41 1", "41 -1\n42 -1", "41 -1\n230 -1", "50 90"] {
         assert_eq!(is_mirrored(groups), [false, false], "{groups}");
     }
+}
+
+/// Reads an insertion of block B, which contains [`LINE`] and another insertion of C, with an extension dictionary each. The two dictionaries lead to
+/// the same filter.
+fn clipped(outer: &str, inner: &str, filter: &str) -> Drawing {
+    let extended = |dictionary: &str| format!("102 {{ACAD_XDICTIONARY\n360 {dictionary}\n102 }}");
+    let nested = format!("0 INSERT\n5 C1\n{}\n8 0\n2 C\n10 0\n20 0", extended(inner));
+    let blocks = block("B", "", &format!("{LINE}\n{nested}")) + &block("C", "", LINE);
+    let insert = format!("0 INSERT\n5 B1\n{}\n8 X\n2 B\n10 5\n20 6", extended(outer));
+    let objects = format!(
+        "0 DICTIONARY\n5 D1\n3 ACAD_FILTER\n360 D2\n0 XRECORD\n5 D4\n71 1\n0 DICTIONARY\n5 D3\n3 ACAD_FILTER\n350 D4\n\
+         0 DICTIONARY\n5 D2\n3 SPATIAL\n360 F1\n{filter}"
+    );
+    let text = file("", LAYERS, &blocks, &insert).replace("  0\nEOF\n", "");
+    read_all(text + &section("OBJECTS", &objects) + "  0\nEOF\n")
+}
+
+/// Returns the number of entities, and what is said about each clipped insertion with its handle.
+fn clipping(drawing: &Drawing) -> (usize, Vec<(String, Option<Handle>)>) {
+    let said =
+        |left_out: &OmittedCurve| (left_out.diagnostic.text(Lang::En), left_out.diagnostic.place.handle);
+    (drawing.entities.len(), drawing.left_out.iter().map(said).collect())
+}
+
+#[test]
+fn a_clipped_block_is_left_out() {
+    const FILTER: &str = "0 SPATIAL_FILTER\n5 F1\n70 2\n71 1";
+    let said = |block: &str| {
+        format!("block {block} is left out: it is clipped (XCLIP), so only a part of it is visible")
+    };
+    let drawing = clipped("D1", "D3", FILTER);
+    assert_eq!(clipping(&drawing), (0, vec![(said("B"), Some(Handle(0xB1)))]));
+    assert_eq!(drawing.left_out[0].point, Some(Point::new(5.0, 6.0)));
+    assert_eq!(clipping(&clipped("D3", "D1", FILTER)), (1, vec![(said("C"), Some(Handle(0xC1)))]));
+    // Other extension dictionaries, other filters, and boundaries that are switched off do not matter.
+    assert_eq!(clipping(&clipped("D3", "D3", FILTER)), (2, vec![]));
+    assert_eq!(clipping(&clipped("D1", "D1", &FILTER.replace("SPATIAL", "LAYER"))), (2, vec![]));
+    assert_eq!(clipping(&clipped("D1", "D1", &FILTER.replace("71 1", "71 0"))), (2, vec![]));
+}
+
+#[test]
+fn objects_that_cannot_be_read_are_an_error_if_a_block_may_be_clipped() {
+    let broken = "0 SPATIAL_FILTER\n5 F1\nx 1";
+    assert_eq!(clipped("D1", "D1", broken).diagnostics[0].code(), Code::InvalidDxf);
+    let text = file("", LAYERS, &block("B", "", LINE), "0 INSERT\n8 X\n2 B\n10 0\n20 0");
+    let text = text.replace("  0\nEOF\n", "") + &section("OBJECTS", broken) + "  0\nEOF\n";
+    assert_eq!(read_all(text).diagnostics, []);
 }
