@@ -51,6 +51,11 @@ pub(crate) fn with_digits(value: &str) -> String {
     value.chars().map(digit).collect()
 }
 
+/// Returns the name of a layer with all look-alikes replaced, also those of digits.
+pub(crate) fn plain_name(layer: &str) -> String {
+    with_digits(&with_keyboard_characters(layer))
+}
+
 /// Returns a note about the layer with the name most like that of a path: if possible, one that differs only in look-alike characters.
 pub fn near_layer<'l>(path: &str, layers: impl Iterator<Item = &'l str> + Clone) -> Option<Note> {
     let is_alike = |layer: &&str| {

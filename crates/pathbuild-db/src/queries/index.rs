@@ -87,7 +87,7 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
             }
             if is_part {
                 has_parts.set(true);
-            } else if !is_path && language.path_pattern.may_begin(layer) {
+            } else if !is_path && language.path_pattern.may_resemble(layer) {
                 others.borrow_mut().push(SmolStr::new(layer));
             }
             is_path || is_part

@@ -11,6 +11,7 @@ use std::ops::{Deref, Range};
 use regex::Regex;
 use smol_str::SmolStr;
 
+use crate::look_alikes;
 use pattern::{DefaultPattern, Groups, Pattern};
 
 pub use pattern::{LayerPattern, PatternError};
@@ -100,9 +101,9 @@ impl PathPattern {
         self.0.may_begin(layer) && self.0.matches(&with_points(without_tilde(layer)))
     }
 
-    /// Whether the name of a layer begins like that of a path layer. If not, the layer is certainly not a path layer.
-    pub fn may_begin(&self, layer: &str) -> bool {
-        self.0.may_begin(layer)
+    /// Whether the name of a layer may resemble that of a path, judged by how it begins.
+    pub fn may_resemble(&self, layer: &str) -> bool {
+        self.0.may_begin(&look_alikes::plain_name(layer))
     }
 
     /// Whether a name is a path name.

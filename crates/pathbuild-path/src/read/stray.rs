@@ -82,6 +82,8 @@ fn without_mistakes(text: &str) -> String {
 /// Path names, for comparison with the names of other layers.
 pub struct NearNames {
     by_folded: HashMap<String, PathName>,
+    /// Paths by their names without the letters at the end, such as `1234.1` for `1234.1P`, normalized as well.
+    without_letters: HashMap<String, PathName>,
     /// The words for versions, normalized like the names.
     versions: [String; 6],
 }
@@ -89,13 +91,21 @@ pub struct NearNames {
 impl NearNames {
     /// Collects the names of a drawing's paths.
     pub fn new<'n>(paths: impl Iterator<Item = &'n PathName>) -> Self {
-        let by_folded = paths.map(|path| (case_folded(path.as_str()), path.clone())).collect();
-        Self { by_folded, versions: VERSIONS.map(case_folded) }
+        let (mut by_folded, mut without_letters) = (HashMap::new(), HashMap::new());
+        for path in paths {
+            let name = case_folded(path.as_str());
+            let shorter = name.trim_end_matches(char::is_alphabetic);
+            if !shorter.is_empty() {
+                without_letters.insert(shorter.to_owned(), path.clone());
+            }
+            by_folded.insert(name, path.clone());
+        }
+        Self { by_folded, without_letters, versions: VERSIONS.map(case_folded) }
     }
 
     /// Returns the path with a name that resembles the name of another layer: the layer has the path's name, followed by a tilde and any text, by at
-    /// most two more characters, or by a word for another version. Spaces, points and other separators, and case are ignored; letters that look like
-    /// digits are treated as those digits.
+    /// most two more characters, or by a word for another version, or it lacks the letters at the end. Case and all characters but letters and digits
+    /// are ignored; letters that look like digits are treated as those digits.
     pub fn path(&self, layer: &str) -> Option<&PathName> {
         let layer = case_folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
@@ -105,17 +115,18 @@ impl NearNames {
             let before = |word: &String| self.by_folded.get(layer.strip_suffix(word.as_str())?);
             self.versions.iter().find_map(before)
         };
-        before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end]))).or_else(version)
+        let longer = before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end])));
+        longer.or_else(version).or_else(|| self.without_letters.get(&layer))
     }
 }
 
-/// Normalizes a name for comparison: upper case, without spaces and separators, with look-alikes replaced by plain characters and digits.
+/// Normalizes a name for comparison: only letters, digits and tildes, in upper case, with look-alikes replaced by plain characters and digits.
 fn case_folded(name: &str) -> String {
-    let plain = look_alikes::with_digits(&look_alikes::with_keyboard_characters(name));
-    let seen =
-        plain.chars().filter(|letter| !letter.is_whitespace() && !matches!(letter, '.' | '_' | ',' | '-'));
-    let tildes = seen.map(|letter| if matches!(letter, '\u{2dc}' | '\u{223c}') { '~' } else { letter });
-    tildes.flat_map(char::to_uppercase).collect()
+    let plain = look_alikes::plain_name(name);
+    let tildes =
+        plain.chars().map(|letter| if matches!(letter, '\u{2dc}' | '\u{223c}') { '~' } else { letter });
+    let seen = tildes.filter(|letter| letter.is_alphanumeric() || *letter == '~');
+    seen.flat_map(char::to_uppercase).collect()
 }
 
 /// Returns PB119 and PB120 for a drawing that was read with all its layers.

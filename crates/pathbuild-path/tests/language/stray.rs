@@ -112,11 +112,16 @@ fn a_layer_that_is_nearly_a_path_s_is_named() {
         "1234.1P old",
         "1234.1P copy",
         "1234.1\u{420}",
+        "1234.1P(2)",
+        "1234\u{b7}1P",
+        "\u{ff11}23\u{ff14}.1P",
+        "1234.1",
     ] {
         assert_eq!(circle(layer), ["PB120"], "{layer}");
     }
     for layer in [
-        "1234.1",
+        "1234",
+        "1234.1P (23)x",
         "1234.1P Text",
         "1234.1P alter",
         "1235.1P alt",
