@@ -263,6 +263,11 @@ fn a_text_or_length_other_than_the_proxy_lines_is_a_warning() {
         let other = EMBEDDING.replace(letter, other);
         expect(&[(EMBEDDING, &format!("{other} #! PB506\n#! PB516"))], 1);
     }
+    let raised = |drawn: &str, height: &str| drawn.replace("T5", &format!("T5 {height}"));
+    expect(&[(EMBEDDING, &format!("{} #! PB516 H", raised(EMBEDDING, "H2")))], 0);
+    expect(&[(PROXY, &raised(PROXY, "H2")), (EMBEDDING, &format!("{EMBEDDING} #! PB516 H"))], 0);
+    expect(&[(PROXY, &raised(PROXY, "H2")), (EMBEDDING, &raised(EMBEDDING, "H2"))], 0);
+    expect(&[(EMBEDDING, &raised(EMBEDDING, "H0"))], 0);
     let nearly = [
         (PROXY, PROXY.replace("40,0", "40.0007,0")),
         (EMBEDDING, EMBEDDING.replace("0,0 40,0", "0,0 39.9998,0")),

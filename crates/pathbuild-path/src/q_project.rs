@@ -348,11 +348,14 @@ fn differences_from_proxy(path: &Path, subpath: &Subpath, proxy: &ProxyLine) -> 
         let here = subpath.material.as_deref();
         (here != Some(there)).then(|| ("M".to_owned(), or_dash(here), Value::quoted(there), fault(Letter::M)))
     };
+    let raised = || {
+        let there = proxy.value(Letter::H).map(|(there, _)| there);
+        (!is_number(there.unwrap_or("0"), subpath.height))
+            .then(|| ("H".to_owned(), subpath.height.into(), or_dash(there), fault(Letter::H)))
+    };
+    let [thickness, tool] = [number(Letter::T, subpath.thickness), number(Letter::O, subpath.tool)];
     let mut differences: Vec<Difference> =
-        [number(Letter::T, subpath.thickness), number(Letter::O, subpath.tool), material()]
-            .into_iter()
-            .flatten()
-            .collect();
+        [thickness, tool, material(), raised()].into_iter().flatten().collect();
     differences.extend(differing_variables(subpath, proxy));
     differences
 }

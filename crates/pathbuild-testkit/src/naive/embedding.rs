@@ -419,6 +419,10 @@ fn differing_letters(subpath: &Subpath, proxy: &ProxyLine) -> Vec<String> {
     if proxy.value(Letter::M).is_some_and(|(there, _)| subpath.material.as_deref() != Some(there)) {
         found.push("M".to_owned());
     }
+    let height = proxy.value(Letter::H).map_or("0", |(there, _)| there);
+    if !is_same(height, &subpath.height.to_string()) {
+        found.push("H".to_owned());
+    }
     let mut variables: Vec<char> = subpath.values.iter().filter_map(|given| given.variable).collect();
     variables.extend(proxy.variables().map(|(name, _)| name));
     variables.sort_unstable();
