@@ -156,28 +156,43 @@ fn joined_chunks<'a>(
     Ok(Cow::Owned(decoder.decode(&joined, first.line).into_owned()))
 }
 
-/// Removes the formatting from joined, decoded chunks. Line breaks become `\n`.
+/// Removes the formatting from joined, decoded chunks, and what is struck out, because it is void. Line breaks become `\n`.
 ///
 /// A command without its end is kept as text: dropping the rest of a parameter text would be worse.
 fn plain_text(raw: &str) -> SmolStr {
     if !raw.bytes().any(is_special) {
         return raw.into();
     }
-    let mut plain = SmolStrBuilder::new();
+    let (mut plain, mut void) = (SmolStrBuilder::new(), SmolStrBuilder::new());
+    let (mut is_struck, mut outer) = (false, Vec::new());
     // Search for the last `;` only once: thousands of unterminated commands would otherwise each search the whole rest.
     let behind_last = raw.rfind(';').map_or(raw.len(), |last| raw.len() - last - 1);
     let mut rest = raw;
     while let Some(special) = rest.bytes().position(is_special) {
-        plain.push_str(&rest[..special]);
+        let seen = if is_struck { &mut void } else { &mut plain };
+        seen.push_str(&rest[..special]);
         rest = &rest[special..];
         let length = match rest.as_bytes()[0] {
-            b'\\' => append_command(rest, rest.len() > behind_last, &mut plain),
-            b'^' => append_caret(rest, &mut plain),
+            b'\\' => append_command(rest, rest.len() > behind_last, seen),
+            b'^' => append_caret(rest, seen),
             _ => 1,
         };
+        match rest.as_bytes() {
+            [b'{', ..] => outer.push(is_struck),
+            [b'}', ..] => is_struck = outer.pop().unwrap_or(is_struck),
+            [b'\\', b'K', ..] => {
+                // A space keeps the parameters around the void ones apart.
+                plain.push(' ');
+                is_struck = true;
+            }
+            [b'\\', b'k', ..] => is_struck = false,
+            _ => {}
+        }
         rest = &rest[length..];
     }
-    plain.push_str(rest);
+    if !is_struck {
+        plain.push_str(rest);
+    }
     plain.finish()
 }
 
