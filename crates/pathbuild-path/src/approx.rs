@@ -20,6 +20,11 @@ pub fn above(a: f64, b: f64) -> bool {
     a > b && !near(a, b)
 }
 
+/// Whether `a > b` in a program, whose numbers have three decimals.
+pub fn is_written_above(a: f64, b: f64) -> bool {
+    (a * 1000.0).round() > (b * 1000.0).round()
+}
+
 /// Whether two points coincide: their distance is at most about 0.0000316 mm. Used for ends of segments, for markers and in the walk.
 pub fn coincide(a: Point2<f64>, b: Point2<f64>) -> bool {
     near((b - a).norm_squared(), 0.0)

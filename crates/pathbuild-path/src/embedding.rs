@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value, is_slip};
 use regex::Regex;
 use smol_str::SmolStr;
 
-use crate::approx::{above, at_least, near};
+use crate::approx::{at_least, is_written_above, near};
 use crate::effective::{PathNumbers, PathOptions, PathRole};
 use crate::element::Origin;
 use crate::language::Language;
@@ -201,7 +201,7 @@ impl PathSignature {
     /// the path embeds. The extent of raised material is not drawn, so it does not matter where the sweep is.
     pub fn own_sweep_problems(&self, top: f64) -> Vec<Diagnostic> {
         let top = top.max(self.highest_probe);
-        let too_low = self.own_sweeps.iter().filter(|sweep| !above(sweep.height, top));
+        let too_low = self.own_sweeps.iter().filter(|sweep| !is_written_above(sweep.height, top));
         let problem = |sweep: &StatedHeight| {
             let mut problem = Diagnostic::new(&parameters::SWEEP_BELOW_RAISED)
                 .with("value", sweep.height)
@@ -225,7 +225,8 @@ impl PathSignature {
 
     /// Returns PB203 for each of the path's own probes that reaches the sweep height, in mm.
     pub fn raised_probe_problems(&self, sweep_height: f64) -> Vec<Diagnostic> {
-        let too_high = self.raised_probes.iter().filter(|probe| !above(sweep_height, probe.height));
+        let too_high =
+            self.raised_probes.iter().filter(|probe| !is_written_above(sweep_height, probe.height));
         let problem = |probe: &StatedHeight| {
             self.reached_problem(sweep_height, probe.height, probe.fault.clone(), &probe.origin)
         };
@@ -241,7 +242,8 @@ impl PathSignature {
         top: f64,
     ) -> Option<Diagnostic> {
         let fault = call.fault(Letter::H).or_else(|| call.fault(Letter::Embed)).cloned();
-        (!above(sweep_height, top)).then(|| self.reached_problem(sweep_height, top, fault, &call.origin))
+        (!is_written_above(sweep_height, top))
+            .then(|| self.reached_problem(sweep_height, top, fault, &call.origin))
     }
 
     fn reached_problem(
@@ -305,7 +307,7 @@ impl SweepLimits {
             PathRole::Emitted => &parameters::DEFAULT_SWEEP_TOO_LOW,
             PathRole::Embedded => &parameters::EMBEDDED_SWEEP_TOO_LOW,
         };
-        let too_high = self.faces.iter().filter(|face| !above(height, face.thickness));
+        let too_high = self.faces.iter().filter(|face| !is_written_above(height, face.thickness));
         let problem = |face: &UpperFace| {
             let mut problem = Diagnostic::new(message)
                 .with("value", height)

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
-use crate::approx::{above, at_least};
+use crate::approx::{above, at_least, is_written_above};
 use pathbuild_motion::{ChipLoad, check_cutting_length};
 
 use crate::language::DoubtThresholds;
@@ -322,7 +322,7 @@ impl LimitCheck<'_> {
         let (GivenNumber::Number(high), GivenNumber::Number(low)) = (value(upper), value(lower)) else {
             return;
         };
-        if above(high, low) {
+        if is_written_above(high, low) {
             return;
         }
         // `NOT_ABOVE` blames the upper value, `NOT_BELOW` the lower one.
@@ -339,6 +339,8 @@ impl LimitCheck<'_> {
             .with("value", subject_value)
             .with("limit_letter", limit.as_char())
             .with("limit", limit_value);
+        let problem =
+            if high > low { problem.note(&messages::EQUAL_IN_PROGRAM, Vec::new()) } else { problem };
         let underlined = if self.own.has(subject) { subject } else { limit };
         self.problems.push(self.own.underline(underlined, problem));
     }

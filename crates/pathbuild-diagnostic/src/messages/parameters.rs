@@ -160,6 +160,11 @@ messages! {
         help_en: "correct the heights: all are measured from the plate, S above T above D above B",
         help_de: "die Höhen berichtigen: alle zählen ab der Aufspannplatte, S über T über D über B",
     }
+    /// Note: two values that differ by so little that programs give the same number for both.
+    EQUAL_IN_PROGRAM: ParameterOutOfRange {
+        en: "programs have three decimals, in which the two heights are equal",
+        de: "Programme haben drei Nachkommastellen, und darin sind beide Höhen gleich",
+    }
     /// Like [`NOT_ABOVE`], for a letter that has no effect here.
     UNUSED_NOT_ABOVE: ParameterOutOfRange {
         en: "{letter} is {value}, but must be greater than {limit_letter}, which is {limit}",

@@ -113,8 +113,8 @@ fn an_elements_values_are_greater_than_0() {
 
 #[test]
 fn s_is_above_t() {
-    assert_eq!(start("T5 O3 I1 B0 S5.000006"), [""; 0]);
-    for outside in ["5.000004", "5", "4"] {
+    assert_eq!(start("T5 O3 I1 B0 S5.0006"), [""; 0]);
+    for outside in ["5.0004", "5", "4"] {
         assert_eq!(start(&format!("T5 O3 I1 B0 S{outside}")), ["PB203 S"]);
     }
     let sweep = |text: &str| on(&format!("sweep 0,0 40,0 \"{text}\""), "T5 O3 S20");
@@ -128,8 +128,8 @@ fn b_and_d_are_below_t() {
         let with = |value: &str| {
             start(&format!("T5 O3 I1 {letter}{value} {}", if letter == 'B' { "" } else { "B0" }))
         };
-        assert_eq!(with("4.99999"), [""; 0], "{letter}");
-        for outside in ["4.999996", "5", "6"] {
+        assert_eq!(with("4.9994"), [""; 0], "{letter}");
+        for outside in ["4.9996", "5", "6"] {
             assert_eq!(with(outside), [format!("PB203 {letter}")], "{letter}{outside}");
         }
     }
@@ -137,6 +137,19 @@ fn b_and_d_are_below_t() {
     assert_eq!(on("mill 0,0 40,0 \"B5\"", "T5 O3 I1"), ["PB203 B"]);
     assert_eq!(on("mark 0,0 40,0 \"D4.9\"", "T5 O3 I1"), [""; 0]);
     assert_eq!(on("mark 0,0 40,0 \"D5\"", "T5 O3 I1"), ["PB203 D"]);
+}
+
+#[test]
+fn heights_that_are_equal_in_a_program_are_named() {
+    let notes = |text: &str| {
+        let compiled = compile(&path(text, "mill 0,0 40,0\nend 40,0"));
+        let notes = compiled.found.iter().flat_map(|found| &found.notes);
+        notes.map(|note| note.text(Lang::En)).collect::<Vec<_>>()
+    };
+    let equal = ["programs have three decimals, in which the two heights are equal"];
+    assert_eq!(notes("T5 O3 I1 B0 S5.0004"), equal);
+    assert_eq!(notes("T5 O3 I1 B4.9996"), equal);
+    assert_eq!(notes("T5 O3 I1 B0 S5"), [""; 0]);
 }
 
 /// A letter without effect is checked too, since an impossible value is always a mistake.
@@ -175,8 +188,8 @@ fn the_paths_own_faults_are_reported_once() {
 
 #[test]
 fn d_is_above_b_on_paths_and_where_there_are_bars() {
-    assert_eq!(start("T5 O3 I1 B1 D1.00001"), [""; 0]);
-    for outside in ["1.000001", "1", "0"] {
+    assert_eq!(start("T5 O3 I1 B1 D1.0006"), [""; 0]);
+    for outside in ["1.0004", "1", "0"] {
         assert_eq!(start(&format!("T5 O3 I1 B1 D{outside}")), ["PB203 D"]);
     }
     let parameters = "T5 O3 I1 B1 P1 U4";
