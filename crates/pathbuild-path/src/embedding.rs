@@ -406,8 +406,10 @@ impl<'a> SubpathChecker<'a> {
     /// PB501, PB502 and PB507: the segment names no path, or one that must not be embedded.
     pub fn name<'c>(&self, call: &'c SubpathCall) -> Result<&'c PathName, Box<Diagnostic>> {
         let problem = match &call.subpath.name {
-            SubpathName::Missing { text } => {
-                self.at(call, Diagnostic::new(&messages::MISSING_NAME), text.as_ref())
+            SubpathName::Missing { text, is_point } => {
+                let message =
+                    if *is_point { &messages::SUBPATH_WITHOUT_LENGTH } else { &messages::MISSING_NAME };
+                self.at(call, Diagnostic::new(message), text.as_ref())
             }
             SubpathName::Invalid { value } => {
                 let pattern = &self.language.path_pattern;

@@ -228,8 +228,10 @@ pub struct Subpath {
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum SubpathName {
+    /// `is_point`: the segment has no length, so no text can belong to it.
     Missing {
         text: Option<TextFault>,
+        is_point: bool,
     },
     Invalid {
         value: Box<str>,

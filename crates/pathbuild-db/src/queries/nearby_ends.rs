@@ -69,7 +69,7 @@ impl<'a> LayerEnds<'a> {
 
     /// Adds to PB501 a note about the text that was probably meant as the name.
     pub(super) fn with_name_hint(&self, language: &Language, mut problem: Diagnostic) -> Diagnostic {
-        if problem.code() == Code::MissingSubpathName {
+        if problem.message == &paths::MISSING_NAME {
             problem.notes.extend(self.name_text(language, &problem));
         }
         problem

@@ -206,6 +206,13 @@ messages! {
         help_en: "put a text over it: \">1234.1P\"; or change the line type to DOT to skip it, to DASHED for a sweep",
         help_de: "einen Text darüberlegen: \">1234.1P\"; oder den Linientyp ändern: DOT, um ihn auszulassen, DASHED für eine Leerfahrt",
     }
+    /// A subpath drawn as a single point, to which no text can belong.
+    SUBPATH_WITHOUT_LENGTH: MissingSubpathName {
+        en: "this subpath has no length, so no text can belong to it",
+        de: "dieser Unterpfad hat keine Länge, darum kann kein Text zu ihm gehören",
+        help_en: "to embed a path that ends where it starts, draw a full circle instead: an arc with line type DASHDOT from 270 to 270 degrees, with the text over it",
+        help_de: "um einen Pfad einzubetten, der endet, wo er anfängt, stattdessen einen Vollkreis zeichnen: einen Bogen mit Linientyp DASHDOT von 270 bis 270 Grad, mit dem Text darüber",
+    }
     /// `>` without a path name.
     INVALID_NAME: InvalidPathName {
         en: "\"{value}\" is not a path name",

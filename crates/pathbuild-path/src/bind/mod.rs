@@ -13,7 +13,7 @@ use pathbuild_motion::ChipLoad;
 use regex::Regex;
 use smol_str::SmolStr;
 
-use crate::approx::above;
+use crate::approx::{above, is_negligible};
 use crate::bind::uncut_runs::{SupportSegment, uncut_runs};
 use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape, diagnostic_point};
@@ -525,7 +525,7 @@ impl Binder<'_> {
         Subpath {
             start: curve.start(),
             end: curve.end(),
-            name: self.subpath_name(values, self.raw.drawn.text(element.text)),
+            name: self.subpath_name(values, self.raw.drawn.text(element.text), curve),
             thickness: thickness.unwrap_or_default(),
             tool: tool.unwrap_or_default(),
             unknown: unknown.fold(Letters::default(), |all, (letter, _)| all.and(Letters::of(&[letter]))),
@@ -536,9 +536,15 @@ impl Binder<'_> {
         }
     }
 
-    fn subpath_name(&self, values: &Values<'_>, text: Option<ParameterText<'_>>) -> SubpathName {
+    fn subpath_name(
+        &self,
+        values: &Values<'_>,
+        text: Option<ParameterText<'_>>,
+        curve: Curve,
+    ) -> SubpathName {
         let Some(value) = values.text(Letter::Embed) else {
-            return SubpathName::Missing { text: text.map(ParameterText::whole_text_fault) };
+            let text = text.map(ParameterText::whole_text_fault);
+            return SubpathName::Missing { text, is_point: is_negligible(curve.length()) };
         };
         match self.language.path_pattern.first_in(value) {
             None => SubpathName::Invalid { value: value.into() },

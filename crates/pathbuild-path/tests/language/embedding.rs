@@ -213,6 +213,19 @@ fn a_segment_names_a_path_and_no_more() {
     assert_eq!(named("Mx"), ["PB501"]);
 }
 
+/// No text can belong to a segment without length. A closed path is embedded by a full circle.
+#[test]
+fn a_segment_without_length_cannot_name_a_path() {
+    let named = |segment: &str| {
+        let outer = signature(&path("T5 O3 I1 B0 Mx", &format!("{segment}\nmill 0,0 40,0\nend 40,0")));
+        judged(&outer, &[], |judge, call| judge.name(call).err().map(|problem| problem.text(Lang::En)))
+    };
+    let without_text = Some("the subpath does not say which path to embed".to_owned());
+    assert_eq!(named("subpath arc centre 0,5 r 5 from 270 to 270"), without_text);
+    let without_length = Some("this subpath has no length, so no text can belong to it".to_owned());
+    assert_eq!(named("subpath 0,0 0,0"), without_length);
+}
+
 /// An underscore is a point in names of layers only. The help names the path that was meant.
 #[test]
 fn a_name_with_an_underscore_is_corrected() {
