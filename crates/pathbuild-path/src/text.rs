@@ -739,6 +739,11 @@ pub(crate) fn is_special_space(character: char) -> bool {
     character.is_whitespace() && !character.is_ascii()
 }
 
+/// Replaces special spaces, which look like nothing or like ordinary ones, by a visible character.
+pub(crate) fn with_visible_spaces(text: &str) -> String {
+    text.replace(is_special_space, "\u{2423}")
+}
+
 /// Parses a number: an optional sign, digits, and at most one decimal point or comma. `None` for anything else, including exponents, and
 /// for numbers that are too large.
 pub fn parse_number(text: &str) -> Option<f64> {

@@ -13,7 +13,7 @@ use crate::letter::{ElementClass, Letter, LetterUse, Letters};
 use crate::look_alikes;
 use crate::text::{
     LetterValue, ParameterText, ValueKind, equals_sign_mistake, is_special_space, is_variable_without_value,
-    is_without_value, mistake_in_text, unit_mistake,
+    is_without_value, mistake_in_text, unit_mistake, with_visible_spaces,
 };
 use crate::variables::Interpolation;
 
@@ -214,7 +214,7 @@ fn not_a_number(letter: Letter, value: &str) -> Diagnostic {
         true => &messages::NOT_AN_INTEGER,
         false => &messages::NOT_A_NUMBER,
     };
-    let visible = value.replace(is_special_space, "\u{2423}");
+    let visible = with_visible_spaces(value);
     // Only B is usually negative, S is above the material, and a feed is in mm/min.
     let example = match letter {
         Letter::B => "-0.3",

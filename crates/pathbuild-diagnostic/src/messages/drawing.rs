@@ -413,6 +413,13 @@ messages! {
         help_en: "write Z and the height above the plate in mm, greater than 0, and nothing else: Z25",
         help_de: "Z und die Höhe über der Platte in mm schreiben, größer als 0, und sonst nichts: Z25",
     }
+    /// A text inside a clamp with a space that does not separate.
+    CLAMP_WITH_SPECIAL_SPACE: InvalidKeepOut {
+        en: "the text \"{text}\" does not give the height of this clamp: \u{2423} is a special space, which separates nothing",
+        de: "der Text \"{text}\" gibt die Höhe dieses Spannmittels nicht an: \u{2423} ist ein besonderes Leerzeichen und trennt nicht",
+        help_en: "type Z and the height above the plate in mm, and nothing else: Z25",
+        help_de: "nur Z und die Höhe über der Platte in mm schreiben: Z25",
+    }
     /// A clamp that is hardly higher than the plate.
     LOW_CLAMP: DoubtfulValue {
         en: "this clamp is only {height} mm high",
@@ -644,19 +651,19 @@ messages! {
         help_en: "explode it, or insert it with the same scale in x and y",
         help_de: "auflösen oder in x und y mit demselben Maßstab einfügen",
     }
-    /// An INSERT of a block that the file does not contain.
-    BLOCK_MISSING: UnsupportedCurve {
-        en: "block {block} is left out: the file does not contain it",
-        de: "Block {block} wird ausgelassen: die Datei enthält ihn nicht",
-        help_en: "bind external references before saving, or delete the insertion",
-        help_de: "externe Referenzen vor dem Speichern binden oder die Einfügung löschen",
-    }
     /// An INSERT that shows only a part of its block.
     INSERT_CLIPPED: UnsupportedCurve {
         en: "block {block} is left out: it is clipped (XCLIP), so only a part of it is visible",
         de: "Block {block} wird ausgelassen: er ist mit XCLIP (XZUSCHNEIDEN) zugeschnitten, also nur zum Teil sichtbar",
         help_en: "delete the clipping boundary, or explode the block and trim it",
         help_de: "die Zuschneidegrenze löschen oder den Block auflösen und stutzen",
+    }
+    /// An INSERT of a block that the file does not contain.
+    BLOCK_MISSING: UnsupportedCurve {
+        en: "block {block} is left out: the file does not contain it",
+        de: "Block {block} wird ausgelassen: die Datei enthält ihn nicht",
+        help_en: "bind external references before saving, or delete the insertion",
+        help_de: "externe Referenzen vor dem Speichern binden oder die Einfügung löschen",
     }
     /// An INSERT on a layer that is read, of a block that draws only on other layers.
     BLOCK_ELSEWHERE: UnsupportedCurve {

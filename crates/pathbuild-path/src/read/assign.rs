@@ -210,7 +210,7 @@ impl<'d> LayerTexts<'d> {
             .with("point", diagnostic_point(element.shape.point()))
             .with("other", other.word())
             .with("other_point", diagnostic_point(other.shape.point()))
-            .with("margin", rival.farther.abs());
+            .with("margin", at_least_a_micrometre(rival.farther));
         if let Some(given) = path.text_of(other.owner).filter(|_| other.is_taken) {
             doubt = doubt.quoting("other_text", given.as_str().replace('\n', " "));
         }
@@ -313,4 +313,9 @@ fn refuses(owner: Owner, text: ParameterText<'_>, elements: &[Element]) -> bool 
     let class = elements[element].class(None);
     let mut letters = text.pieces().iter().filter_map(|piece| piece.letter);
     letters.any(|letter| matches!(class.use_of(letter), LetterUse::Unknown | LetterUse::PathOnly))
+}
+
+/// Rounds a difference of distances to micrometres, so that it is not shown as 0.
+fn at_least_a_micrometre(difference: f64) -> f64 {
+    (difference.abs() * 1000.0).round().max(1.0) / 1000.0
 }

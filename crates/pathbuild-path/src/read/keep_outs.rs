@@ -17,7 +17,9 @@ use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};
 use crate::language::Language;
 use crate::letter::Letter;
 use crate::read::entities::{AnyText, TextCircle, at_entity, curve, xy};
-use crate::text::{ParameterText, ParameterTexts, ValueKind, without_percent_codes};
+use crate::text::{
+    ParameterText, ParameterTexts, ValueKind, is_special_space, with_visible_spaces, without_percent_codes,
+};
 
 /// Finds the clamps of a drawing. At least the layers with clamps must have been read.
 pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
@@ -332,6 +334,11 @@ impl ClampReader<'_> {
         let read = texts.first().unwrap_or_default();
         let height = height(read);
         let problem = match height {
+            None if text.string().contains(is_special_space) => {
+                let visible = with_visible_spaces(&without_percent_codes(text.string()));
+                Diagnostic::new(&messages::CLAMP_WITH_SPECIAL_SPACE)
+                    .quoting("text", visible.trim_end().replace('\n', " "))
+            }
             None => Diagnostic::new(&messages::NO_CLAMP_HEIGHT).quoting("text", one_line(text)),
             Some(height) if above(MIN_PLAUSIBLE_HEIGHT, height) => {
                 Diagnostic::new(&messages::LOW_CLAMP).with("height", height)

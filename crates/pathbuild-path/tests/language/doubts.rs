@@ -183,6 +183,11 @@ fn a_text_at_the_joint_of_two_elements_is_doubtful() {
     {
         assert_eq!(at_small_text(lines, &format!("{x},0.2")) == ["PB116"], is_doubtful, "{x}");
     }
+    let text = "mtext 19.999,0.2 \"B1\" height 1 align middle centre";
+    let drawing = path("T5 O2 I1 B0", &format!("{lines}\n{text}\nend 40,0"));
+    let raw = read_as(&drawing, &Language { doubts: MACHINE, ..language() });
+    let found = &raw.paths[0].0.diagnostics;
+    assert!(found[0].text(Lang::En).ends_with("only 0.001 mm farther away"), "{found:?}");
     // The text is 0.2 mm away from one line, and 0.29 or 0.31 mm from the end of the other.
     assert_eq!(at_small_text(lines, "19.79,0.2"), ["PB116"]);
     assert_eq!(at_small_text(lines, "19.76,0.2"), [""; 0]);

@@ -126,6 +126,11 @@ fn heights_are_numbers_greater_than_0() {
     for text in ["25", "z25", "Z", "Z0", "Z-3", "Z25 B0", "Z25mm", "Z=h", "clamp"] {
         assert_wrong(&SQUARE.replace("Z25", text), &["does not give the height"]);
     }
+    for (text, shown) in [("Z25\u{2009}", "\"Z25\u{2423}\""), ("\u{2009}Z25 ", "\"\u{2423}Z25\"")] {
+        let text = SQUARE.replace("Z25", text);
+        assert_wrong(&text, &[shown]);
+        assert_wrong(&text, &["\u{2423} is a special space"]);
+    }
 }
 
 #[test]
