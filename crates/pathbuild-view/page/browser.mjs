@@ -7,7 +7,8 @@ export const isFirefox = process.env.BROWSER === "firefox";
 /** Starts the browser with WebGL in software; the arguments are added for Chromium. */
 export function launch(...args) {
   if (isFirefox) return launchFirefox({ "webgl.force-enabled": true });
-  return launchChromium("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", ...args);
+  // On a busy machine the watchdog ends the process that draws, and the page loses its picture.
+  return launchChromium("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-watchdog", ...args);
 }
 
 /** Starts the browser without WebGL. */
