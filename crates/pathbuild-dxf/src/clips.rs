@@ -9,8 +9,8 @@ use crate::fields::handle;
 use crate::number::whole_number;
 use crate::pairs::{Pairs, Stop};
 
-/// Returns the extension dictionaries of insertions that show only a part of their block. Such a dictionary contains another one, ACAD_FILTER,
-/// which contains a SPATIAL_FILTER that is switched on.
+/// Returns the extension dictionaries of insertions that show only a part of their block. Such a dictionary contains another one, `ACAD_FILTER`,
+/// which contains a `SPATIAL_FILTER` that is switched on.
 pub(crate) fn clipping_dictionaries<'a>(entities: &Pairs<'a>) -> Result<HashSet<Handle>, Stop<'a>> {
     let Some((_, mut objects)) = entities.next_section(&["OBJECTS"]) else { return Ok(HashSet::new()) };
     let (mut filters, mut entries) = (HashSet::new(), Vec::new());
