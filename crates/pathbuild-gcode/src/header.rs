@@ -528,9 +528,15 @@ fn fusion_tool(comment: &str) -> Option<Statement> {
     let tip = match &*kind {
         "flat end mill" if radius == 0.0 && !is_tapered => Tip::Flat,
         "bullnose end mill" | "bull nose end mill" if !is_tapered => Tip::BullNose(radius),
+        "ball end mill" if !is_tapered && is_half(radius, diameter) => Tip::BullNose(radius),
         _ => Tip::Unknown,
     };
     Some(tool(Scope::Number(number), diameter, tip, StatedUnit::OfProgram))
+}
+
+/// Whether a corner radius is half of a diameter, up to the rounding of both.
+fn is_half(radius: f64, diameter: f64) -> bool {
+    (2.0 * radius - diameter).abs() <= ROUNDING_TOLERANCE + EXACT_TOLERANCE
 }
 
 fn cut_viewer_tool(comment: &str) -> Option<Statement> {
