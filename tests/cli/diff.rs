@@ -147,6 +147,22 @@ fn a_program_and_the_path_that_it_was_made_from() {
     assert_eq!(place.run("diff programs/1001.1P_Milling.gcode new").status, Some(2));
 }
 
+/// The working directory and its configuration do not matter for two directories outside of it.
+#[test]
+fn directories_are_compared_from_anywhere() {
+    let configuration = "library = [\".\"]\nfeed = 150\nrapid = 1000\nsweep-height = 10\n";
+    let drawing =
+        sheet("layer 1001.1P\nstart 0,0 \"T5 O3 I1 B4\"\nmill 0,0 20,0\nend 20,0").unwrap().to_dxf();
+    let place = ["a", "b"].into_iter().fold(Place::new(), |place, side| {
+        place
+            .file(&format!("{side}/pathbuild.toml"), configuration)
+            .file(&format!("{side}/1001.1P.dxf"), &drawing)
+    });
+    let place = place.file("c/pathbuild.toml", configuration);
+    assert_prints(&place.run("diff a b"), 0, &["0 of 1 path changed\n"]);
+    assert_prints(&place.run_in("c", &["diff", "../a", "../b"]), 0, &["0 of 1 path changed\n"]);
+}
+
 /// A program with two cuts, which also states modes, a tool and its length, spindle, coolant, a dwell and a stop.
 const TWO_CUTS: &str = "G21 G90 G17 G94 G54\nT1 M6\nG43 H1\nM3 S12000\nM8\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG4 P1\nG1 X20\nM0\nM3\nG1 X30\nG0 Z5\nM5\nM30\n";
 
@@ -162,14 +178,14 @@ fn what_two_programs_state_besides_moves_is_compared() {
         programs(TWO_CUTS, &TWO_CUTS.replacen(old, new, 1))
     };
     for (old, new, line) in [
-        ("T1 M6", "T2 M6", "  tool: T2 instead of T1 (line 8)\n"),
-        ("G43 H1", "G43 H2", "  tool length: G43 H2 instead of G43 H1 (line 8)\n"),
-        ("M3 S12000", "M3 S2000", "  spindle: M3 S2000 instead of M3 S12000 (line 8)\n"),
-        ("M3 S12000\n", "\n", "  spindle: none instead of M3 S12000 (line 8)\n"),
-        ("M8", "M9", "  coolant: none instead of M8 (line 8)\n"),
-        ("G54", "G55", "  work offset: G55 instead of G54 (line 8)\n"),
-        ("G54", "G54 G64 P0.5", "  corners: G64 P0.5 instead of none (line 8)\n"),
-        ("G54", "G54 G61", "  corners: G61 instead of none (line 8)\n"),
+        ("T1 M6", "T2 M6", "  tool: T2 instead of T1 (line 2)\n"),
+        ("G43 H1", "G43 H2", "  tool length: G43 H2 instead of G43 H1 (line 3)\n"),
+        ("M3 S12000", "M3 S2000", "  spindle: M3 S2000 instead of M3 S12000 (line 4)\n"),
+        ("M3 S12000\n", "\n", "  spindle: none instead of M3 S12000\n"),
+        ("M8", "M9", "  coolant: none instead of M8\n"),
+        ("G54", "G55", "  work offset: G55 instead of G54 (line 1)\n"),
+        ("G54", "G54 G64 P0.5", "  corners: G64 P0.5 instead of none (line 1)\n"),
+        ("G54", "G54 G61", "  corners: G61 instead of none (line 1)\n"),
         ("M0\n", "", "  stop: none instead of M0\n"),
         ("M0", "M1", "  stop: M1 instead of M0 (line 11)\n"),
         ("G4 P1", "G4 P100", "  dwell: 100 s instead of 1 s (line 9)\n"),
@@ -183,9 +199,9 @@ fn what_two_programs_state_besides_moves_is_compared() {
     }
     let german = Place::new().file("a.ngc", TWO_CUTS).file("b.ngc", TWO_CUTS.replace("T1", "T2"));
     let run = german.run("diff a.ngc b.ngc --dialect linuxcnc --lang de");
-    assert_prints(&run, 0, &["  Werkzeug: T2 statt T1 (Zeile 8)\n"]);
+    assert_prints(&run, 0, &["  Werkzeug: T2 statt T1 (Zeile 2)\n"]);
     let json = german.run("diff a.ngc b.ngc --dialect linuxcnc --format json");
-    assert_prints(&json, 0, &[r#""states":[{"kind":"tool","line":8,"now":"T2","was":"T1"}]"#]);
+    assert_prints(&json, 0, &[r#""states":[{"kind":"tool","line":2,"now":"T2","was":"T1"}]"#]);
 }
 
 /// A cutter of another diameter mills a groove of another width, although the moves of its centre are the same.

@@ -60,7 +60,7 @@ fn what_was_drawn_explains_the_moves() {
     explained(
         old(),
         part("1001.1P", "B1 F200", "mill 0,0 40,0 \"F300\""),
-        &["    line at (0, 0): text F300 added"],
+        &["    line from (0, 0) to (40, 0): text F300 added"],
     );
     let place = explained(
         part("1001.1P", "B1 F200", "mill circle 0,0 d 6\nmill 0,0 40,0"),
@@ -80,14 +80,14 @@ fn a_line_type_without_texts_is_told_instead_of_the_text() {
     explained(
         dashed("S12"),
         part("sweep 0,0 20,0"),
-        &["    line at (0, 0): line type changed from DASHED to HIDDEN"],
+        &["    line from (0, 0) to (20, 0): line type changed from DASHED to HIDDEN"],
     );
     explained(
         part("sweep 0,0 20,0"),
         dashed("S12"),
-        &["    line at (0, 0): line type changed from HIDDEN to DASHED"],
+        &["    line from (0, 0) to (20, 0): line type changed from HIDDEN to DASHED"],
     );
-    explained(dashed("S12"), dashed("S14"), &["    line at (0, 0): text S12 became S14"]);
+    explained(dashed("S12"), dashed("S14"), &["    line from (0, 0) to (20, 0): text S12 became S14"]);
 }
 
 #[test]
@@ -145,7 +145,7 @@ fn variables_and_settings_are_named() {
     assert_eq!(
         explanations(&two(&all("1"), &all("2")).run("diff old new")),
         [
-            "    line at (0, 0): text :A1 became :A2",
+            "    line from (0, 0) to (40, 0): text :A1 became :A2",
             "    embedded path 1001.1P changed",
             "      variable A: 1 became 2"
         ]
@@ -198,9 +198,9 @@ fn the_page_and_markdown_explain_as_well() {
         assert_eq!(place.run(&format!("diff old new -o {name}")).status, Some(0));
     }
     assert!(
-        place
-            .read("d.html")
-            .contains("<p>explained by:</p>\n<ul>\n<li>line at (0, 0): text B0.5 added</li></ul>")
+        place.read("d.html").contains(
+            "<p>explained by:</p>\n<ul>\n<li>line from (0, 0) to (40, 0): text B0.5 added</li></ul>"
+        )
     );
     assert!(place.read("d.md").contains("explained by"));
 }

@@ -20,11 +20,11 @@ words! {
     /// Name of several circles.
     CIRCLES: "{count} circles, the first at {point}", "{count} Kreise, der erste bei {point}";
     /// Name of a line.
-    LINE: "line at {point}", "Linie bei {point}";
+    LINE: "line from {point} to {end}", "Linie von {point} bis {end}";
     /// Name of several lines.
     LINES: "{count} lines, the first at {point}", "{count} Linien, die erste bei {point}";
     /// Name of an arc.
-    ARC: "arc at {point}", "Bogen bei {point}";
+    ARC: "arc from {point} to {end}", "Bogen von {point} bis {end}";
     /// Name of several arcs.
     ARCS: "{count} arcs, the first at {point}", "{count} Bögen, der erste bei {point}";
     /// The element is new.

@@ -92,6 +92,14 @@ impl Item<'_> {
         self.shape.point()
     }
 
+    /// Returns the end of a line or arc.
+    pub(super) fn end(&self) -> Option<Xy> {
+        match self.shape {
+            Shape::Curve(curve) => Some(curve.end()),
+            Shape::Circle { .. } => None,
+        }
+    }
+
     /// Returns the effect of the element on the moves, apart from its shape. It is equal for elements that are treated alike.
     pub(super) fn effect(&self) -> Effect<'_> {
         let values = self.parameters.iter().map(|parameter| (parameter.letter, parameter.value.as_str()));

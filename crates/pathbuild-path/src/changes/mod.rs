@@ -49,6 +49,8 @@ pub struct DrawnChange {
     pub count: usize,
     /// The start or centre of the first element in the new drawing; in the old one if it was removed.
     pub at: Point,
+    /// The end of that element, if it is a line or an arc: at a corner, several elements have the same start.
+    pub end: Option<Point>,
 }
 
 /// The kind of an element, as the user of a CAD program knows it.
@@ -132,6 +134,7 @@ fn group_changes(mut found: Vec<ItemChange<'_>>) -> Vec<DrawnChange> {
                     change,
                     count: 1,
                     at: diagnostic_point(item.at()),
+                    end: item.end().map(diagnostic_point),
                 });
             }
         }
@@ -204,7 +207,8 @@ impl DrawnChange {
     fn subject(&self) -> Sentence {
         let [one, several] = self.kind.texts();
         let text = if self.count == 1 { one } else { several };
-        Sentence::new(text).with("count", self.count).with("point", self.at)
+        let sentence = Sentence::new(text).with("count", self.count).with("point", self.at);
+        self.end.into_iter().fold(sentence, |sentence, end| sentence.with("end", end))
     }
 }
 

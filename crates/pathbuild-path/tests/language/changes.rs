@@ -49,12 +49,12 @@ fn replaced(from: &str, to: &str) -> Vec<String> {
 #[test]
 fn texts() {
     let line = "mill 40,0 40,20";
-    assert_eq!(replaced(line, &format!("{line} \"B1\"")), ["line at (40, 0): text B1 added"]);
+    assert_eq!(replaced(line, &format!("{line} \"B1\"")), ["line from (40, 0) to (40, 20): text B1 added"]);
     let with_text = ROUND.replace(line, &format!("{line} \"F100 B1\""));
     let other = |text: &str| changes(&with_text, &with_text.replace("F100 B1", text));
-    assert_eq!(other("F100 B2"), ["line at (40, 0): text B1 became B2"]);
-    assert_eq!(other("B2 F120"), ["line at (40, 0): text F100 B1 became B2 F120"]);
-    assert_eq!(other("B1"), ["line at (40, 0): text F100 removed"]);
+    assert_eq!(other("F100 B2"), ["line from (40, 0) to (40, 20): text B1 became B2"]);
+    assert_eq!(other("B2 F120"), ["line from (40, 0) to (40, 20): text F100 B1 became B2 F120"]);
+    assert_eq!(other("B1"), ["line from (40, 0) to (40, 20): text F100 removed"]);
     // The text has the same values in another order, in another form, or with a comment.
     for text in ["B1 F100", "F100.0 B1,0", "F100 B1 QEdge"] {
         assert_eq!(other(text), [""; 0], "{text}");
@@ -67,7 +67,10 @@ fn texts() {
 fn letters_without_effect_are_no_change() {
     // I of a chain is taken from its first segment only.
     let [first, second] = ["mill 0,0 40,0", "mill 40,0 40,20"];
-    assert_eq!(replaced(first, &format!("{first} \"I0.5\"")), ["line at (0, 0): text I0.5 added"]);
+    assert_eq!(
+        replaced(first, &format!("{first} \"I0.5\"")),
+        ["line from (0, 0) to (40, 0): text I0.5 added"]
+    );
     assert_eq!(replaced(second, &format!("{second} \"I0.5\"")), [""; 0]);
 }
 
@@ -101,7 +104,7 @@ fn places() {
         changes(ROUND, &moved),
         [
             "2 lines, the first at (0, 0): one end moved by (0.5, 0) mm",
-            "line at (40.5, 0): moved by (0.5, 0) mm"
+            "line from (40.5, 0) to (40.5, 20): moved by (0.5, 0) mm"
         ]
     );
     let shifted = |by: &str| ROUND.replace("40,20", &format!("40.{by},20"));
@@ -125,8 +128,8 @@ fn a_path_that_was_moved_on_its_sheet() {
         in_words(&compared(&old, &other)),
         [
             "end marker: moved by (0, 5) mm",
-            "line at (140, 50): one end moved by (0, 5) mm",
-            "line at (140, 75): moved by (0, 5) mm"
+            "line from (140, 50) to (140, 75): one end moved by (0, 5) mm",
+            "line from (140, 75) to (100, 75): moved by (0, 5) mm"
         ]
     );
     // Everything except the start is shifted, which is reported once for all lines.
@@ -143,11 +146,17 @@ fn arcs() {
     let arc = "mill arc centre 10,0 r 10 from 180 to 0\nend 20,0\n";
     let replaced = |to: &str| changes(arc, &arc.replace("10,0 r 10 from 180 to 0", to));
     assert_eq!(replaced("10,0 r 10 from 0 to 180 cw"), [""; 0], "the other way round");
-    assert_eq!(replaced("10,5 r 10 from 180 to 0"), ["arc at (0, 5): moved by (0, 5) mm"]);
-    assert_eq!(replaced("10,0 r 12 from 180 to 0"), ["arc at (-2, 0): radius 10 became 12"]);
-    assert_eq!(replaced("10,0 r 10 from 180 to 270"), ["arc at (0, 0): one end moved by (-10, -10) mm"]);
-    assert_eq!(replaced("10,0 r 10 from 0 to 180"), ["arc at (20, 0): runs differently"]);
-    assert_eq!(replaced("20,5 r 12 from 90 to 200"), ["arc at (20, 17): runs differently"]);
+    assert_eq!(replaced("10,5 r 10 from 180 to 0"), ["arc from (0, 5) to (20, 5): moved by (0, 5) mm"]);
+    assert_eq!(replaced("10,0 r 12 from 180 to 0"), ["arc from (-2, 0) to (22, 0): radius 10 became 12"]);
+    assert_eq!(
+        replaced("10,0 r 10 from 180 to 270"),
+        ["arc from (0, 0) to (10, -10): one end moved by (-10, -10) mm"]
+    );
+    assert_eq!(replaced("10,0 r 10 from 0 to 180"), ["arc from (20, 0) to (0, 0): runs differently"]);
+    assert_eq!(
+        replaced("20,5 r 12 from 90 to 200"),
+        ["arc from (20, 17) to (8.724, 0.896): runs differently"]
+    );
 }
 
 #[test]
@@ -160,16 +169,32 @@ fn elements_that_come_and_go() {
     assert_eq!(changes(ROUND, &turn), ["turn marker at (40, 20): added"]);
 }
 
+/// At a corner, two lines have the same start.
+#[test]
+fn lines_from_one_point_are_told_apart() {
+    let lines =
+        |across: &str, up: &str| format!("mill 0,0 20,0 \"{across}\"\nmill 0,0 0,10 \"{up}\"\nend 0,10\n");
+    let mut found = changes(&lines("N1", "N2"), &lines("N2", "N1"));
+    found.sort();
+    assert_eq!(
+        found,
+        ["line from (0, 0) to (0, 10): text N2 became N1", "line from (0, 0) to (20, 0): text N1 became N2"]
+    );
+}
+
 #[test]
 fn line_types() {
     let line = "mill 40,0 40,20";
     assert_eq!(
         replaced(line, "line DASHED 40,0 40,20"),
-        ["line at (40, 0): line type changed from CONTINUOUS to DASHED"]
+        ["line from (40, 0) to (40, 20): line type changed from CONTINUOUS to DASHED"]
     );
     assert_eq!(
         replaced(line, "mark 40,0 40,20 \"D2\""),
-        ["line at (40, 0): line type changed from CONTINUOUS to DIVIDE", "line at (40, 0): text D2 added"]
+        [
+            "line from (40, 0) to (40, 20): line type changed from CONTINUOUS to DIVIDE",
+            "line from (40, 0) to (40, 20): text D2 added"
+        ]
     );
 }
 
@@ -224,7 +249,7 @@ fn elements_at_one_place_are_told_apart_by_their_depths() {
     assert_eq!(changes(&lines("B1", "B0.5"), &lines("B0.5", "B1")), [""; 0]);
     assert_eq!(
         changes(&lines("B1", "B0.5"), &lines("B0.5", "B0.8")),
-        ["line at (0, 0): text B1 became B0.8"]
+        ["line from (0, 0) to (40, 0): text B1 became B0.8"]
     );
 }
 
@@ -236,7 +261,7 @@ fn a_line_that_was_lengthened_is_the_nearest_one_at_its_end() {
     let longer = format!("{ADDED}{}", ROUND.replace("0,0 40,0", "0,0 41,0"));
     assert_eq!(
         changes(ROUND, &longer),
-        ["line at (0, 0): one end moved by (1, 0) mm", "line at (0, 0): added"]
+        ["line from (0, 0) to (41, 0): one end moved by (1, 0) mm", "line from (0, 0) to (0, -30): added"]
     );
 }
 
@@ -244,5 +269,8 @@ fn a_line_that_was_lengthened_is_the_nearest_one_at_its_end() {
 fn a_circle_of_another_diameter_is_known_by_its_centre() {
     let circle = "mill 0,0 20,0\nmill circle 20,0 d 6\nmill 20,0 40,0\nend 40,0\n";
     let larger = format!("{ADDED}{}", circle.replace("d 6", "d 8"));
-    assert_eq!(changes(circle, &larger), ["circle at (20, 0): diameter 6 became 8", "line at (0, 0): added"]);
+    assert_eq!(
+        changes(circle, &larger),
+        ["circle at (20, 0): diameter 6 became 8", "line from (0, 0) to (0, -30): added"]
+    );
 }

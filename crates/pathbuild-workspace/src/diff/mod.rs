@@ -209,7 +209,7 @@ impl Tree<'_, '_> {
         let selection = self.session.select(self.inputs);
         let files = selection.whole(self.session);
         let mut problems = selection.problems;
-        let root = self.session.normal(self.root);
+        let root = self.session.absolute(self.root);
         let mut unreadable = BTreeMap::new();
         let size = self.session.programs_per_batch(files.len());
         let paths = self.session.in_batches(&files, size, |session, files| {
@@ -220,8 +220,7 @@ impl Tree<'_, '_> {
                 let count = problems.len();
                 problems.extend(errors.cloned());
                 if problems.len() > count && path_names(db, *file).is_empty() {
-                    let place = file.path(db);
-                    unreadable.insert(place.strip_prefix(&root).unwrap_or(place).to_owned(), *file);
+                    unreadable.insert(session.place_below(&root, file.path(db)), *file);
                 }
             }
             let mut paths = session.move_hashes(files, &root);

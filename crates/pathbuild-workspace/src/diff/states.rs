@@ -191,7 +191,7 @@ impl MachineStates {
         for step in steps {
             match &step.action {
                 Action::Move(Move { pace: Pace::Feed(_), .. }) => {
-                    states.add_cut(step.line, &current);
+                    states.add_cut(&current);
                     cuts += 1;
                     states.cuts = Some(cuts);
                 }
@@ -206,18 +206,18 @@ impl MachineStates {
                     states.add(StateKind::Stop, step.line, if *optional { "M1" } else { "M0" }.into());
                 }
                 Action::Dwell(seconds) => states.add(StateKind::Dwell, step.line, format!("{seconds} s")),
-                action => current.apply(action),
+                action => current.apply(action, step.line),
             }
         }
         states
     }
 
-    /// Adds the words in effect at a cut, as far as they changed since the previous cut.
-    fn add_cut(&mut self, line: u32, current: &CurrentState) {
+    /// Adds the words in effect at a cut, as far as they changed since the previous cut, with the lines on which they stand.
+    fn add_cut(&mut self, current: &CurrentState) {
         for (kind, words) in current.words() {
             let last = self.stated[kind as usize].as_ref().and_then(|stated| stated.last());
             if last.is_none_or(|last| last.words != words) {
-                self.add(kind, line, words);
+                self.add(kind, current.lines[kind as usize], words);
             }
         }
     }
@@ -272,6 +272,8 @@ struct CurrentState {
     system: String,
     /// The words for the behaviour at corners. A program without any depends on the settings of the control.
     corners: String,
+    /// The line on which the words of each kind stand; 0 if there are none.
+    lines: [u32; StateKind::ALL.len()],
 }
 
 impl Default for CurrentState {
@@ -286,22 +288,48 @@ impl Default for CurrentState {
             // Controls start in G54.
             system: WorkSystem::default().name().into_owned(),
             corners: String::new(),
+            lines: [0; StateKind::ALL.len()],
         }
     }
 }
 
 impl CurrentState {
-    fn apply(&mut self, action: &Action) {
-        match action {
-            Action::SelectTool(number) => self.selected = Some(*number),
-            Action::ChangeTool(number) => (self.has_changed, self.inserted) = (true, *number),
-            Action::Spindle(spindle) => self.spindle = *spindle,
-            Action::Coolant(coolant) => self.coolant = Some(*coolant),
-            Action::System { system, .. } => self.system = system.name().into_owned(),
-            Action::Change(Change::ToolLength(length)) => self.length = length_words(*length),
-            Action::Change(Change::Corners(corners)) => self.corners = corner_words(*corners),
-            _ => {}
-        }
+    fn apply(&mut self, action: &Action, line: u32) {
+        let kind = match action {
+            Action::SelectTool(number) => {
+                self.selected = Some(*number);
+                if self.has_changed {
+                    return;
+                }
+                StateKind::Tool
+            }
+            Action::ChangeTool(number) => {
+                (self.has_changed, self.inserted) = (true, *number);
+                StateKind::Tool
+            }
+            Action::Spindle(spindle) => {
+                self.spindle = *spindle;
+                StateKind::Spindle
+            }
+            Action::Coolant(coolant) => {
+                self.coolant = Some(*coolant);
+                StateKind::Coolant
+            }
+            Action::System { system, .. } => {
+                self.system = system.name().into_owned();
+                StateKind::WorkOffset
+            }
+            Action::Change(Change::ToolLength(length)) => {
+                self.length = length_words(*length);
+                StateKind::ToolLength
+            }
+            Action::Change(Change::Corners(corners)) => {
+                self.corners = corner_words(*corners);
+                StateKind::Corners
+            }
+            _ => return,
+        };
+        self.lines[kind as usize] = line;
     }
 
     fn words(&self) -> [(StateKind, String); 6] {

@@ -127,6 +127,16 @@ impl<'a> Session<'a> {
         normal(path, &self.context.working_directory)
     }
 
+    pub(crate) fn absolute(&self, path: &Utf8Path) -> Utf8PathBuf {
+        clean(&self.context.working_directory.join(path))
+    }
+
+    /// Returns the path of a file relative to a directory, which is given by its absolute path, or else the file's own path. Files outside the
+    /// working directory may have relative or absolute paths.
+    pub(crate) fn place_below(&self, directory: &Utf8Path, file: &Utf8Path) -> Utf8PathBuf {
+        self.absolute(file).strip_prefix(directory).unwrap_or(file).to_owned()
+    }
+
     /// Returns the configured output directory of all programs; `None` if programs are written beside their drawings.
     pub fn out_dir(&self) -> Option<Utf8PathBuf> {
         self.context.settings.general.out_dir.value.as_ref().map(|directory| self.normal(directory))

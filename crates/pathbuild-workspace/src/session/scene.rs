@@ -64,7 +64,7 @@ impl Session<'_> {
                     None
                 });
                 let drawing = file.path(&self.db);
-                let place = drawing.strip_prefix(root).unwrap_or(drawing).to_owned();
+                let place = self.place_below(root, drawing);
                 HashedPath { file, place, name, target, moves, problems }
             };
         paths.into_iter().zip(checked).zip(hashes).map(hashed).collect()

@@ -351,10 +351,13 @@ fn path(path: &PathDiff, lang: Lang) -> Value {
 fn reason(reason: &Reason, lang: Lang) -> Value {
     let mut value = json!({ "message": message(reason, lang) });
     let kind = match reason {
-        Reason::Drawn(DrawnChange { kind, change, count, at }) => {
+        Reason::Drawn(DrawnChange { kind, change, count, at, end }) => {
             value["element"] = kind.name().into();
             value["count"] = json!(count);
             value["at"] = json!([at.x.0, at.y.0].map(thousandths));
+            if let Some(end) = end {
+                value["end"] = json!([end.x.0, end.y.0].map(thousandths));
+            }
             match change {
                 ElementChange::Moved(by) | ElementChange::EndMoved(by) => {
                     value["by"] = json!(by.map(thousandths));
