@@ -56,6 +56,13 @@ fn every_finding_with_a_place_has_a_picture() {
     // Another run, with another order of threads, gives the same names and bytes.
     place.run("check . --pictures again -j 1 --no-cache");
     assert_eq!(pictures(&place, "again"), seen);
+    // Pictures of other runs are named: none in the same directory, and all of them after the finding is gone.
+    assert!(!place.run("check . --pictures again --no-cache").stderr.contains("of other runs"));
+    let place = place.file("again/notes-PB105-12345678.txt", "").file("again/PB105-12345678.svg", "");
+    let run = place.run("check 3001.1P.dxf --pictures again --no-cache");
+    let others = seen.keys().filter(|name| !name.starts_with("3001.1P-")).collect::<Vec<_>>();
+    let named = format!("{} pictures of other runs in again: ", others.len());
+    assert!(run.stderr.contains(&named) && run.stderr.contains(others[0].as_str()), "{run}");
     // Pictures do not depend on the directory.
     for (name, text) in seen {
         assert!(text.starts_with("<svg ") && name.contains("-PB"), "{name}");

@@ -5,7 +5,7 @@ use std::mem::ManuallyDrop;
 use std::time::Duration;
 
 use pathbuild_api::CheckReport;
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, with_decimal_separator};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, shown, with_decimal_separator};
 use pathbuild_path::PathName;
 use pathbuild_workspace::check::CheckedFile;
 use pathbuild_workspace::findings::Findings;
@@ -13,7 +13,7 @@ use pathbuild_workspace::findings::Findings;
 use crate::args::CheckArgs;
 use crate::context::{Context, for_rendering};
 use crate::exit::ExitStatus;
-use crate::render::write_pictures;
+use crate::render::{WrittenPictures, write_pictures};
 use crate::text::{DRAWING, ERROR, PATH, WARNING, count, counted, table};
 use crate::waivers;
 
@@ -39,7 +39,8 @@ pub fn conclude(context: &Context, args: &CheckArgs, report: CheckReport, time: 
 
 fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Duration) -> ExitStatus {
     let pictures = args.pictures.as_ref();
-    let failed = pictures.map(|directory| write_pictures(context, directory, findings)).unwrap_or_default();
+    let WrittenPictures { problems: failed, others } =
+        pictures.map(|directory| write_pictures(context, directory, findings)).unwrap_or_default();
     show(context, args.max_errors, findings);
     if findings.diagnostics.len() > MAX_LISTED_FINDINGS && !context.format.is_for_machines() {
         context.printer.status_lines(table_by_code(context, findings));
@@ -49,6 +50,16 @@ fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Durat
     context.output.add_figure("known", findings.waived.len());
     context.name_date();
     context.printer.status(summary(findings, findings.waived.len(), time, context.lang()));
+    if let (Some(directory), Some(first)) = (pictures, others.first()) {
+        let pictures = counted(others.len(), [["picture", "pictures"], ["Bild", "Bilder"]], context.lang());
+        let phrase = context.choose("of other runs in", "anderer Läufe in");
+        let advice = context.choose(
+            "delete those of findings that are gone, such as",
+            "die von behobenen Befunden löschen, zum Beispiel",
+        );
+        let [directory, first] = [directory.as_str(), first.as_str()].map(shown::line);
+        context.printer.status(format_args!("{pictures} {phrase} {directory}: {advice} {first}"));
+    }
     if !failed.is_empty() {
         return context.fail(failed);
     }

@@ -16,7 +16,7 @@ use pathbuild_diagnostic::shown;
 use pathbuild_workspace::findings::Findings;
 
 pub(crate) use html::page;
-pub(crate) use pictures::{pictures, write as write_pictures};
+pub(crate) use pictures::{WrittenPictures, pictures, write as write_pictures};
 pub use view::View;
 
 /// The text of rendered findings. Only this module and its renderers create it. It contains no control sequences except pathbuild's own

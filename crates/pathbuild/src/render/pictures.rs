@@ -1,5 +1,8 @@
 //! Pictures of findings, each of which shows a detail of a drawing. (book: reference/output)
 
+use std::collections::BTreeSet;
+use std::str::FromStr;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
 use pathbuild_diagnostic::{Code, Diagnostic, Point, Value};
@@ -125,22 +128,47 @@ fn pair(point: Point) -> [f64; 2] {
     [point.x.0, point.y.0]
 }
 
-/// Writes the pictures of findings into a directory, and stops at the first file that cannot be written. Returns the error. The same
-/// finding has the same file name in every run.
-pub(crate) fn write(workspace: &Workspace, directory: &Utf8Path, findings: &Findings) -> Vec<Diagnostic> {
+/// The result of writing the pictures of findings into a directory.
+#[derive(Default)]
+pub(crate) struct WrittenPictures {
+    /// The error that stopped the writing.
+    pub(crate) problems: Vec<Diagnostic>,
+    /// Names of the pictures in the directory that this run has not written, in ascending order.
+    pub(crate) others: Vec<String>,
+}
+
+/// Writes the pictures of findings into a directory, and stops at the first file that cannot be written. The same finding has the same file name
+/// in every run.
+pub(crate) fn write(workspace: &Workspace, directory: &Utf8Path, findings: &Findings) -> WrittenPictures {
     let directory = workspace.working_directory.join(directory);
     let images = pictures(workspace, &findings.diagnostics);
     let names = Fingerprint::of(&findings.diagnostics).into_iter().zip(&findings.diagnostics);
+    let mut written = BTreeSet::new();
     let mut problems = Vec::new();
     for (picture, (fingerprint, diagnostic)) in images.into_iter().zip(names) {
         let Some(picture) = picture else { continue };
-        let file = directory.join(name(diagnostic, fingerprint));
+        let name = name(diagnostic, fingerprint);
+        let file = directory.join(&name);
         if let Err(reason) = workspace.system.write(&file, picture.as_bytes()) {
             problems.push(write_error(&file, reason));
             break;
         }
+        written.insert(name.into_string());
     }
-    problems
+    let listing = workspace.system.list(&directory).ok();
+    let names = listing.iter().flat_map(|listing| listing.files.iter());
+    let others = names.filter(|name| is_name(name) && !written.contains(*name));
+    let mut others: Vec<String> = others.map(str::to_owned).collect();
+    others.sort_unstable();
+    WrittenPictures { problems, others }
+}
+
+/// Whether a file has the name of a finding's picture.
+fn is_name(file: &str) -> bool {
+    let mut parts = file.strip_suffix(".svg").unwrap_or_default().rsplit('-');
+    let is_fingerprint = |part: &str| part.len() == 8 && part.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let is_code = |part: &str| Code::from_str(part).is_ok();
+    parts.next().is_some_and(is_fingerprint) && parts.next().is_some_and(is_code) && parts.next().is_some()
 }
 
 /// Maximum length in bytes of the part of a picture's name that is taken from the drawing.
