@@ -372,9 +372,9 @@ pub struct FinishedPart {
     /// For each ring, the index of the outermost opening that contains it, or its own index if none does.
     #[serde(skip)]
     pub nests: Vec<usize>,
-    /// Stretches of the outline that the cutter does not reach.
-    #[serde(skip)]
-    pub corners: Vec<Shape>,
+    /// Inner corners that the cutter does not reach.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub corners: Vec<Corner>,
     /// Pieces of cuts that go into the part.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gouges: Vec<Shape>,
@@ -387,6 +387,17 @@ pub struct FinishedPart {
     /// Whether nothing holds the part once it is cut.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub is_loose: bool,
+}
+
+/// An inner corner of a part's outline that the cutter does not reach.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Corner {
+    /// Position of the corner.
+    #[serde(serialize_with = "point")]
+    pub at: Point,
+    /// Distance in mm from the corner at which the cutter touches both of its sides.
+    #[serde(serialize_with = "millimetres")]
+    pub reach: f64,
 }
 
 /// Material that the cutter leaves at an outline although it should be removed.

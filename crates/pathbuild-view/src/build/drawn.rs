@@ -10,6 +10,7 @@ use pathbuild_path::{
     Placement, Position, RawPath, Role, Shape as DrawnShape, SourceMap, TextCircle, Xy,
 };
 
+use super::corners;
 use crate::scene::{
     ArcShape, Element, ElementKind, EmbeddedPath, FinishedPart, KeepOut, Label, LeftMaterial, OtherShape,
     Parameter, Point, ScenePath, Shape,
@@ -209,14 +210,16 @@ pub fn keep_out(clamp: &pathbuild_path::KeepOut, [x, y]: Point) -> KeepOut {
 
 /// Converts a finished part to the coordinates of the program.
 pub fn finished_part(part: &PlacedPart<'_>) -> FinishedPart {
-    let PlacedPart { drawn, left, corners, is_loose, radius, top, tolerance, .. } = *part;
+    let PlacedPart { drawn, left, corners: unreached, is_loose, radius, top, tolerance, .. } = *part;
     let shapes = |curves: &[Curve]| -> Vec<Shape> {
         curves.iter().map(|curve| curve_shape(&part.placement.place_curve(curve))).collect()
     };
     let mut lost_bars = shapes(part.lost_bars);
     lost_bars.extend(outline(&part.bars_lost_to_neighbours));
+    let rings: Vec<Vec<Shape>> = drawn.rings.iter().map(|ring| shapes(&ring.curves)).collect();
     FinishedPart {
-        rings: drawn.rings.iter().map(|ring| shapes(&ring.curves)).collect(),
+        corners: corners::unreached(&rings, &shapes(unreached), radius),
+        rings,
         top,
         tolerance,
         left: left
@@ -224,7 +227,6 @@ pub fn finished_part(part: &PlacedPart<'_>) -> FinishedPart {
             .map(|left| LeftMaterial { outline: shapes(&left.outline), reach: left.reach })
             .collect(),
         nests: drawn.rings.iter().map(|ring| ring.nest).collect(),
-        corners: shapes(corners),
         gouges: outline(&part.gouges),
         lost_bars,
         radius,

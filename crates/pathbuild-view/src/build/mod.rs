@@ -1,5 +1,6 @@
 //! Scenes from programs, drawings and G-code.
 
+mod corners;
 mod drawn;
 mod program;
 

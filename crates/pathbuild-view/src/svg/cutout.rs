@@ -55,6 +55,7 @@ pub fn cutout_svg(scene: &Scene, spot: &FindingPlace, lang: Lang) -> String {
         for path in &near.paths {
             let place = frame.of_path(path);
             draw_text_circles(canvas, path, spot, &place);
+            symbols::draw_texts(canvas, path, &place, &mut room);
             symbols::draw_above_moves(canvas, path, &place, shown, &mut room);
         }
     })

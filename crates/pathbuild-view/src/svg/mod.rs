@@ -55,11 +55,17 @@ fn drawing(
     room: &mut OccupiedSpace,
 ) -> Vec<u32> {
     symbols::draw_below_moves(canvas, scene, frame, room);
+    for path in &scene.paths {
+        let place = frame.of_path(path);
+        symbols::reserve_symbols(path, &place, room);
+        if shown.texts {
+            symbols::draw_texts(canvas, path, &place, room);
+        }
+    }
     let mut hidden = Vec::new();
     for path in &scene.paths {
         let place = frame.of_path(path);
         moves::draw(canvas, path, &place, depths, shown);
-        symbols::reserve_symbols(path, &place, room);
         hidden.extend(symbols::draw_above_moves(canvas, path, &place, shown, room));
     }
     hidden

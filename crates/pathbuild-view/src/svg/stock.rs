@@ -304,7 +304,7 @@ impl<'s> MilledStock<'s> {
             (
                 has(StrokeKind::Cut),
                 depth_color(1.0),
-                shown.choose("the darker, the deeper", "je dunkler, desto tiefer"),
+                shown.choose("the darker, the lower Z", "je dunkler, desto kleiner Z"),
             ),
             (
                 self.has_unknown_tip(),

@@ -95,7 +95,7 @@ fn other_text(canvas: &mut Canvas, place: &PageTransform, text: &str, at: Point,
     canvas.text([x, y], size, Anchor::Middle, &style, text);
 }
 
-/// Draws the shapes above the moves: elements, support bars, texts, markers, probes, numbers, and names of embedded paths. Returns the numbers for
+/// Draws the shapes above the moves: elements, support bars, markers, probes, numbers, and names of embedded paths. Returns the numbers for
 /// which there is no room.
 pub(super) fn draw_above_moves(
     canvas: &mut Canvas,
@@ -112,9 +112,6 @@ pub(super) fn draw_above_moves(
         canvas.path(&shape(&bar.shape, place), "");
     }
     canvas.close();
-    if shown.texts {
-        draw_texts(canvas, path, place, room);
-    }
     draw_ends(canvas, path, place, shown, room);
     probes(canvas, path, place, room);
     let hidden = if shown.order { draw_order_numbers(canvas, path, place, room) } else { Vec::new() };
@@ -154,7 +151,13 @@ fn style_without_program(element: &Element) -> &'static str {
     }
 }
 
-fn draw_texts(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
+/// Draws texts. They lie below moves and elements, which their halos would erase.
+pub(super) fn draw_texts(
+    canvas: &mut Canvas,
+    path: &ScenePath,
+    place: &PageTransform,
+    room: &mut OccupiedSpace,
+) {
     canvas.open(&format!("id=\"texts\" fill=\"{TEXT_COLOUR}\""));
     // Skip the text at the start of an embedded path: it only concerns that path's own drawing.
     let is_start = |index: &u32| path.elements[*index as usize].kind == ElementKind::Start;
