@@ -88,7 +88,7 @@ function stretchesOfArc(from, { axes, centre, clockwise, degrees }, x, y, r) {
 
 /** A move in the form of a scene. */
 const move = (kind, from, to) => ({ kind, from, to, length: 0 });
-const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, thickness, zero: [0, 0], embedded: [], elements: [], moves }] });
+const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, thickness, zero: [0, 0], embedded: [], elements: [], moves }], findings: [] });
 
 {
   // Texel centres, since only their heights are known.
@@ -288,7 +288,7 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
       counts[what] += texel * texel;
       const isInside = x > 0 && x < 40 && y > 0 && y < 20;
       const isCut = heights[at] <= through[at] && ((isInside && y < 0.5 + texel) || (x > -2 - texel && x < texel && y > 4 - texel && y < 7 + texel));
-      const isRight = { cut: isCut, left: y > 20 && y < 20.5 + texel, loose: isInside && heights[at] > through[at] }[what];
+      const isRight = { cut: isCut, left: (y > 20 && y < 20.5 + texel) || Math.hypot(x - 18, y - 14) < 1 + texel, loose: isInside && heights[at] > through[at] }[what];
       if (!isRight) wrong.push([what, x, y]);
     }
     assert.deepEqual(wrong.slice(0, 3), []);
@@ -300,6 +300,13 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
   const { loose } = colored({ is_loose: true });
   assert.ok(loose > 600 && loose < 40 * 20 - 8 * 8, `${loose} mm² of a loose part`);
   assert.deepEqual(colored({}), { cut: 0, left: 0, loose: 0 });
+  // Of a corner out of reach, what no cut touches is marked, if a finding is about corners.
+  const corners = [{ at: [18, 14], reach: 1 }];
+  scene.findings = [{ code: "PB216" }];
+  const corner = colored({ corners }).left;
+  assert.ok(Math.abs(corner - (1 - Math.PI / 4)) < 0.1, `${corner} mm² out of reach`);
+  scene.findings = [];
+  assert.equal(colored({ corners }).left, 0);
   // So is the material in an outline that is not cut.
   const uncut = stockOf({ ...scene, uncut: [ring([25, 6], [35, 14])] });
   const isMarked = (x, y) => {

@@ -178,6 +178,12 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.waitForTimeout(200);
   assert.ok((await apart(page)) > 40);
   await shot(page, "dark-space");
+  // Both choices survive a reload.
+  await page.reload();
+  await page.waitForSelector("html[data-ready]");
+  assert.equal(await text(page, "#rapids"), "Eilgänge");
+  assert.deepEqual(await page.evaluate(() => [document.documentElement.lang, document.documentElement.dataset.theme]), ["de", "dark"]);
+  await page.keyboard.press("3");
   // On a picture as small as on a phone, some labels have no room.
   await page.setViewportSize({ width: 390, height: 800 });
   const left = await apart(page);
@@ -204,6 +210,26 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.waitForTimeout(200);
   await shot(page, "clamp");
   assert.deepEqual(faults, []);
+  await page.close();
+}
+{
+  // In space, numbers are at the upper face of the material, where cuts begin: on a plate without thickness they are elsewhere.
+  const { page } = await open("8001.1P");
+  const inSpace = async () => {
+    const place = () => document.querySelector("#labels .order").style.transform;
+    const fromAbove = await page.evaluate(place);
+    await page.keyboard.press("3");
+    await page.waitForFunction((fromAbove) => document.querySelector("#labels .order").style.transform !== fromAbove, fromAbove);
+    return [fromAbove, await page.evaluate(place)];
+  };
+  const thick = await inSpace();
+  const flat = join(directory, "flat.html");
+  writeFileSync(flat, readFileSync(join(directory, "8001.1P.html"), "utf8").replaceAll(/("raised":[^,]*,"thickness":)[^,]*/g, "$10"));
+  await page.goto(`file://${flat}`);
+  await page.waitForSelector("html[data-ready]");
+  const [fromAbove, there] = await inSpace();
+  assert.equal(fromAbove, thick[0]);
+  assert.notEqual(there, thick[1]);
   await page.close();
 }
 {

@@ -29,6 +29,8 @@ export interface Shown {
   clamps: boolean;
   /** Whether there are outlines of parts that no path cuts. */
   hasUncutOutlines: boolean;
+  /** Whether there are corners of parts that the cutter does not reach. */
+  hasCorners: boolean;
   parts: FinishedPart[];
 }
 
@@ -48,6 +50,7 @@ export function sayLegend(model: Model, shown: Shown, lang: Lang): void {
     [shown.stock && shown.parts.some(({ gouges, lost_bars }) => gouges?.length || lost_bars?.length), "wrong", "legendGouge"],
     [shown.parts.length > 0, "outline", "legendOutline"],
     [shown.stock && shown.parts.some(({ left }) => left.length > 0), "leftover", "legendLeft"],
+    [shown.stock && shown.hasCorners, "leftover", "legendCorner"],
     [shown.stock && shown.hasUncutOutlines, "leftover", "legendUncutOutline"],
     [shown.stock && shown.parts.some((part) => part.is_loose), "loose", "legendLoose"],
     [shown.clamps, "clamp", "legendClamp"],

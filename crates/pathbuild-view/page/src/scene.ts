@@ -105,6 +105,8 @@ export interface FinishedPart {
   rings: Shape[][];
   top: number;
   left: { outline: Shape[]; reach: number }[];
+  /** Inner corners that the cutter does not reach, with the distance at which it touches both sides. */
+  corners?: { at: Point; reach: number }[];
   gouges?: Shape[];
   lost_bars?: Shape[];
   is_loose?: boolean;
@@ -145,6 +147,11 @@ export interface Scene {
   /** Outlines of parts that no path cuts. */
   uncut?: Shape[][];
   findings: Finding[];
+}
+
+/** Returns the corners of a part that the cutter does not reach, if a finding (PB216) is about such corners. */
+export function cornersOf({ findings }: Scene, { corners }: FinishedPart): { at: Point; reach: number }[] {
+  return findings.some(({ code }) => code === "PB216") ? (corners ?? []) : [];
 }
 
 /** Largest angle in degrees of an arc that is approximated by one chord. */

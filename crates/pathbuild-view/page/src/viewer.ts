@@ -8,12 +8,13 @@ import { sayLegend, sayScale, showLegend } from "./legend.js";
 import { Listing } from "./listing.js";
 import { Model, model } from "./model.js";
 import { MOST_OPERATIONS, Operation, operations } from "./operations.js";
-import { Finding, Scene, isCut, pointsOfShape } from "./scene.js";
+import { Finding, Scene, cornersOf, isCut, pointsOfShape } from "./scene.js";
 import { Stage, isThick } from "./stage.js";
 import { NOTHING } from "./stock/heights.js";
 import { Assumed } from "./stock/pieces.js";
 import { Stock } from "./stock/stock.js";
 import { stockColors } from "./palette.js";
+import { remember, remembered } from "./remembered.js";
 import { FIELDS, ProgramSettings, fragmentOf } from "./programs.js";
 import { Timeline, clock, wayUpTo } from "./timeline.js";
 import { visible } from "./visible.js";
@@ -27,8 +28,8 @@ const listing = new Listing();
 /** Maximum number of labels with numbers and texts: more would cover the picture. */
 const MOST_SPOTS = 600;
 
-export let lang: Lang = document.documentElement.lang === "de" ? "de" : "en";
-let dark = matchMedia("(prefers-color-scheme: dark)").matches;
+export let lang: Lang = (remembered("lang") ?? document.documentElement.lang) === "de" ? "de" : "en";
+let dark = (remembered("theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
 let scene: Scene = { schema: "", version: 1, title: "", through: 0, paths: [], other_layers: [], keep_outs: [], findings: [] };
 let made: Model = model(scene);
 let timeline = new Timeline(made, null);
@@ -248,7 +249,8 @@ function placeStock(): void {
 
 function legend(): void {
   const hasStock = shown.stock && !!stock;
-  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, texel: stock?.map.texel ?? 0, rapidCuts: !!stock?.map.hasRapidCut, hasUnknownTip: !!stock?.map.cutting.hasUnknownTip, parts: scene.paths.flatMap(({ parts }) => parts ?? []), clamps: scene.keep_outs.length > 0, hasUncutOutlines: (scene.uncut ?? []).length > 0 }, lang);
+  const parts = scene.paths.flatMap(({ parts }) => parts ?? []);
+  sayLegend(made, { rapids: shown.rapids && made.steps.length > 0, stock: hasStock, texel: stock?.map.texel ?? 0, rapidCuts: !!stock?.map.hasRapidCut, hasUnknownTip: !!stock?.map.cutting.hasUnknownTip, parts, hasCorners: parts.some((part) => cornersOf(scene, part).length > 0), clamps: scene.keep_outs.length > 0, hasUncutOutlines: (scene.uncut ?? []).length > 0 }, lang);
   showLegend(shown.explain);
   stage?.placeLabels();
 }
@@ -339,8 +341,10 @@ function spots(): void {
   const add = (at: [number, number], z: number, node: HTMLElement) => all.push({ at: [at[0], at[1], z], node });
   for (const path of scene.paths) {
     const place = ([x, y]: [number, number]): [number, number] => [x + path.zero[0], y + path.zero[1]];
+    // Z of the upper face of the material under an embedded path, where its cuts begin.
+    const top = (inner: number) => path.embedded[inner]?.thickness ?? 0;
     if (shown.order) {
-      for (const { order, shape } of path.elements) {
+      for (const { order, shape, path: inner } of path.elements) {
         if (order === null) continue;
         const at: [number, number] =
           shape.type === "line"
@@ -351,12 +355,12 @@ function spots(): void {
         // A number on the disc of a drilled hole would make it look like a ring.
         const reach = (path.tool ?? 0) / 2;
         const isHole = shape.type === "circle" && shape.radius <= 1.05 * reach;
-        add(place(isHole ? [at[0] + reach, at[1]] : at), 0, node("span", String(order), isHole ? "order beside" : "order"));
+        add(place(isHole ? [at[0] + reach, at[1]] : at), top(inner), node("span", String(order), isHole ? "order beside" : "order"));
       }
     }
     if (shown.texts) {
-      for (const label of path.texts) if (label.path === 0) add(place(label.at), 0, node("span", label.text, "text"));
-      for (const inner of path.embedded.slice(1)) add(place(inner.ends[0]), 0, node("span", inner.name, "name"));
+      for (const label of path.texts) if (label.path === 0) add(place(label.at), top(0), node("span", label.text, "text"));
+      for (const inner of path.embedded.slice(1)) add(place(inner.ends[0]), inner.thickness, node("span", inner.name, "name"));
     }
     for (const probe of path.probes) {
       add(place(probe.at), probe.height, node("span", `#${probe.number} ${probe.label ?? ""}`, "probe"));
@@ -565,12 +569,14 @@ const acts = {
   },
   theme: () => {
     dark = !dark;
+    remember("theme", dark ? "dark" : "light");
     paint();
     stock = undefined;
     redraw();
   },
   lang: () => {
     lang = lang === "en" ? "de" : "en";
+    remember("lang", lang);
     speak();
   },
   play,

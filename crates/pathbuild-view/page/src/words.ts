@@ -67,6 +67,7 @@ const words = {
   legendGouge: ["cut into a part or bar", "Schnitt in Teil oder Steg"],
   legendOutline: ["outline of a part", "Umriss eines Teils"],
   legendUncutOutline: ["outline that is not cut", "nicht gefräster Umriss"],
+  legendCorner: ["corner out of the cutter's reach", "Ecke, die der Fräser nicht erreicht"],
   legendLeft: ["material left", "stehen gebliebenes Material"],
   legendLoose: ["loose part", "loses Teil"],
   legendClamp: ["clamp", "Spannmittel"],

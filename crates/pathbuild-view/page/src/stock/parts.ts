@@ -1,11 +1,14 @@
 // Errors of finished parts, as regions of the map of heights. Still pictures fill the same regions.
 
-import { FinishedPart, Path, Point, Scene, Shape, pointsOfShape } from "../scene.js";
+import { FinishedPart, Path, Point, Scene, Shape, cornersOf, pointsOfShape } from "../scene.js";
 import { Heights } from "./heights.js";
 import { SAGITTA } from "./pieces.js";
 
-/** Marks of a texel: a wrong cut through it; stock left over beside a part or in an outline that is not cut; stock of a part that nothing holds. */
-export const [FORBIDDEN, BESIDE, LOOSE] = [1, 2, 4];
+/**
+ * Marks of a texel: a wrong cut through it; stock left over beside a part or in an outline that is not cut; stock of a part that nothing holds;
+ * stock in a corner, of which only what no cut touches is left over.
+ */
+export const [FORBIDDEN, BESIDE, LOOSE, CORNER] = [1, 2, 4, 8];
 
 /** Width in texels on either side of an outline that counts as neither side, since a texel's height is that of its centre. */
 const BAND = 0.75;
@@ -15,7 +18,7 @@ type Segment = [Point, Point];
 /** Returns the marks of each texel. */
 export function marks(map: Heights, scene: Scene): Uint8Array {
   const marked = new Uint8Array(map.columns * map.rows);
-  for (const path of scene.paths) for (const part of path.parts ?? []) mark(map, path, part, marked);
+  for (const path of scene.paths) for (const part of path.parts ?? []) mark(map, scene, path, part, marked);
   for (const ring of scene.uncut ?? []) {
     const inside = new Uint8Array(marked.length);
     fill(map, ring.flatMap((shape) => segmentsOf(map, shape, [0, 0])), inside, 1);
@@ -24,7 +27,7 @@ export function marks(map: Heights, scene: Scene): Uint8Array {
   return marked;
 }
 
-function mark(map: Heights, path: Path, part: FinishedPart, marked: Uint8Array): void {
+function mark(map: Heights, scene: Scene, path: Path, part: FinishedPart, marked: Uint8Array): void {
   const segments = (shapes: Shape[]) => shapes.flatMap((shape) => segmentsOf(map, shape, path.zero));
   const inside = new Uint8Array(marked.length);
   // A ring inside an opening never belongs to a part: its area remains open.
@@ -36,6 +39,7 @@ function mark(map: Heights, path: Path, part: FinishedPart, marked: Uint8Array):
   near(map, segments(part.gouges ?? []), radius, put(FORBIDDEN, 1));
   near(map, segments(part.lost_bars ?? []), radius, (at) => (marked[at] |= FORBIDDEN), false);
   for (const { outline, reach } of part.left) near(map, segments(outline), reach / map.texel + BAND, put(BESIDE, 0));
+  for (const { at, reach } of cornersOf(scene, part)) near(map, segments([{ type: "line", from: at, to: at }]), reach / map.texel, put(CORNER, 0));
   if (part.is_loose) inside.forEach((_, at) => put(LOOSE, 1)(at));
 }
 

@@ -1,7 +1,7 @@
 // Colours of the stock as seen from above, for the GPU's texture and for a 2D canvas alike.
 
 import { Heights, NOTHING, Texels } from "./heights.js";
-import { BESIDE, FORBIDDEN, LOOSE } from "./parts.js";
+import { BESIDE, CORNER, FORBIDDEN, LOOSE } from "./parts.js";
 
 /** Red, green and blue from 0 to 255. */
 export type Color = [number, number, number];
@@ -67,7 +67,8 @@ export function shade(map: Heights, marked: Uint8Array, paint: StockColors, [x0,
       const isThrough = height <= through[at];
       const isUntouched = height >= tops[at] - 1e-4;
       const isWrong = rapid[at] > 0 || (isThrough && (marked[at] & FORBIDDEN) > 0);
-      const overlay = isWrong ? paint.wrong : isThrough ? null : marked[at] & BESIDE ? paint.leftover : marked[at] & LOOSE ? paint.loose : null;
+      const isLeft = (marked[at] & BESIDE) > 0 || ((marked[at] & CORNER) > 0 && isUntouched);
+      const overlay = isWrong ? paint.wrong : isThrough ? null : isLeft ? paint.leftover : marked[at] & LOOSE ? paint.loose : null;
       const strength = overlay === paint.loose ? 0.45 : 0.75;
       for (let part = 0; part < 3; part++) {
         const base = isThrough ? paint.plate[part] : isUntouched ? paint.uncut[part] : paint.shallow[part] + (paint.deep[part] - paint.shallow[part]) * share;
