@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_path::direction;
 
-use crate::{PartTest, number};
+use crate::PartTest;
 
 /// The distance in mm from the start of the component to the centre of its disc.
 const DISTANCE: f64 = 20.0;
