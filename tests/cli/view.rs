@@ -686,6 +686,54 @@ fn bars_have_their_true_width() {
     assert!(on_bar.into_iter().any(|length| (length - 5.0).abs() < 0.01), "{run}\n{picture}");
 }
 
+/// Bars of a ring, and those that a groove takes away, are shown where the program leaves them, however the ring's component is turned.
+#[test]
+fn bars_of_a_turned_ring_are_at_its_lowest_point() {
+    let component = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 D1 P3 U40 A40 MX\"\nsweep 0,0 20,0\nbars circle 20,0 d 20\nsweep 20,0 40,0\nend 40,0\n\
+                     layer Part\ncircle 20,0 d 16\n";
+    let groove = "layer 1300.1P\nstart 0,0 \"T2 O2 I1 B0 MX\"\nmill 0,0 4,0\nend 4,0\n";
+    for (end, [x, y]) in [("0,40", [0.0, 20.0]), ("-40,0", [-20.0, 0.0])] {
+        let lowest = [x, y - 9.0];
+        let (from, to) = (format!("{x},{}", y - 9.2), format!("{x},{}", y - 13.2));
+        let project = format!(
+            "layer 8001.1P\nstart 0,0 \"T2 O2 MX\"\nsubpath 0,0 {end} \">1234.1P\"\nsweep {end} {from}\n\
+             subpath {from} {to} \">1300.1P\"\nend {to}\n"
+        );
+        let options = "part = 'Part'\nfeed = 100\nrapid = 900\nsweep-height = 9\n";
+        let drawings = [("8001.1P.dxf", &*project), ("1234.1P.dxf", component), ("1300.1P.dxf", groove)];
+        let place = drawings
+            .into_iter()
+            .fold(Place::new(), |place, (name, drawn)| place.file(name, sheet(drawn).unwrap().to_dxf()));
+        let place = place.file("pathbuild.toml", options);
+        let run = place.run("view 8001.1P -o a.json");
+        let scene: Value = serde_json::from_str(&place.read("a.json")).unwrap();
+        let path = &scene["paths"][0];
+        let ends = |bars: &Value, name: &str| {
+            bars.as_array().unwrap().iter().map(|bar| bar[name].clone()).collect::<Vec<_>>()
+        };
+        let bars: Value = ends(&path["bars"], "shape").into();
+        for bars in [&bars, &path["parts"][0]["lost_bars"]] {
+            assert_eq!(
+                (&ends(bars, "from")[0], &ends(bars, "to")[1]),
+                (&lowest.into(), &lowest.into()),
+                "{run}\n{bars}"
+            );
+        }
+        // No cut through the plate comes near the bar.
+        let through = path["moves"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|way| way["kind"] == "mill" && way["element"] == path["bars"][0]["element"]);
+        let through = through.filter(|way| way["from"][2] == 0.0 && way["to"][2] == 0.0);
+        let near = |at: &Value| {
+            libm::hypot(at[0].as_f64().unwrap() - lowest[0], at[1].as_f64().unwrap() - lowest[1])
+        };
+        let nearest = through.flat_map(|way| [near(&way["from"]), near(&way["to"])]).fold(f64::MAX, f64::min);
+        assert!((2.5..9.0).contains(&nearest), "{nearest}");
+    }
+}
+
 #[test]
 fn rapid_moves_through_material_are_red() {
     let program = |z: &str| {

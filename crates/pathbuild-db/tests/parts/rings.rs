@@ -95,3 +95,34 @@ fn a_component_cuts_its_disc_loose_where_it_is_turned() {
         assert_eq!(codes(&found(&behind(11.5), turn, AWAY)), [""; 0], "{turn}: material remains");
     }
 }
+
+/// In an opening that a ring cuts, the bar holds the waste until a groove takes away the bar that is in the program.
+#[test]
+fn the_bar_in_the_program_holds_the_waste_of_an_opening() {
+    let frame = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 D1 P3 U40 A40 S5 MX\"\nsweep 0,0 20,0\nbars circle 20,0 d 20\n\
+                 sweep 20,0 40,0\nend 40,0\nlayer Part\npolyline 5,-15 35,-15 35,15 5,15 closed\ncircle 20,0 d 20\n";
+    let is_loose = |degrees: f64| {
+        let centre = [0.0, DISTANCE];
+        // Along the bar, so that the groove joins both ends of the ring, and a later cut in the middle of the waste.
+        let beside = at(centre, 8.7, degrees);
+        let [from, to] = [-2.6, 2.6].map(|along| point(at(beside, along, degrees + 90.0)));
+        let [begin, end] = [[-2.0, DISTANCE], [2.0, DISTANCE]].map(point);
+        let project = format!(
+            "layer 8001.1P\nstart 0,0 \"T2 O2 S5 MX\"\nsubpath 0,0 0,40 \">1234.1P\"\nsweep 0,40 {from}\n\
+             subpath {from} {to} \">1300.1P\"\nsweep {to} {begin}\nsubpath {begin} {end} \">1301.1P\"\nend {end}\n"
+        );
+        let cut = |name: &str, length: f64| {
+            format!("layer {name}\nstart 0,0 \"T2 O2 I1 B0 S5 MX\"\nmill 0,0 {length},0\nend {length},0\n")
+        };
+        let (across, later) = (cut("1300.1P", 5.2), cut("1301.1P", 4.0));
+        let files = [
+            ("8001.1P.dxf", &*project),
+            ("1234.1P.dxf", frame),
+            ("1300.1P.dxf", &*across),
+            ("1301.1P.dxf", &*later),
+        ];
+        codes(&PartTest::default().diagnostics(&files)).contains(&"PB222".to_owned())
+    };
+    assert!(is_loose(270.0), "the bar is below the centre");
+    assert!(!is_loose(0.0), "where it would be if it turned");
+}
