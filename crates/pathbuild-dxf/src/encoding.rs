@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use memchr::memchr_iter;
 use oem_cp::code_table::DECODING_TABLE_CP_MAP;
 use oem_cp::code_table_type::TableType;
-use pathbuild_diagnostic::messages::drawing::{UNDECODABLE, UNKNOWN_CODE_PAGE};
+use pathbuild_diagnostic::messages::drawing::{INVALID_UTF8, UNDECODABLE, UNKNOWN_CODE_PAGE};
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 use pathbuild_encoding::{
     BIG5, EUC_KR, Encoding, GBK, IBM866, ISO_8859_2, ISO_8859_3, ISO_8859_4, ISO_8859_5, ISO_8859_6,
@@ -108,7 +108,11 @@ fn is_plain(bytes: &[u8]) -> bool {
 }
 
 fn doubt(charset: Charset<'_>, encoding: &str, text: &str, line: u32) -> Diagnostic {
-    let message = if matches!(charset, Charset::Unknown) { &UNKNOWN_CODE_PAGE } else { &UNDECODABLE };
+    let message = match charset {
+        Charset::Unknown => &UNKNOWN_CODE_PAGE,
+        _ if encoding == "UTF-8" => &INVALID_UTF8,
+        _ => &UNDECODABLE,
+    };
     let fault = TextFault::new(text, 0..text.len());
     Diagnostic::new(message).quoting("encoding", encoding).at_line(line, None).with_text(fault)
 }

@@ -588,6 +588,13 @@ messages! {
         help_en: "save the drawing as R2007 or later; special characters in texts and layer names may be wrong",
         help_de: "die Zeichnung als R2007 oder neuer speichern; Sonderzeichen in Texten und Layernamen können falsch sein",
     }
+    /// Bytes of a text that are invalid in a file in UTF-8.
+    INVALID_UTF8: DoubtfulEncoding {
+        en: "the file is in {encoding}, in which some bytes of this text are invalid",
+        de: "die Datei ist in {encoding} kodiert; einige Bytes dieses Textes sind darin ungültig",
+        help_en: "save the drawing with another program or as R2004, because this one did not write UTF-8; special characters in texts and layer names may be wrong",
+        help_de: "die Zeichnung mit einem anderen Programm oder als R2004 speichern, denn dieses hat kein UTF-8 geschrieben; Sonderzeichen in Texten und Layernamen können falsch sein",
+    }
     /// An unknown code page in the header of a drawing, in place of which `ANSI_1252` is used.
     UNKNOWN_CODE_PAGE: DoubtfulEncoding {
         en: "the code page \"{encoding}\" is not known; texts are read as ANSI_1252",

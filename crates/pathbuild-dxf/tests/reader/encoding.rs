@@ -111,6 +111,18 @@ fn bytes_that_the_encoding_does_not_know_are_doubtful_once() {
     assert_eq!(file_codes(&read_all(bytes)), [Code::DoubtfulEncoding]);
 }
 
+/// A file in UTF-8 is not improved by saving it as R2007, because it is one.
+#[test]
+fn the_advice_depends_on_the_version() {
+    let advises_r2007 = |version: &str, code_page: &str| {
+        let drawing = read_all(file(version, code_page, b"\xD2"));
+        assert_eq!(file_codes(&drawing), [Code::DoubtfulEncoding]);
+        drawing.diagnostics[0].help(Lang::En).expect("an advice").contains("R2007")
+    };
+    assert!(!advises_r2007("AC1021", "ANSI_1253") && advises_r2007("AC1018", "ANSI_1253"));
+    assert!(!advises_r2007("AC1021", "JOHAB") && advises_r2007("AC1018", "JOHAB"));
+}
+
 #[test]
 fn an_unknown_code_page_is_doubtful_where_it_matters() {
     assert_eq!(decoded("AC1015", "JOHAB", b"T3"), "T3");
