@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_dxf::{Drawing, Geometry};
+use pathbuild_dxf::{Drawing, Geometry, OmittedCurve};
 
 use crate::element::{CircleMeaning, Shape, circle_meaning, diagnostic_point};
 use crate::language::Language;
@@ -165,9 +165,16 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
             findings.extend(stray.or_else(|| stray_probe(drawing, number, text, &probes, &budget)));
         }
     }
-    findings.extend(on_near_layers.into_iter().filter_map(|(layer, entities)| {
-        near_layer(drawing, near_layers[layer as usize].as_ref()?, layer, &entities)
-    }));
+    let mut left_out: BTreeMap<u32, Vec<&OmittedCurve>> = BTreeMap::new();
+    for curve in &drawing.left_out {
+        left_out.entry(curve.layer).or_default().push(curve);
+    }
+    for (layer, near) in (0_u32..).zip(&near_layers) {
+        let (entities, left_out) = (on_near_layers.remove(&layer), left_out.remove(&layer));
+        let (entities, left_out) = (entities.unwrap_or_default(), left_out.unwrap_or_default());
+        findings
+            .extend(near.as_ref().and_then(|near| near_layer(drawing, near, layer, &entities, &left_out)));
+    }
     findings.extend(unread_clamps(drawing, language, |layer| {
         let is_part = language.is_part(&drawing.layers[layer as usize].name);
         is_other[layer as usize] && !is_part && near_layers[layer as usize].is_none()
@@ -334,9 +341,14 @@ impl PathCollector<'_> {
     }
 }
 
-/// Returns PB120 for a layer with these entities.
-fn near_layer(drawing: &Drawing, near: &NearLayer<'_>, layer: u32, entities: &[usize]) -> Option<Diagnostic> {
-    let first = *entities.first()?;
+/// Returns PB120 for a layer with these entities, or with elements that are left out of a path.
+fn near_layer(
+    drawing: &Drawing,
+    near: &NearLayer<'_>,
+    layer: u32,
+    entities: &[usize],
+    left_out: &[&OmittedCurve],
+) -> Option<Diagnostic> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     // The pieces of a polyline, which follow each other, are one entity.
     let is_piece = |one: &usize, other: &usize| {
@@ -345,6 +357,9 @@ fn near_layer(drawing: &Drawing, near: &NearLayer<'_>, layer: u32, entities: &[u
     };
     for entity in entities.chunk_by(is_piece) {
         *counts.entry(drawing.entities[entity[0]].kind.name()).or_default() += 1;
+    }
+    for left_out in left_out {
+        *counts.entry(left_out.kind.name()).or_default() += 1;
     }
     let elements: Value = counts.into_iter().map(|(kind, count)| format!("{count} {kind}")).collect();
     let problem = match near {
@@ -360,5 +375,8 @@ fn near_layer(drawing: &Drawing, near: &NearLayer<'_>, layer: u32, entities: &[u
         Some(character) => problem.note(&messages::LOOK_ALIKE_IN_NAME, character),
         None => problem,
     };
-    Some(at_entity(drawing, first, begin(&drawing.entities[first].geometry), problem))
+    match entities.first() {
+        Some(first) => Some(at_entity(drawing, *first, begin(&drawing.entities[*first].geometry), problem)),
+        None => Some(Diagnostic { place: left_out.first()?.diagnostic.place.clone(), ..problem }),
+    }
 }

@@ -142,6 +142,15 @@ fn a_layer_is_named_once_however_much_is_on_it() {
     assert_eq!(strays(other), ["PB120"]);
 }
 
+#[test]
+fn elements_that_a_path_leaves_out_count_on_a_layer_with_a_similar_name() {
+    for element in ["ellipse centre 20,40 major 5,0 ratio 0.5", "spline control 0,40 10,50 20,40 30,50"] {
+        assert_eq!(strays(&format!("layer \"1234.1PP\"\n{element}")), ["PB120"], "{element}");
+        assert_eq!(strays(&format!("layer Notes\n{element}")), [""; 0], "{element}");
+        assert_eq!(strays(&format!("layer \"1234.1PP\"\ncircle 20,40 d 2\n{element}")), ["PB120"]);
+    }
+}
+
 /// The templates keep a circle of a probe on a layer of their own, where a copy may be left.
 #[test]
 fn a_probe_with_a_text_on_another_layer_is_told() {
