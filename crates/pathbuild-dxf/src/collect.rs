@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::limits::{ENTITIES, TEXT_LENGTH, exceeded};
 use pathbuild_diagnostic::messages::drawing::{
-    BLOCK_MISSING, BLOCK_NESTED, BLOCK_TWICE, CURVE_WITHOUT_LENGTH, INSERTED_FROZEN, INVISIBLE,
+    BLOCK_MISSING, BLOCK_NESTED, BLOCK_TWICE, CURVE_WITHOUT_LENGTH, INSERTED_FROZEN, INVISIBLE, LAYER_TWICE,
     NOT_COMPATIBLE, TILTED, TOO_LARGE, WIDTH_IGNORED,
 };
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Place, Point, Value};
@@ -34,7 +34,7 @@ pub(crate) struct Collector<'d> {
     missing_blocks: BTreeSet<SmolStr>,
     /// Layer of the previous entity, as a cache.
     last: Option<(LayerId, u32)>,
-    /// Lines of broken entities with the layers on which they were reported.
+    /// Lines of broken entities and contradictory records, with the layers on which they were reported.
     faulty: HashSet<(u32, u32)>,
     groups: u32,
     has_ignored: bool,
@@ -125,6 +125,9 @@ impl<'d> Collector<'d> {
         shape: Result<Shape<'_>, EntityError<'_>>,
     ) -> Result<(), Fatal> {
         let layer = self.layer(placed);
+        if let Some(trouble) = placed.layer.contradiction() {
+            self.refuse(placed, layer, &trouble)?;
+        }
         if placed.is_invisible {
             self.note(placed, layer, LayerNote::Invisible, &INVISIBLE);
         }
@@ -207,6 +210,9 @@ impl<'d> Collector<'d> {
             EntityError::Tilted => Diagnostic::new(&TILTED).quoting("entity", placed.kind.name()),
             EntityError::TooLarge => Diagnostic::new(&TOO_LARGE).quoting("entity", placed.kind.name()),
             EntityError::DefinedTwice(block) => Diagnostic::new(&BLOCK_TWICE).quoting("block", &**block),
+            EntityError::ContradictoryLayer { layer, line } => {
+                Diagnostic::new(&LAYER_TWICE).quoting("layer", &**layer).at_line(*line, None)
+            }
             EntityError::Nested(block) => Diagnostic::new(&BLOCK_NESTED).quoting("block", &**block),
             EntityError::LeftOut { message, point, block, layers } => {
                 self.count()?;
@@ -220,7 +226,11 @@ impl<'d> Collector<'d> {
                 return Err(Box::new(self.located(diagnostic, placed, layer)));
             }
         };
-        if self.faulty.insert((placed.own.line, layer)) {
+        let line = match trouble {
+            EntityError::ContradictoryLayer { line, .. } => *line,
+            _ => placed.own.line,
+        };
+        if self.faulty.insert((line, layer)) {
             self.count()?;
             let diagnostic = self.located(diagnostic, placed, layer);
             self.drawing.faults.push(Fault { layer, diagnostic });

@@ -89,6 +89,8 @@ pub(crate) enum EntityError<'a> {
     Nested(Box<str>),
     /// The insertion of this block, which the file defines twice: PB002.
     DefinedTwice(Box<str>),
+    /// A layer with records that contradict each other, the second of them on this line: PB002.
+    ContradictoryLayer { layer: SmolStr, line: u32 },
     /// More parts than the limit of entities: PB005, for the whole file.
     TooManyParts,
     /// A text longer than the limit: PB005, for the whole file.

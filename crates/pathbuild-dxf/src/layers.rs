@@ -10,6 +10,7 @@ use memchr::memmem::Finder;
 use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
+use crate::faults::EntityError;
 use crate::fields::{Fields, FillDecision, Value};
 use crate::groups::Records;
 use crate::names::{Spellings, case_folded, without_xref};
@@ -52,6 +53,8 @@ pub(crate) struct UsedLayer {
     pub(crate) hidden: bool,
     /// Whether the layer is frozen, so that blocks inserted on it are invisible as a whole.
     pub(crate) is_frozen: bool,
+    /// Line of the first record of the layer that contradicts an earlier one.
+    contradiction: Option<u32>,
 }
 
 /// Number of layers for which memory is reserved in advance.
@@ -145,16 +148,22 @@ impl UsedLayer {
         table: &mut LayerTable<'a>,
         reading: &mut LayerTableReader<'_, 'a, '_>,
     ) -> Result<Self, Stop<'a>> {
-        let record = table.find(full_name, reading)?;
+        let record = table.find(full_name, reading)?.unwrap_or_default();
         let name = without_xref(full_name);
-        let line_type = record.as_ref().and_then(LayerRecord::line_type);
         Ok(Self {
             name: name.into(),
             folded: case_folded(name),
-            line_type: line_type.unwrap_or(CONTINUOUS),
-            hidden: record.as_ref().is_some_and(LayerRecord::is_hidden),
-            is_frozen: record.as_ref().is_some_and(LayerRecord::is_frozen),
+            line_type: record.line_type(),
+            hidden: record.is_hidden(),
+            is_frozen: record.is_frozen(),
+            contradiction: record.contradiction,
         })
+    }
+
+    /// Returns the error of entities whose line type or visibility depends on which of the layer's records counts.
+    pub(crate) fn contradiction<'a>(&self) -> Option<EntityError<'a>> {
+        let line = self.contradiction?;
+        Some(EntityError::ContradictoryLayer { layer: self.name.clone(), line })
     }
 }
 
@@ -167,22 +176,23 @@ pub(crate) struct LayerTable<'a> {
     all: Option<KnownLayers<'a>>,
 }
 
-/// Layers by folded name. If several have the same name, the first one is used. Few are ever looked up, so their values are parsed on demand.
+/// Layers by folded name. Few are ever looked up, so their values are parsed on demand.
 #[derive(Debug, Default)]
 struct KnownLayers<'a> {
     records: HashMap<SmolStr, LayerRecord<'a>>,
     /// Layers with an external-reference prefix, by the rest of their names.
     referenced: HashMap<SmolStr, LayerRecord<'a>>,
-    /// The name of the layer that was added last.
-    last_name: SmolStr,
 }
 
-/// A layer of the table.
-#[derive(Clone, Debug)]
+/// A layer of the table. Programs disagree on which of several records with one name counts, and on whether case matters.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct LayerRecord<'a> {
+    line: u32,
     line_type: Option<Cow<'a, [u8]>>,
     colour: Option<&'a [u8]>,
     flags: Option<&'a [u8]>,
+    /// Line of the first further record with this name that says something else.
+    contradiction: Option<u32>,
 }
 
 /// Number of layers that are looked up one by one in the tables; most drawings of paths have no more.
@@ -211,7 +221,12 @@ impl<'a> LayerTable<'a> {
             && certain.len() >= MIN_SEARCHED_BYTES
             && !has_escapes()
         {
-            let some = reading.read_until(tables, certain, &case_folded(full_name))?;
+            let mut some = KnownLayers::default();
+            let end = reading.read_with(tables, certain, &mut some);
+            // Damage that follows the layer's own record concerns other layers.
+            if !some.records.contains_key(&case_folded(full_name)) {
+                end?;
+            }
             return Ok(some.get(full_name).cloned());
         }
         let all = match &mut self.all {
@@ -232,16 +247,22 @@ impl<'a> KnownLayers<'a> {
     /// Adds a record from its groups, unless it has no name.
     fn add(&mut self, groups: &Fields<'a>, decoder: &mut Decoder<'_>) {
         let Some(name) = groups.get(2) else { return };
-        let name = case_folded(&decoder.decode(name.bytes, name.line));
+        let folded = case_folded(&decoder.decode(name.bytes, name.line));
         let bytes = |code: i32| groups.get(code).map(|value| value.bytes);
         let line_type = groups.get(6).map(|name| decoder.decode_bytes(name.bytes, name.line));
-        let record = LayerRecord { line_type, colour: bytes(62), flags: bytes(70) };
-        let behind_prefix = without_xref(&name);
-        if behind_prefix.len() < name.len() {
-            self.referenced.entry(behind_prefix.into()).or_insert_with(|| record.clone());
+        let record = LayerRecord {
+            line: name.line,
+            line_type,
+            colour: bytes(62),
+            flags: bytes(70),
+            contradiction: None,
+        };
+        let behind_prefix = without_xref(&folded);
+        if behind_prefix.len() < folded.len() {
+            let known = self.referenced.entry(behind_prefix.into()).or_insert_with(|| record.clone());
+            known.compare(&record);
         }
-        self.records.entry(name.clone()).or_insert(record);
-        self.last_name = name;
+        self.records.entry(folded).or_insert_with(|| record.clone()).compare(&record);
     }
 
     /// Finds a record by its full name, else by the name without external-reference prefix.
@@ -255,10 +276,18 @@ impl<'a> KnownLayers<'a> {
 }
 
 impl LayerRecord<'_> {
-    /// Returns the line type in upper case, if the record gives one.
-    pub(crate) fn line_type(&self) -> Option<SmolStr> {
-        let name = String::from_utf8_lossy(self.line_type.as_deref()?);
-        Some(line_type_name(&name)).filter(|name| !name.is_empty())
+    /// Notes a further record with the same name, if it says something else.
+    fn compare(&mut self, other: &Self) {
+        let properties = |record: &Self| (record.line_type(), record.is_hidden(), record.is_frozen());
+        if self.line != other.line && self.contradiction.is_none() && properties(self) != properties(other) {
+            self.contradiction = Some(other.line);
+        }
+    }
+
+    /// Returns the line type in upper case.
+    fn line_type(&self) -> SmolStr {
+        let name = self.line_type.as_deref().map(|name| line_type_name(&String::from_utf8_lossy(name)));
+        name.filter(|name| !name.is_empty()).unwrap_or(CONTINUOUS)
     }
 
     /// Whether the layer is frozen or off.
@@ -292,15 +321,14 @@ impl<'a> LayerTableReader<'_, 'a, '_> {
         Ok(layers)
     }
 
-    /// Reads at least the records that contain the bytes `written`, up to the record with the name `wanted`. From a match on, the table is read pair
-    /// by pair from the start of the record, so that no broken record is overlooked.
-    fn read_until(
+    /// Reads at least the records that contain the bytes `written`. From a match on, the table is read pair by pair from the start of the record, so
+    /// that no broken record is overlooked.
+    fn read_with(
         &mut self,
         mut tables: Pairs<'a>,
         written: &[u8],
-        wanted: &str,
-    ) -> Result<KnownLayers<'a>, Stop<'a>> {
-        let mut layers = KnownLayers::default();
+        layers: &mut KnownLayers<'a>,
+    ) -> Result<(), Stop<'a>> {
         let mut records = None;
         let begin = tables.consumed();
         for at in Finder::new(written).find_iter(&tables.bytes()[begin..]).map(|at| begin + at) {
@@ -313,15 +341,12 @@ impl<'a> LayerTableReader<'_, 'a, '_> {
             }
             let Some(row) = &mut records else { break };
             while row.groups.pairs().consumed() <= at && !is_end_of_table(&row.head) {
-                self.record(row, &mut layers)?;
-            }
-            if layers.last_name == wanted {
-                break;
+                self.record(row, layers)?;
             }
             tables = row.groups.pairs();
             records = records.filter(|row| !is_end_of_table(&row.head));
         }
-        Ok(layers)
+        Ok(())
     }
 
     /// Reads the head record if it is a LAYER.

@@ -169,6 +169,9 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
                 around,
             );
         }
+        if let Some(trouble) = place_entity(self.reader, traits, layer, around)?.layer.contradiction() {
+            return self.refuse_insertion(traits, &wanted, &trouble, around);
+        }
         if self.is_clipped(insert.dictionary)? {
             let trouble = EntityError::LeftOut {
                 message: &INSERT_CLIPPED,

@@ -693,6 +693,13 @@ messages! {
         help_en: "rename one of the blocks, or open the drawing in a CAD program and save it again",
         help_de: "einen der Blöcke umbenennen, oder die Zeichnung in einem CAD-Programm öffnen und neu speichern",
     }
+    /// Records of a layer that contradict each other.
+    LAYER_TWICE: InvalidDxf {
+        en: "the file defines layer {layer} more than once, with different line types or visibility (upper and lower case make no difference)",
+        de: "die Datei definiert den Layer {layer} mehrfach, mit verschiedenem Linientyp oder verschieden sichtbar (Groß- und Kleinschreibung zählt nicht)",
+        help_en: "give the layers different names or the same properties; if the CAD program shows only one, save the drawing again",
+        help_de: "den Layern verschiedene Namen oder dieselben Eigenschaften geben; zeigt das CAD-Programm nur einen, die Zeichnung neu speichern",
+    }
     /// An entity that is marked invisible.
     INVISIBLE: LayerNotVisible {
         en: "{entity} is marked invisible, but is still used",

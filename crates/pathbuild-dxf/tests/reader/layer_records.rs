@@ -58,8 +58,7 @@ fn a_record_may_follow_in_another_table_or_be_written_in_lower_case() {
 
 #[test]
 fn it_does_not_matter_how_many_layers_are_wanted() {
-    let record =
-        |number: &usize| format!("0 LAYER\n2 A{number}P\n6 T{number}\n0 LAYER\n2 a{number}p\n6 WRONG\n");
+    let record = |number: &usize| format!("0 LAYER\n2 A{number}P\n6 T{number}\n");
     let numbers: Vec<usize> = (1000..1050).collect();
     let tables = table(&numbers.iter().map(record).collect::<String>());
     let names: Vec<String> = numbers.iter().map(|number| format!("A{number}p")).collect();

@@ -2,9 +2,10 @@
 
 use std::cell::RefCell;
 
+use pathbuild_diagnostic::Code;
 use pathbuild_dxf::{Drawing, Options, read};
 
-use crate::support::{entities, file, options, read_all};
+use crate::support::{entities, faults, file, options, read_all};
 
 const CIRCLE: &str = "10 0\n20 0\n40 1";
 
@@ -108,18 +109,69 @@ fn a_record_is_found_by_a_name_of_any_length_and_not_by_one_that_is_almost_the_s
     }
 }
 
+/// Returns the faults about these two records with many others, before, after and between them.
+fn faults_of_records(layers: &[&str], one: &str, other: &str) -> Vec<String> {
+    let found = [0, 100].map(|count| {
+        let others: Vec<_> = (0..count).map(|number| format!("2 1000.L{number}")).collect();
+        let others: Vec<_> = others.iter().map(String::as_str).collect();
+        let records = [&others[..], &[one], &others, &[other], &others].concat();
+        let faults = faults(&circles(layers, &table(&records)));
+        faults.iter().map(|fault| fault.split_once(' ').expect("a code").0.to_owned()).collect::<Vec<_>>()
+    });
+    assert_eq!(found[0], found[1]);
+    found[0].clone()
+}
+
 #[test]
-fn of_several_records_of_a_name_the_first_counts() {
-    for others in [0, 100] {
-        let mut records: Vec<_> = (0..others).map(|number| format!("2 L{number}")).collect();
-        records.extend(
-            ["2 A\n6 DASHED", "2 a\n6 DOT", "2 x$0$B\n6 DOT", "2 y$0$b\n6 DASHED"].map(str::to_owned),
-        );
-        let records: Vec<_> = records.iter().map(String::as_str).collect();
-        let drawing = circles(&["a", "B"], &table(&records));
-        let line_types: Vec<_> = drawing.entities.iter().map(|entity| &*entity.line_type).collect();
-        assert_eq!(line_types, ["DASHED", "DOT"]);
+fn records_of_a_layer_that_contradict_each_other_are_a_fault() {
+    const RECORD: &str = "2 1000.1P\n70 0\n62 7\n6 DOT";
+    for other in [
+        "2 1000.1P\n70 0\n62 7\n6 HIDDEN",
+        "2 1000.1p\n70 0\n62 7\n6 HIDDEN",
+        "2 1000.1p\n70 0\n62 7",
+        "2 1000.1p\n70 1\n62 7\n6 DOT",
+        "2 1000.1P\n70 0\n62 -7\n6 DOT",
+    ] {
+        for (one, other) in [(RECORD, other), (other, RECORD)] {
+            for layers in [&["1000.1P"][..], &["1000.1p"], &["1000.1P", "1000.1p"], &["x|1000.1P"]] {
+                assert_eq!(faults_of_records(layers, one, other), ["PB002"], "{one} {other}");
+            }
+            assert_eq!(faults_of_records(&["1000.2P"], one, other), [""; 0]);
+        }
     }
+    // These differ in nothing that counts.
+    for other in ["2 1000.1P\n70 64\n62 1\n6 dot", "2 1000.1p\n62 7\n6 x$0$DOT", "2 1000.2P\n70 1"] {
+        assert_eq!(faults_of_records(&["1000.1P"], RECORD, other), [""; 0], "{other}");
+    }
+    // A record that belongs to an external reference counts only for a name without a record.
+    let references = ("2 x$0$1000.1P\n6 DOT", "2 y$0$1000.1P\n6 DASHED");
+    assert_eq!(faults_of_records(&["1000.1P"], references.0, references.1), ["PB002"]);
+    assert_eq!(faults_of_records(&["x$0$1000.1P", "y$0$1000.1P"], references.0, references.1), [""; 0]);
+    assert_eq!(faults_of_records(&["1000.1P"], references.0, "2 1000.1P\n6 DASHED"), [""; 0]);
+}
+
+#[test]
+fn a_contradiction_is_reported_once_per_layer_with_the_line_of_its_record() {
+    let drawing = circles(&["A", "A", "a"], &table(&["2 A", "2 B", "2 a\n70 1", "2 A\n6 DOT"]));
+    assert_eq!(
+        faults(&drawing),
+        [
+            "PB002 37 A: the file defines layer A more than once, with different line types or visibility (upper and lower case make no difference)"
+        ]
+    );
+    assert_eq!(drawing.entities.len(), 3);
+}
+
+#[test]
+fn a_contradiction_about_the_layer_of_an_insertion_concerns_the_contents() {
+    let blocks = "0 BLOCK\n8 0\n2 B\n10 0\n20 0\n0 CIRCLE\n8 A\n6 BYBLOCK\n10 0\n20 0\n40 1\n0 ENDBLK";
+    let faults_on = |layer: &str| {
+        let tables = table(&["2 X\n6 DOT", "2 X\n6 HIDDEN", "2 Y"]);
+        let file = file("", &tables, blocks, &format!("0 INSERT\n8 {layer}\n2 B\n10 0\n20 0"));
+        let drawing = read(file.as_bytes(), &Options { keep_layer: &|name| name == "A", ..options() });
+        drawing.faults.iter().map(|fault| fault.diagnostic.code()).collect::<Vec<_>>()
+    };
+    assert_eq!((faults_on("X"), faults_on("Y")), (vec![Code::InvalidDxf], vec![]));
 }
 
 #[test]
