@@ -128,10 +128,10 @@ impl<'d> Collector<'d> {
         if let Some(trouble) = placed.layer.contradiction() {
             self.refuse(placed, layer, &trouble)?;
         }
-        if placed.is_invisible {
+        if placed.is_invisible && shape.is_ok() {
             self.note(placed, layer, LayerNote::Invisible, &INVISIBLE);
         }
-        if let Some(frozen) = placed.frozen.filter(|_| !placed.layer.hidden) {
+        if let Some(frozen) = placed.frozen.filter(|_| shape.is_ok() && !placed.layer.hidden) {
             self.note_frozen(placed, layer, frozen);
         }
         match shape {

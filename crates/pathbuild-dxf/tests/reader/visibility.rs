@@ -27,6 +27,19 @@ fn invisible_entities_count_with_a_warning_for_each_layer() {
 }
 
 #[test]
+fn an_invisible_element_that_is_left_out_or_broken_has_one_finding() {
+    for (entity, found) in [
+        ("0 SOLID\n8 A\n10 0\n20 0\n60 1", (1, 0)),
+        ("0 SPLINE\n8 A\n10 0\n20 0\n60 1", (1, 0)),
+        ("0 CIRCLE\n8 A\n10 0\n20 0\n40 x\n60 1", (0, 1)),
+    ] {
+        let drawing = read_all(entities(entity));
+        assert_eq!((drawing.left_out.len(), drawing.faults.len()), found, "{entity}");
+        assert_eq!(drawing.diagnostics, [], "{entity}");
+    }
+}
+
+#[test]
 fn an_attribute_and_its_end_are_no_entities() {
     let drawing =
         read_all(entities(&format!("0 ATTRIB\n8 A\n10 1\n20 1\n40 1\n1 x\n0 SEQEND\n8 A\n{CIRCLE}")));
