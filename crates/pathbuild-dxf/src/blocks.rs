@@ -1,5 +1,5 @@
-//! The BLOCKS section. It is indexed at the first INSERT that may draw on a wanted layer; each block is read at its first such INSERT. Most
-//! drawings need neither.
+//! The BLOCKS section. It is indexed at the first INSERT; each block is read at its first INSERT that may draw on a wanted layer. Most drawings
+//! need neither.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
@@ -27,6 +27,8 @@ pub(crate) struct Blocks<'a> {
     all: Vec<Block<'a>>,
     /// The wanted layers on which an insertion draws, by the inserted block and the layer of the insertion.
     wanted: BTreeMap<BlockOnLayer, Rc<[LayerId]>>,
+    /// Whether some block inserts a block that the file does not contain.
+    pub(crate) has_missing: bool,
 }
 
 type BlockOnLayer = (BlockId, LayerId);
@@ -83,16 +85,22 @@ impl<'a> Blocks<'a> {
     pub(crate) fn index(pairs: Pairs<'a>, reader: &mut EntityReader<'a, '_>) -> Result<Self, Stop<'a>> {
         let EntityReader { fields, decoder, .. } = reader;
         let mut groups = Groups::new(pairs);
-        let mut blocks = Self::default();
+        let (mut blocks, mut inserted) = (Self::default(), HashSet::new());
         let mut head = groups.next_zero()?;
         while !head.is("ENDSEC") {
-            if head.is("BLOCK") {
-                (head, _) = fields.fill(&mut groups, head.line, 0, |_| FillDecision::Keep)?;
-                blocks.add(fields, groups.pairs(), head, decoder);
-            } else {
+            let is_block = head.is("BLOCK");
+            if !is_block && !head.is("INSERT") {
                 head = groups.next_zero()?;
+                continue;
+            }
+            (head, _) = fields.fill(&mut groups, head.line, 0, |_| FillDecision::Keep)?;
+            if is_block {
+                blocks.add(fields, groups.pairs(), head, decoder);
+            } else if let Some(name) = fields.get(2) {
+                inserted.insert(case_folded(&decoder.decode(name.bytes, name.line)));
             }
         }
+        blocks.has_missing = inserted.iter().any(|name| blocks.find(name).is_none());
         Ok(blocks)
     }
 
@@ -136,7 +144,8 @@ impl<'a> Blocks<'a> {
         Ok(items)
     }
 
-    /// Returns the wanted layers on which an insertion of this block on this layer draws something or reports a fault.
+    /// Returns the wanted layers on which an insertion of this block on this layer draws something or reports a fault, and the layers, wanted or not,
+    /// on which it inserts a missing block.
     pub(crate) fn wanted_layers(
         &mut self,
         block: BlockId,
@@ -218,8 +227,11 @@ impl<'a> Blocks<'a> {
                 let layer = reader.layers.inherited(item.traits.layer, inherited);
                 match self.inserted(item) {
                     Some(inner) => ahead.extend(seen.insert((inner, layer)).then_some((inner, layer))),
-                    None if reader.layers.is_kept(layer) && known.insert(layer) => wanted.push(layer),
-                    None => {}
+                    None => {
+                        let is_missing = matches!(item.shape, Ok(Shape::Insert(_)));
+                        let is_wanted = is_missing || reader.layers.is_kept(layer);
+                        wanted.extend((is_wanted && known.insert(layer)).then_some(layer));
+                    }
                 }
             }
         }

@@ -19,6 +19,7 @@ use smol_str::SmolStr;
 use crate::entities::Shape;
 use crate::faults::{EntityError, Fatal};
 use crate::layers::{LayerId, UsedLayer};
+use crate::names::case_folded;
 use crate::placement::Placement;
 use crate::shapes::Polyline;
 use crate::shapes::curves::{ApproximationFailure, Tolerance};
@@ -30,7 +31,7 @@ pub(crate) struct Collector<'d> {
     layers: BTreeMap<SmolStr, u32>,
     /// The notes that were given about each layer.
     noted: BTreeSet<(u32, LayerNote)>,
-    /// The missing blocks that are inserted on layers that are not read, to report each of them once.
+    /// The folded names of missing blocks that are inserted on layers that are not read, to report each of them once.
     missing_blocks: BTreeSet<SmolStr>,
     /// Layer of the previous entity, as a cache.
     last: Option<(LayerId, u32)>,
@@ -277,7 +278,7 @@ impl<'d> Collector<'d> {
         block: &str,
         point: Option<Point>,
     ) {
-        if self.missing_blocks.insert(block.into()) {
+        if self.missing_blocks.insert(case_folded(block)) {
             let mut diagnostic = Diagnostic::new(&BLOCK_MISSING).quoting("block", block);
             diagnostic.place = place_of(placed, point);
             self.drawing.diagnostics.push(diagnostic);

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::messages::drawing::{FOREIGN, NOT_APPROXIMATED};
 use pathbuild_diagnostic::{EntityKind, Point};
 use smol_str::SmolStr;
 
-use crate::block_prefilter::{has_text, may_hold_wanted};
+use crate::block_prefilter::has_text;
 use crate::encoding::Decoder;
 use crate::faults::{EntityError, first_point};
 use crate::fields::{Fields, FillDecision, Value};
@@ -26,10 +26,6 @@ pub(crate) struct EntityReader<'a, 'o> {
     pub(crate) layers: Layers<'a, 'o>,
     pub(crate) line_types: LineTypes<'a>,
     pub(crate) fields: Fields<'a>,
-    /// The BLOCKS section, until it has been searched for wanted layers.
-    unseen_blocks: Option<Pairs<'a>>,
-    /// Whether insertions on unwanted layers may draw on wanted ones.
-    blocks_matter: bool,
     /// The BLOCKS section, until it has been searched for texts to note.
     unnoted_blocks: Option<Pairs<'a>>,
     /// Layer of the last insertion, to which the attributes after it belong.
@@ -69,8 +65,6 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             layers,
             line_types,
             fields,
-            unseen_blocks: blocks,
-            blocks_matter: false,
             unnoted_blocks: blocks.filter(|_| !options.compatible),
             last_insertion: None,
             has_noted_text: false,
@@ -193,8 +187,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             }
             return Ok(None);
         }
-        if kind == RecordKind::Insert && !self.insertion_matters(layer, space) {
-            return Ok(None);
+        if kind == RecordKind::Insert {
+            self.note_text_in_blocks();
         }
         Ok(Some(CommonProperties {
             layer,
@@ -235,19 +229,12 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         Ok((want, found))
     }
 
-    /// Whether a block that is inserted on this layer may draw on a wanted one.
-    fn insertion_matters(&mut self, layer: LayerId, space: Space) -> bool {
+    /// Notes the texts of all blocks, once there is an insertion.
+    fn note_text_in_blocks(&mut self) {
         if let (Some(blocks), Some(is_noted)) = (self.unnoted_blocks.take(), self.options.note_text) {
             let Self { layers, decoder, .. } = self;
             self.has_noted_text = self.has_noted_text || has_text(&blocks, is_noted, layers, decoder);
         }
-        if self.layers.is_kept(layer) || (space == Space::Block && self.layers.is_inheriting(layer)) {
-            return true;
-        }
-        if let Some(blocks) = self.unseen_blocks.take() {
-            self.blocks_matter = may_hold_wanted(&blocks, &mut self.layers, &mut self.decoder);
-        }
-        self.blocks_matter
     }
 
     /// Notes the text on an unwanted layer that was just read.

@@ -13,6 +13,7 @@ use pathbuild_diagnostic::{Handle, Point};
 use smol_str::SmolStr;
 
 use crate::Origin;
+use crate::block_prefilter::may_hold_wanted;
 use crate::blocks::{BlockId, Blocks, StepBudget};
 use crate::clips::clipping_dictionaries;
 use crate::collect::{Collector, PlacedEntity};
@@ -35,6 +36,10 @@ pub(crate) struct Model<'r, 'a, 'o> {
     entities: Pairs<'a>,
     /// The extension dictionaries with a clipping boundary, once they are looked up.
     clipping: Option<HashSet<Handle>>,
+    /// Damage to the BLOCKS section, which is an error only if the blocks matter.
+    damage: Option<Fatal>,
+    /// Whether insertions on unwanted layers may draw on wanted ones, or insert missing blocks.
+    blocks_matter: bool,
     /// The insertions in progress, outermost first.
     open: Vec<BlockId>,
     steps: StepBudget,
@@ -75,6 +80,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             blocks: Blocks::default(),
             entities,
             clipping: None,
+            damage: None,
+            blocks_matter: false,
             open: Vec::new(),
             steps,
         }
@@ -128,13 +135,14 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         insert: Insert<'a>,
         around: &EntityContext,
     ) -> Result<(), Fatal> {
-        if let Some(section) = self.section.take() {
-            let blocks = Blocks::index(section, self.reader);
-            self.blocks = blocks.map_err(|stop| stop_error(stop, "BLOCKS"))?;
+        self.index_blocks();
+        let is_kept = self.reader.layers.is_kept(layer);
+        if let Some(damage) = &self.damage {
+            return if is_kept || self.blocks_matter { Err(damage.clone()) } else { Ok(()) };
         }
         let Some(block) = self.blocks.find(&insert.block) else {
             let point = insert.array.ok().map(|array| array.begin());
-            if !self.reader.layers.is_kept(layer) {
+            if !is_kept {
                 return self.note_missing(traits, layer, &insert.block, point, around);
             }
             let trouble = EntityError::LeftOut {
@@ -145,6 +153,9 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             };
             return self.refuse_insertion(traits, &[layer], &trouble, around);
         };
+        if !is_kept && !self.blocks_matter {
+            return Ok(());
+        }
         let wanted = self.blocks.wanted_layers(block, layer, self.reader, &mut self.steps)?;
         let namesakes = self.blocks.namesakes(block);
         if !namesakes.is_empty() && !self.reader.options.compatible {
@@ -158,8 +169,11 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             let trouble = EntityError::DefinedTwice(insert.block.as_str().into());
             return self.refuse_insertion(traits, &Vec::from_iter(layers), &trouble, around);
         }
+        if !wanted.iter().any(|layer| self.reader.layers.is_kept(*layer)) {
+            self.check_elsewhere(traits, layer, block, &insert, around)?;
+        }
         if wanted.is_empty() {
-            return self.check_elsewhere(traits, layer, block, &insert, around);
+            return Ok(());
         }
         if self.open.contains(&block) || self.open.len() >= MAX_BLOCK_DEPTH {
             return self.refuse_insertion(
@@ -195,6 +209,19 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             self.clipping = Some(found.map_err(|stop| stop_error(stop, "OBJECTS"))?);
         }
         Ok(self.clipping.as_ref().is_some_and(|clipping| clipping.contains(&dictionary)))
+    }
+
+    /// Indexes the BLOCKS section at the first insertion.
+    fn index_blocks(&mut self) {
+        let Some(section) = self.section.take() else { return };
+        self.blocks_matter = may_hold_wanted(&section, &mut self.reader.layers, &mut self.reader.decoder);
+        match Blocks::index(section, self.reader) {
+            Ok(blocks) => {
+                self.blocks_matter |= blocks.has_missing;
+                self.blocks = blocks;
+            }
+            Err(stop) => self.damage = Some(stop_error(stop, "BLOCKS")),
+        }
     }
 
     /// Adds the contents of a block at each of these placements.
@@ -254,8 +281,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         self.refuse_insertion(traits, &[layer], &trouble, around)
     }
 
-    /// Reports a missing block that is inserted on a layer that is not read. Reports nothing if that layer is frozen, or in
-    /// compatible mode.
+    /// Reports a missing block that is inserted on a layer that is not read. Reports nothing if that layer, or that of an insertion around it, is
+    /// frozen, or in compatible mode.
     fn note_missing(
         &mut self,
         traits: &CommonProperties,
@@ -266,7 +293,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     ) -> Result<(), Fatal> {
         let is_compatible = self.reader.options.compatible;
         let placed = place_entity(self.reader, traits, layer, around)?;
-        if !is_compatible && !placed.layer.is_frozen {
+        if !is_compatible && !placed.layer.is_frozen && placed.frozen.is_none() {
             self.collector.note_missing_block(&placed, block, point);
         }
         Ok(())

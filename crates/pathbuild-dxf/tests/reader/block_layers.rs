@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use pathbuild_diagnostic::Code;
 use pathbuild_dxf::{Options, read};
 
-use crate::support::{file, file_codes, options};
+use crate::support::{file, file_codes, file_faults, options};
 
 /// Inserts a block on a layer, with different scales in x and y, so that contents on layer P are left out. Returns the number of entities left out on
 /// layer P.
@@ -147,4 +147,54 @@ fn what_is_broken_in_blocks_is_told_if_they_may_hold_something_wanted() {
     // A missing line turns each code into a value and each value into a code.
     let shifted = |content: &str| drawing(content).replace(" 62\n1\n", " 62\n");
     assert_eq!(found(shifted(&(line("8 X\n62 1") + &line("8 P")))), (0, vec![Code::InvalidDxf]));
+}
+
+/// Returns the findings about the file and the number of insertions left out, for these layers, blocks and entities. Layer P is wanted.
+fn missing(tables: &str, blocks: &str, entities: &str) -> (Vec<String>, usize) {
+    let file = file("", tables, blocks, entities);
+    let drawing = read(file.as_bytes(), &Options { keep_layer: &|name| name == "P", ..options() });
+    assert!(drawing.faults.is_empty());
+    (file_faults(&drawing), drawing.left_out.len())
+}
+
+fn insert(layer: &str, block: &str) -> String {
+    format!("0 INSERT\n8 {layer}\n2 {block}\n10 0\n20 0\n")
+}
+
+#[test]
+fn a_missing_block_is_reported_once_whatever_the_layer_of_its_insertion() {
+    let codes = |blocks: &str, entities: &str| {
+        let (found, left_out) = missing("", blocks, entities);
+        let text = "is left out: the file does not contain it";
+        assert!(found.iter().all(|found| found.starts_with("PB111") && found.ends_with(text)), "{found:?}");
+        (found.len(), left_out)
+    };
+    let other = block("2 B", &line("8 X"));
+    assert_eq!(codes("", &insert("X", "N")), (1, 0));
+    assert_eq!(codes(&other, &insert("X", "N")), (1, 0));
+    assert_eq!(codes(&other, &(insert("X", "N") + &insert("0", "n"))), (1, 0));
+    assert_eq!(codes(&other, &(insert("X", "N") + &insert("X", "M"))), (2, 0));
+    assert_eq!(codes(&other, &insert("X", "B")), (0, 0));
+    let reference = |content: &str| block("2 N\n70 4", content);
+    assert_eq!(codes(&reference(""), &insert("X", "N")), (1, 0));
+    assert_eq!(codes(&reference(&line("8 X")), &insert("X", "N")), (0, 0));
+    // A missing block counts if a block that inserts it is inserted.
+    let nested = block("2 B", &insert("Y", "N"));
+    assert_eq!(codes(&nested, &insert("X", "B")), (1, 0));
+    assert_eq!(codes(&nested, &(insert("X", "B") + &insert("X", "B"))), (1, 0));
+    assert_eq!(codes(&(block("2 C", &insert("Z", "B")) + &nested), &insert("X", "C")), (1, 0));
+    assert_eq!(codes(&(nested + &block("2 C", &line("8 X"))), &insert("X", "C")), (0, 0));
+    // The rest of the block is left out all the same.
+    let both = block("2 B", &(line("8 Y") + &insert("Y", "N")));
+    assert_eq!(codes(&both, &insert("P", "B")), (1, 1));
+}
+
+#[test]
+fn a_missing_block_on_a_frozen_layer_is_not_reported() {
+    let tables = |flags: &str| format!("0 TABLE\n2 LAYER\n0 LAYER\n2 X\n{flags}\n0 ENDTAB");
+    let nested = block("2 B", &insert("Y", "N"));
+    for entities in [insert("X", "N"), insert("X", "B")] {
+        assert_eq!(missing(&tables("70 1"), &nested, &entities), (vec![], 0));
+        assert_eq!(missing(&tables("70 0\n62 -7"), &nested, &entities).0.len(), 1);
+    }
 }
