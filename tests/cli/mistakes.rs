@@ -83,6 +83,7 @@ fn texts_in_the_wrong_place() {
         ),
         ("variable_apart", format!("{START}mill 0,0 40,0\nsubpath 40,0 60,0 \":B 1 >1234.2P\"\nend 60,0\n")),
         ("blank_text", format!("{START}mill 0,0 40,0\ntext 20,0 \"   \"\ntext 18,0.2 \"B1\"\nend 40,0\n")),
+        ("blank_text_far", format!("{START}mill 0,0 40,0\ntext 20,30 \"   \"\nend 40,0\n")),
     ] {
         assert_snapshot!(name, check_output(&drawing));
     }

@@ -457,7 +457,7 @@ fn next_piece(text: &str, from: usize) -> Option<LetterValue> {
     Some(LetterValue { letter, written, span: number(start)..number(end) })
 }
 
-/// Replaces `%%c`, `%%d` and `%%p` by `_D`, `_G` and `_+`.
+/// Replaces `%%c`, `%%d` and `%%p` by `_D`, `_G` and `_+`, and drops `%%u` and `%%o`, which underline and overline.
 pub(crate) fn without_percent_codes(text: &str) -> Cow<'_, str> {
     if !text.contains('%') {
         return Cow::Borrowed(text);
@@ -470,6 +470,7 @@ pub(crate) fn without_percent_codes(text: &str) -> Cow<'_, str> {
             Some('c' | 'C') => "_D",
             Some('d' | 'D') => "_G",
             Some('p' | 'P') => "_+",
+            Some('u' | 'U' | 'o' | 'O') => "",
             _ => {
                 replaced.push_str(&rest[..=at]);
                 rest = &rest[at + 1..];

@@ -131,6 +131,13 @@ messages! {
         help_en: "move it over its element; text and element must be on exactly the same layer",
         help_de: "über das Element schieben; Text und Element müssen auf genau demselben Layer liegen",
     }
+    /// A text of blanks, which nobody sees, that belongs to no element.
+    BLANK_TEXT: TextWithoutElement {
+        en: "a text that consists only of blanks, and is invisible, belongs to no element: its circle is at {centre}",
+        de: "ein Text nur aus Leerzeichen, der unsichtbar ist, gehört zu keinem Element: sein Kreis liegt bei {centre}",
+        help_en: "delete it",
+        help_de: "löschen",
+    }
     /// A text that would belong to another element if it were moved slightly.
     NEARLY_OTHER_ELEMENT: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, but {other} at {other_point} is only {margin} mm farther away",

@@ -229,6 +229,9 @@ impl<'d> LayerTexts<'d> {
         'd: 'a,
     {
         let (string, circle) = (without_percent_codes(text.string()), text.circle());
+        if string.trim().is_empty() {
+            return Diagnostic::new(&messages::BLANK_TEXT).with("centre", diagnostic_point(circle.centre));
+        }
         let mut diagnostic = Diagnostic::new(&messages::TEXT_WITHOUT_ELEMENT)
             .quoting("text", string.replace('\n', " "))
             .with("centre", diagnostic_point(circle.centre))

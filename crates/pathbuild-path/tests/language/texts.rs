@@ -83,7 +83,8 @@ fn percent_codes_are_replaced() {
     assert_eq!(text("%%c%%d%%p"), "Q_D_G_+");
     assert_eq!(text("%%C%%D%%P"), "Q_D_G_+");
     assert_eq!(text("5%%%c"), "Q5%_D");
-    assert_eq!(text("%%u%%"), "Q%%u%%");
+    assert_eq!(text("%%ua%%U%%ob%%O"), "Qab");
+    assert_eq!(text("%%k%%"), "Q%%k%%");
 }
 
 /// Tests long and short texts, recent and earlier ones, in a path with more texts than a new one is compared with.
