@@ -225,14 +225,13 @@ impl<'a> Blocks<'a> {
             steps.spend(items.len())?;
             for item in items.iter() {
                 let layer = reader.layers.inherited(item.traits.layer, inherited);
-                match self.inserted(item) {
-                    Some(inner) => ahead.extend(seen.insert((inner, layer)).then_some((inner, layer))),
-                    None => {
-                        let is_missing = matches!(item.shape, Ok(Shape::Insert(_)));
-                        let is_wanted = is_missing || reader.layers.is_kept(layer);
-                        wanted.extend((is_wanted && known.insert(layer)).then_some(layer));
-                    }
+                if let Some(inner) = self.inserted(item) {
+                    ahead.extend(seen.insert((inner, layer)).then_some((inner, layer)));
+                    continue;
                 }
+                let is_missing = matches!(item.shape, Ok(Shape::Insert(_)));
+                let is_wanted = is_missing || reader.layers.is_kept(layer);
+                wanted.extend((is_wanted && known.insert(layer)).then_some(layer));
             }
         }
         Ok((wanted, seen))
