@@ -116,6 +116,20 @@ words! {
     LINE: "a line", "eine Linie";
     /// Name of an arc, whatever its meaning.
     ARC: "an arc", "ein Bogen";
+    /// Formatting of a text: paragraphs with different alignments, or distributed ones.
+    SEVERAL_ALIGNMENTS: "distributed or differently aligned paragraphs", "verteilte oder verschieden ausgerichtete Absätze";
+    /// Formatting of a text: columns.
+    COLUMNS: "columns", "Spalten";
+    /// Formatting of a text: empty rows after its last letter.
+    EMPTY_ROWS: "empty rows at its end", "leere Zeilen am Ende";
+    /// Formatting of a text: letters of different heights.
+    SEVERAL_HEIGHTS: "letters of different heights", "verschieden hohe Buchstaben";
+    /// Formatting of a text: an indented paragraph.
+    INDENT: "an indent", "einen Einzug";
+    /// Formatting of a text: stacked characters, such as fractions.
+    STACKED_CHARACTERS: "stacked characters", "gestapelte Zeichen";
+    /// Formatting of a text: a tab.
+    TAB: "a tab", "einen Tabulator";
     /// Name of a move with G00.
     RAPID_MOVE: "rapid move", "Eilgang";
     /// Name of a move straight down with G01.

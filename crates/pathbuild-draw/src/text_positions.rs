@@ -126,17 +126,23 @@ pub struct TextSize {
 impl TextSize {
     /// Estimates the extent of a TEXT with this string and letter height in mm.
     pub fn of_text(value: &str, height: f64) -> Self {
-        let width = 0.6 * height * value.chars().count() as f64;
+        let width = 0.6 * height * visible_length(value) as f64;
         Self { width, height, radius: libm::hypot(width, height) / 2.0 }
     }
 
     /// Estimates the extent of an MTEXT with these lines.
     pub fn of_mtext<S: AsRef<str>>(lines: &[S], letters: f64) -> Self {
-        let longest = lines.iter().map(|line| line.as_ref().chars().count()).max().unwrap_or(0);
+        let longest = lines.iter().map(|line| visible_length(line.as_ref())).max().unwrap_or(0);
         let width = 0.6 * letters * longest as f64;
         let height = letters * lines.len() as f64;
         Self { width, height, radius: (libm::hypot(width, height) / 2.0).min(0.7 * height) }
     }
+}
+
+/// Returns the number of characters without the blanks at the end, unless there are only blanks.
+fn visible_length(row: &str) -> usize {
+    let visible = row.trim_end();
+    if visible.is_empty() { row } else { visible }.chars().count()
 }
 
 /// A test of whether a text circle with this centre and radius suits the target element on this layer.

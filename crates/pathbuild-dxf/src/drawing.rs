@@ -20,7 +20,7 @@ pub struct Options<'a> {
     /// Maximum length of a text in bytes. A longer text is an error (PB005).
     pub max_text: usize,
     /// Whether to read as PathDxf2GCode does: only LINE, ARC, CIRCLE, TEXT and MTEXT outside of blocks. Anything else on a wanted layer is then left
-    /// out with one warning per drawing, and no MTEXT has a width.
+    /// out with one warning per drawing, no MTEXT has a width, and the formatting and blanks of texts have no effect on their places.
     pub compatible: bool,
 }
 
@@ -206,6 +206,8 @@ pub struct Text {
     pub backwards: bool,
     /// Whether the text is mirrored in y, so that it is upside down (71 bit 4).
     pub upside_down: bool,
+    /// Whether blanks at the ends count for the size, as they do for PathDxf2GCode.
+    pub counts_blanks: bool,
 }
 
 /// A text of several lines.
@@ -215,7 +217,7 @@ pub struct MText {
     pub plain: SmolStr,
     /// Insertion point.
     pub anchor: Point3,
-    /// Height of the letters in mm.
+    /// Height of the letters in mm: that of the first letter if `\H` changes it, else 40.
     pub height: f64,
     /// Width in mm (41) at which the CAD program breaks lines, if it does.
     pub width: Option<f64>,
@@ -225,6 +227,31 @@ pub struct MText {
     pub horizontal: HorizontalAlign,
     /// Vertical position of the anchor (group code 71).
     pub vertical: VerticalAlign,
+    /// Alignment of the paragraphs within the width: that of 71, unless `\p` changes it.
+    pub paragraphs: HorizontalAlign,
+    /// Formatting because of which the place of the letters is unknown.
+    pub obstacle: Option<LayoutObstacle>,
+    /// Whether blanks at the ends of rows count for the size, as they do for PathDxf2GCode.
+    pub counts_blanks: bool,
+}
+
+/// Formatting of an MTEXT that moves letters by an unknown distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LayoutObstacle {
+    /// Paragraphs in a width that are aligned differently, or distributed over it.
+    Alignment,
+    /// Columns, or a column break.
+    Columns,
+    /// Empty rows at the end of a text that is not attached at its top.
+    EmptyRows,
+    /// Letters whose heights differ by more than 1 %.
+    Heights,
+    /// An indented paragraph.
+    Indent,
+    /// Stacked characters.
+    Stack,
+    /// A tab before letters.
+    Tab,
 }
 
 /// Horizontal position of the anchor in a text.

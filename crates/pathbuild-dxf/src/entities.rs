@@ -275,7 +275,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             RecordKind::Line => Shape::Plain(shapes::line(fields)?),
             RecordKind::Arc => Shape::Plain(shapes::arc(fields)?),
             RecordKind::Circle => Shape::Plain(shapes::circle(fields)?),
-            RecordKind::Text => Shape::Plain(shapes::text(fields, decoder, options.max_text)?),
+            RecordKind::Text => Shape::Plain(shapes::text(fields, decoder, options)?),
             RecordKind::MText => Shape::Plain(shapes::mtext(fields, decoder, options)?),
             RecordKind::Ellipse | RecordKind::Spline
                 if options.approximate_curves.is_nan() || options.approximate_curves <= 0.0 =>

@@ -67,10 +67,14 @@ pub(crate) enum FillDecision {
     Note,
 }
 
-/// Number of slots: one per role that keeps its value, one for all others, and one for the extension dictionary.
-const SLOTS: usize = 86;
+/// Number of slots: one per role that keeps its value, one for all others, and one for the extension dictionary. That of code 101 has the number of
+/// columns of an embedded object.
+const SLOTS: usize = 89;
 
 const DICTIONARY_SLOT: usize = SLOTS - 1;
+
+/// Code of the number of columns in the embedded object of an MTEXT.
+const COLUMN_COUNT: Role = Role::of(72);
 
 impl<'a> Value<'a> {
     pub(crate) fn new(bytes: &'a [u8], line: u32) -> Self {
@@ -142,11 +146,17 @@ impl<'a> Fields<'a> {
                 match want(value) {
                     FillDecision::Keep => {}
                     FillDecision::Skip => return Ok(Some((groups.next_zero()?, FillDecision::Skip))),
-                    FillDecision::Note => return Ok(Some((self.store_text(groups)?, FillDecision::Note))),
+                    FillDecision::Note => {
+                        let text = Role::of(1);
+                        return Ok(Some((self.store_first(text, text, groups)?, FillDecision::Note)));
+                    }
                 }
             }
             // An embedded object (in the MTEXT of R2018) extends to the end of the entity.
-            Role::EMBEDDED => return Ok(Some((groups.next_zero()?, FillDecision::Keep))),
+            Role::EMBEDDED => {
+                let next = self.store_first(COLUMN_COUNT, Role::EMBEDDED, groups)?;
+                return Ok(Some((next, FillDecision::Keep)));
+            }
             _ if group.raw.trim_ascii().starts_with(b"{") => {
                 let is_dictionary = group.raw.trim_ascii() == b"{ACAD_XDICTIONARY";
                 let entity = self.entity;
@@ -163,13 +173,14 @@ impl<'a> Fields<'a> {
         Ok(None)
     }
 
-    /// Stores the text among the remaining groups of the entity, if there is one. Returns the first pair of the next entity.
-    fn store_text(&mut self, groups: &mut Groups<'a>) -> Result<Pair<'a>, Stop<'a>> {
-        let text = Role::of(1);
-        let group = groups.pass_until(|role| role == text || role == Role::BEGIN, |_| {})?;
+    /// Stores the first of the remaining groups of the entity that has the role `from`, if there is one, as the value of `to`. Returns the first
+    /// pair of the next entity.
+    fn store_first(&mut self, from: Role, to: Role, groups: &mut Groups<'a>) -> Result<Pair<'a>, Stop<'a>> {
+        let mut group = groups.pass_until(|role| role == from || role == Role::BEGIN, |_| {})?;
         if group.role == Role::BEGIN {
             return Ok(group.pair());
         }
+        group.role = to;
         self.store(&group);
         groups.next_zero()
     }

@@ -131,6 +131,7 @@ impl Placement {
         text.rotation = self.text_rotation(text.rotation);
         if self.mirrored {
             text.horizontal = opposite(text.horizontal);
+            text.paragraphs = opposite(text.paragraphs);
         }
     }
 

@@ -181,6 +181,13 @@ messages! {
         help_en: "move the text to layer {layer}, or away from the element there: text and element must be on exactly the same layer",
         help_de: "den Text auf Layer {layer} legen oder von dem Element dort wegschieben: Text und Element müssen auf genau demselben Layer liegen",
     }
+    /// A text with formatting that moves its letters by an unknown distance.
+    PLACE_UNKNOWN: DoubtfulText {
+        en: "the text \"{text}\" belongs to {element} at {point}, but has {reason} and may be shown in another place",
+        de: "zum Text \"{text}\" gehört {element} bei {point}; er hat {reason} und wird vielleicht an anderer Stelle angezeigt",
+        help_en: "remove that from the text in the CAD program, or write it as a new text without formatting",
+        help_de: "das im CAD aus dem Text entfernen oder ihn ohne Formatierung neu schreiben",
+    }
     /// Note: the text lies on a HIDDEN line or arc.
     HIDDEN_TAKES_NO_TEXT: TextWithoutElement {
         en: "the HIDDEN element at {point}, which the text lies on, takes no text: draw it DASHED to give it N or S, DASHDOT to embed a path with >",

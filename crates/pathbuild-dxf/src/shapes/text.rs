@@ -2,22 +2,22 @@
 
 use std::borrow::Cow;
 
-use smol_str::{SmolStr, SmolStrBuilder};
+use smol_str::SmolStrBuilder;
 
 use crate::encoding::{Decoder, control, without_carets};
 use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};
 use crate::placement::{angle_of, opposite};
 use crate::shapes::{from_object_coordinates, is_mirrored};
-use crate::{Geometry, HorizontalAlign, MText, Options, Point3, Text, VerticalAlign};
+use crate::{Geometry, HorizontalAlign, LayoutObstacle, MText, Options, Point3, Text, VerticalAlign};
 
 pub(crate) fn text<'a>(
     fields: &Fields<'a>,
     decoder: &mut Decoder<'_>,
-    longest: usize,
+    options: &Options<'_>,
 ) -> Result<Geometry, EntityError<'a>> {
     let string = fields.get(1).ok_or(BadGroup::Missing { code: 1 })?;
-    if string.bytes.len() > longest {
+    if string.bytes.len() > options.max_text {
         return Err(EntityError::TextTooLong);
     }
     let horizontal = fields.whole_number(72)?.unwrap_or(0);
@@ -33,6 +33,7 @@ pub(crate) fn text<'a>(
         vertical: if horizontal == MIDDLE_CODE { VerticalAlign::Middle } else { vertical_align(vertical) },
         backwards: generation & 2 != 0,
         upside_down: generation & 4 != 0,
+        counts_blanks: options.compatible,
     };
     from_object_coordinates(Geometry::Text(text), fields)
 }
@@ -43,20 +44,52 @@ pub(crate) fn mtext<'a>(
     decoder: &mut Decoder<'_>,
     options: &Options<'_>,
 ) -> Result<Geometry, EntityError<'a>> {
-    let plain = plain_text(&joined_chunks(fields, decoder, options.max_text)?);
     let attachment = fields.whole_number(71)?.unwrap_or(1);
     let (horizontal, vertical) = attachment_align(attachment);
+    let nominal = fields.length(40)?;
+    let width = fields.number(41)?.filter(|width| *width > 0.0 && !options.compatible);
+    let text = PlainText::read(&joined_chunks(fields, decoder, options.max_text)?, nominal, horizontal);
+    let (height, paragraphs) = text.first.filter(|_| !options.compatible).unwrap_or((nominal, horizontal));
+    let plain = text.plain.finish();
+    let obstacle = match text.obstacle {
+        _ if options.compatible => None,
+        Some(obstacle) => Some(obstacle),
+        None if has_tab(&plain) => Some(LayoutObstacle::Tab),
+        None if has_columns(fields) => Some(LayoutObstacle::Columns),
+        None if has_empty_end(&plain) && vertical != VerticalAlign::Top => Some(LayoutObstacle::EmptyRows),
+        None => (text.has_several_alignments && width.is_some()).then_some(LayoutObstacle::Alignment),
+    };
     let is_mirrored = is_mirrored(fields)?;
     let rotation = rotation(fields, is_mirrored)?;
+    let seen = |side| if is_mirrored { opposite(side) } else { side };
     Ok(Geometry::MText(MText {
         plain,
         anchor: fields.point(10)?,
-        height: fields.length(40)?,
-        width: fields.number(41)?.filter(|width| *width > 0.0 && !options.compatible),
+        height,
+        width,
         rotation,
-        horizontal: if is_mirrored { opposite(horizontal) } else { horizontal },
+        horizontal: seen(horizontal),
         vertical,
+        paragraphs: seen(paragraphs),
+        obstacle,
+        counts_blanks: options.compatible,
     }))
+}
+
+/// Whether a tab is before the last letter of a row.
+fn has_tab(plain: &str) -> bool {
+    plain.contains('\t') && plain.split('\n').any(|row| row.trim_end().contains('\t'))
+}
+
+/// Whether empty rows follow the last letter.
+fn has_empty_end(plain: &str) -> bool {
+    let end = plain.trim_end().len();
+    end > 0 && plain[end..].contains('\n')
+}
+
+/// Whether the embedded object of an MTEXT has several columns.
+fn has_columns(fields: &Fields<'_>) -> bool {
+    fields.whole_number(101).is_ok_and(|count| count > Some(1))
 }
 
 const ALIGNED_CODE: i64 = 3;
@@ -156,102 +189,200 @@ fn joined_chunks<'a>(
     Ok(Cow::Owned(decoder.decode(&joined, first.line).into_owned()))
 }
 
-/// Removes the formatting from joined, decoded chunks, and what is struck out, because it is void. Line breaks become `\n`.
-///
-/// A command without its end is kept as text: dropping the rest of a parameter text would be worse.
-fn plain_text(raw: &str) -> SmolStr {
-    if !raw.bytes().any(is_special) {
-        return raw.into();
-    }
-    let (mut plain, mut void) = (SmolStrBuilder::new(), SmolStrBuilder::new());
-    let (mut is_struck, mut outer) = (false, Vec::new());
-    // Search for the last `;` only once: thousands of unterminated commands would otherwise each search the whole rest.
-    let behind_last = raw.rfind(';').map_or(raw.len(), |last| raw.len() - last - 1);
-    let mut rest = raw;
-    while let Some(special) = rest.bytes().position(is_special) {
-        let seen = if is_struck { &mut void } else { &mut plain };
-        seen.push_str(&rest[..special]);
-        rest = &rest[special..];
-        let length = match rest.as_bytes()[0] {
-            b'\\' => append_command(rest, rest.len() > behind_last, seen),
-            b'^' => append_caret(rest, seen),
-            _ => 1,
-        };
-        match rest.as_bytes() {
-            [b'{', ..] => outer.push(is_struck),
-            [b'}', ..] => is_struck = outer.pop().unwrap_or(is_struck),
-            [b'\\', b'K', ..] => {
-                // A space keeps the parameters around the void ones apart.
-                plain.push(' ');
-                is_struck = true;
-            }
-            [b'\\', b'k', ..] => is_struck = false,
-            _ => {}
-        }
-        rest = &rest[length..];
-    }
-    if !is_struck {
-        plain.push_str(rest);
-    }
-    plain.finish()
+/// The text of an MTEXT without its formatting, and what the formatting tells about the places of the letters.
+struct PlainText {
+    /// The text, with line breaks as `\n`.
+    plain: SmolStrBuilder,
+    /// Height of the next letters in mm.
+    height: f64,
+    /// Whether the next letters are struck out, and therefore void.
+    is_struck_out: bool,
+    /// `height` and `is_struck_out` outside of the open braces, innermost last.
+    outer: Vec<(f64, bool)>,
+    /// Alignment of paragraphs that do not state one.
+    default_alignment: HorizontalAlign,
+    /// Alignment of the next letters.
+    alignment: HorizontalAlign,
+    /// Height and alignment of the first letter.
+    first: Option<(f64, HorizontalAlign)>,
+    /// Whether letters are aligned differently, or distributed.
+    has_several_alignments: bool,
+    /// Whether the next letters are not in the first column.
+    is_in_new_column: bool,
+    obstacle: Option<LayoutObstacle>,
 }
+
+impl PlainText {
+    /// Reads joined, decoded chunks. Height and alignment are those of letters without formatting.
+    ///
+    /// A command without its end is kept as text: dropping the rest of a parameter text would be worse.
+    fn read(raw: &str, height: f64, default_alignment: HorizontalAlign) -> Self {
+        let mut text = Self {
+            plain: SmolStrBuilder::new(),
+            height,
+            is_struck_out: false,
+            outer: Vec::new(),
+            default_alignment,
+            alignment: default_alignment,
+            first: None,
+            has_several_alignments: false,
+            is_in_new_column: false,
+            obstacle: None,
+        };
+        // Search for the last `;` only once: thousands of unterminated commands would otherwise each search the whole rest.
+        let behind_last = raw.rfind(';').map_or(raw.len(), |last| raw.len() - last - 1);
+        let mut rest = raw;
+        while let Some(special) = rest.bytes().position(is_special) {
+            text.push(&rest[..special]);
+            rest = &rest[special..];
+            let length = match rest.as_bytes()[0] {
+                b'\\' => text.push_command(rest, rest.len() > behind_last),
+                b'^' => text.push_caret(rest),
+                brace => {
+                    text.pass_brace(brace);
+                    1
+                }
+            };
+            rest = &rest[length..];
+        }
+        text.push(rest);
+        text
+    }
+
+    /// Appends letters, and compares their height and alignment with those of the first letter.
+    fn push(&mut self, letters: &str) {
+        if self.is_struck_out {
+            // Blanks keep the parameters around the void ones apart and in their places.
+            letters.chars().for_each(|letter| self.plain.push(if letter == '\n' { letter } else { ' ' }));
+            return;
+        }
+        self.plain.push_str(letters);
+        if letters.chars().all(char::is_whitespace) {
+            return;
+        }
+        let (height, alignment) = *self.first.get_or_insert((self.height, self.alignment));
+        if (self.height - height).abs() > HEIGHT_TOLERANCE * height {
+            self.obstacle = Some(LayoutObstacle::Heights);
+        }
+        if self.is_in_new_column {
+            self.obstacle = Some(LayoutObstacle::Columns);
+        }
+        self.has_several_alignments |= self.alignment != alignment;
+    }
+
+    /// Keeps the properties of letters at an opening brace, and returns to them at the closing one.
+    fn pass_brace(&mut self, brace: u8) {
+        if brace == b'{' {
+            self.outer.push((self.height, self.is_struck_out));
+        } else if let Some(outer) = self.outer.pop() {
+            (self.height, self.is_struck_out) = outer;
+        }
+    }
+
+    /// Appends what the command at the start of `text` stands for, and returns the length of the command in bytes. `may_end` tells whether a `;`
+    /// follows.
+    fn push_command(&mut self, text: &str, may_end: bool) -> usize {
+        let Some(letter) = text[1..].chars().next() else {
+            self.push("\\");
+            return 1;
+        };
+        let short = 1 + letter.len_utf8();
+        match letter {
+            'P' | 'X' => self.push("\n"),
+            // A new column is read as a new line.
+            'N' => {
+                self.push("\n");
+                self.is_in_new_column = true;
+            }
+            '~' => self.push("\u{a0}"),
+            '\\' | '{' | '}' => self.push(&text[1..short]),
+            'K' => self.is_struck_out = true,
+            'k' => self.is_struck_out = false,
+            'L' | 'l' | 'O' | 'o' => {}
+            'S' => {
+                self.obstacle = Some(LayoutObstacle::Stack);
+                let (stacked, length) = stacked(&text[short..]);
+                self.push(&stacked);
+                return short + length;
+            }
+            _ => {
+                let Some(end) = may_end.then(|| text.find(';')).flatten() else {
+                    self.push("\\");
+                    return 1;
+                };
+                match letter {
+                    'H' => self.set_height(&text[short..end]),
+                    'p' => self.set_paragraph(&text[short..end]),
+                    _ => {}
+                }
+                return end + 1;
+            }
+        }
+        short
+    }
+
+    /// Sets the height of the next letters: `0.5` in mm, or `0.2x` times the present height.
+    fn set_height(&mut self, height: &str) {
+        let (number, unit) = height.strip_suffix('x').map_or((height, 1.0), |factor| (factor, self.height));
+        let height = number.trim().parse().map_or(0.0, |number: f64| number * unit);
+        if height > 0.0 && height.is_finite() {
+            self.height = height;
+        }
+    }
+
+    /// Applies the properties of a paragraph, such as `xqc` or `i-3,l3,t3`: first-line, left and right indent, alignment, tab stops.
+    fn set_paragraph(&mut self, properties: &str) {
+        for property in properties.split(',') {
+            let mut characters = property.trim_start_matches('x').chars();
+            match (characters.next(), characters.as_str()) {
+                (Some('q'), "c") => self.alignment = HorizontalAlign::Centre,
+                (Some('q'), "r") => self.alignment = HorizontalAlign::Right,
+                // The last row of a justified paragraph is aligned to the left, and the others fill the width.
+                (Some('q'), "l" | "j") => self.alignment = HorizontalAlign::Left,
+                (Some('q'), "*") => self.alignment = self.default_alignment,
+                (Some('q'), _) => self.has_several_alignments = true,
+                (Some('i' | 'l' | 'r'), distance) if distance != "*" && distance.parse() != Ok(0.0) => {
+                    self.obstacle = Some(LayoutObstacle::Indent);
+                }
+                // Tab stops come last.
+                (Some('t'), _) => return,
+                _ => {}
+            }
+        }
+    }
+
+    /// Appends the character that the caret code at the start of `text` stands for, and returns the length of the code in bytes.
+    fn push_caret(&mut self, text: &str) -> usize {
+        if text.starts_with("^M^J") {
+            self.push("\n");
+            return 4;
+        }
+        let (character, length) = control(text).unwrap_or(('^', 1));
+        self.push(character.encode_utf8(&mut [0; 4]));
+        length
+    }
+}
+
+/// Relative difference of letter heights that does not matter.
+const HEIGHT_TOLERANCE: f64 = 0.01;
 
 /// Whether a byte may start something that is not plain text.
 fn is_special(byte: u8) -> bool {
     matches!(byte, b'\\' | b'{' | b'}' | b'^')
 }
 
-/// Appends what the command at the start of `text` stands for, and returns the length of the command in bytes. `may_end` tells whether a `;` follows.
-fn append_command(text: &str, may_end: bool, plain: &mut SmolStrBuilder) -> usize {
-    let Some(letter) = text[1..].chars().next() else {
-        plain.push('\\');
-        return 1;
-    };
-    let short = 1 + letter.len_utf8();
-    match letter {
-        // `\N` starts a new column, which is read as a new line.
-        'P' | 'X' | 'N' => plain.push('\n'),
-        '~' => plain.push('\u{a0}'),
-        '\\' | '{' | '}' => plain.push(letter),
-        'L' | 'l' | 'O' | 'o' | 'K' | 'k' => {}
-        'S' => return short + append_stacked(&text[short..], plain),
-        _ => {
-            let Some(end) = may_end.then(|| text.find(';')).flatten() else {
-                plain.push('\\');
-                return 1;
-            };
-            return end + 1;
-        }
-    }
-    short
-}
-
-/// Appends the stacked text at the start of `text`, and returns its length in bytes, including the `;` that ends it.
-fn append_stacked(text: &str, plain: &mut SmolStrBuilder) -> usize {
+/// Returns the stacked text at the start of `text`, and its length in bytes, including the `;` that ends it.
+fn stacked(text: &str) -> (String, usize) {
+    let mut stacked = String::new();
     let mut characters = text.char_indices().peekable();
     while let Some((index, character)) = characters.next() {
         match character {
-            ';' => return index + 1,
-            '#' => plain.push('/'),
+            ';' => return (stacked, index + 1),
+            '#' => stacked.push('/'),
             '^' if characters.next_if(|(_, next)| *next == ' ').is_some() => {}
-            '\\' => {
-                if let Some((_, literal)) = characters.next() {
-                    plain.push(literal);
-                }
-            }
-            other => plain.push(other),
+            '\\' => stacked.extend(characters.next().map(|(_, literal)| literal)),
+            other => stacked.push(other),
         }
     }
-    text.len()
-}
-
-/// Appends the character that the caret code at the start of `text` stands for, and returns the length of the code in bytes.
-fn append_caret(text: &str, plain: &mut SmolStrBuilder) -> usize {
-    if text.starts_with("^M^J") {
-        plain.push('\n');
-        return 4;
-    }
-    let (character, length) = control(text).unwrap_or(('^', 1));
-    plain.push(character);
-    length
+    (stacked, text.len())
 }

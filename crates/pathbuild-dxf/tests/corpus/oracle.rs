@@ -78,7 +78,12 @@ impl Columns<'_> {
             "TEXT" => (vec![unescaped(&self.text(4))], self.one_line()),
             _ => {
                 let plain = unescaped(&self.text(5)).replace("\\~", "\u{a0}");
-                (vec![plain], self.numbers(6..11))
+                let mut numbers = self.numbers(6..11);
+                // ezdxf has the nominal height, which is not that of the letters.
+                if self.text(4).contains("\\H") {
+                    numbers[3] = f64::NAN;
+                }
+                (vec![plain], numbers)
             }
         };
         Seen { kind, layer, line_type, handle: self.text(3), texts, numbers }

@@ -28,7 +28,7 @@ const NEAR: f64 = 2e-9;
 impl Seen {
     /// Returns the name of a property that differs; `None` if the entities are equal.
     pub(crate) fn difference(&self, other: &Self) -> Option<&'static str> {
-        let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= NEAR + 1e-15 * a.abs();
+        let is_near = |(a, b): (&f64, &f64)| b.is_nan() || (a - b).abs() <= NEAR + 1e-15 * a.abs();
         if self.kind != other.kind || self.numbers.len() != other.numbers.len() {
             return Some("kind");
         }

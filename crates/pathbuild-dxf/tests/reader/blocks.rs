@@ -104,6 +104,7 @@ fn texts_are_scaled_turned_and_mirrored_with_their_block() {
             panic!("{drawing:?}")
         };
         assert_eq!((text.anchor, text.height), (mtext.anchor, mtext.height));
+        assert_eq!(mtext.paragraphs, mtext.horizontal);
         assert_eq!(text.rotation.rem_euclid(360.0), mtext.rotation.rem_euclid(360.0));
         (text.anchor.x, text.height, text.rotation.rem_euclid(360.0), text.backwards, mtext.horizontal)
     };

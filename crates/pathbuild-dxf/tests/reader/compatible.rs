@@ -1,6 +1,6 @@
 //! Tests reading as PathDxf2GCode does: nothing but lines, arcs, circles and texts outside of blocks. (book: language/layers-and-names)
 
-use pathbuild_dxf::{Drawing, Geometry, Options, read};
+use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, Options, read};
 
 use crate::support::{file, file_faults, options, read_all};
 
@@ -40,6 +40,19 @@ fn what_counts_has_no_warning() {
     );
     let all = read_all(file("", "", BLOCK, &[LINE, POLYLINE, INSERT].concat()));
     assert_eq!((all.entities.len(), &all.diagnostics), (3, &vec![]));
+}
+
+#[test]
+fn formatting_and_blanks_have_no_effect_on_the_place_of_a_text() {
+    let formatted = MTEXT.replace("B1", r"\pxqr,i5;{\H0.5;B1 }^IF1");
+    let drawing = compatible(&[&formatted, "0 TEXT\n8 P\n10 0\n20 0\n40 1\n1 B1 \n"].concat());
+    let [Geometry::MText(mtext), Geometry::Text(text)] =
+        [0, 1].map(|number| drawing.entities[number].geometry.clone())
+    else {
+        panic!("{drawing:?}")
+    };
+    assert_eq!((mtext.height, mtext.paragraphs, mtext.obstacle), (1.0, HorizontalAlign::Left, None));
+    assert!(mtext.counts_blanks && text.counts_blanks);
 }
 
 #[test]

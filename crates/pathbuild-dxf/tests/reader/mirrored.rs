@@ -50,6 +50,17 @@ fn a_mirrored_mtext_stands_on_the_other_side_of_its_anchor() {
 }
 
 #[test]
+fn paragraphs_of_a_mirrored_mtext_change_sides() {
+    let mtext = "0 MTEXT\n8 A\n10 1\n20 2\n40 3\n41 60\n71 2";
+    for (alignment, side) in
+        [("l", HorizontalAlign::Right), ("c", HorizontalAlign::Centre), ("r", HorizontalAlign::Left)]
+    {
+        let Geometry::MText(text) = mirrored(&format!("{mtext}\n1 \\pxq{alignment};x")) else { panic!() };
+        assert_eq!((text.horizontal, text.paragraphs), (HorizontalAlign::Centre, side), "{alignment}");
+    }
+}
+
+#[test]
 fn a_mirrored_text_runs_backwards() {
     let text = |groups: &str| match mirrored(&format!("0 TEXT\n8 A\n10 1\n20 2\n40 3\n1 x\n{groups}")) {
         Geometry::Text(text) => (text.anchor.x, text.rotation.rem_euclid(360.0), text.backwards),

@@ -39,12 +39,12 @@ fn switches_are_dropped() {
 
 #[test]
 fn what_is_struck_out_is_void() {
-    assert_eq!(plain(r"B1 {\KF1000} I2"), "B1   I2");
-    assert_eq!(plain(r"F1\K2\P\~\S1/2;^I\k3"), "F1 3");
-    assert_eq!(plain(r"\KB1"), " ");
+    assert_eq!(plain(r"B1 {\KF1000} I2"), "B1       I2");
+    assert_eq!(plain(r"F1\K2\P\~\S1/2;^I\k3"), "F1 \n     3");
+    assert_eq!(plain(r"\KB1"), "  ");
     // Braces limit the effect of both switches.
-    assert_eq!(plain(r"{\Ka{\kb}c}d"), " bd");
-    assert_eq!(plain(r"\Ka}b\kc"), " c");
+    assert_eq!(plain(r"{\Ka{\kb}c}d"), " b d");
+    assert_eq!(plain(r"\Ka}b\kc"), "  c");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use HorizontalAlign::{Centre, Left, Right};
 use VerticalAlign::{Baseline, Bottom, Middle, Top};
-use pathbuild_dxf::{Geometry, HorizontalAlign, MText, Point3, Text, VerticalAlign};
+use pathbuild_dxf::{Geometry, HorizontalAlign, LayoutObstacle, MText, Point3, Text, VerticalAlign};
 
 use crate::support::{entities, faults, only_geometry, read_all};
 
@@ -112,6 +112,104 @@ fn an_mtext_has_its_attachment() {
     let text = mtext("");
     assert_eq!((text.horizontal, text.vertical, text.anchor, text.height), (Left, Top, point(1.0, 2.0), 2.5));
     assert_eq!(text.plain, "T3\nO2");
+}
+
+/// Reads an MTEXT with a nominal height of 2.5 and these groups and content.
+fn formatted(content: &str, groups: &str) -> MText {
+    let drawing = entities(&format!("0 MTEXT\n8 A\n10 1\n20 2\n40 2.5\n1 {content}\n{groups}"));
+    match only_geometry(drawing) {
+        Geometry::MText(text) => text,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn the_height_of_an_mtext_is_that_of_its_letters() {
+    for (content, height) in [
+        (r"B1", 2.5),
+        (r"{\H0.5;B1}", 0.5),
+        (r"{\H0.2x;B1}", 0.5),
+        (r"\H0.5x;{\H0.5x;B1}", 0.625),
+        (r"{\H0.5; }B1", 2.5),
+        (r"{\H0.5;}B1", 2.5),
+        (r"\H0;B1", 2.5),
+        (r"\H-1;B1", 2.5),
+        (r"\Hx;B1", 2.5),
+        (r"\Hinf;B1", 2.5),
+        (r"\HNaN;B1", 2.5),
+        (r"}\H1;B1", 1.0),
+    ] {
+        let text = formatted(content, "");
+        assert_eq!((text.height, text.obstacle), (height, None), "{content}");
+    }
+}
+
+#[test]
+fn paragraphs_have_an_alignment() {
+    for (content, paragraphs) in [
+        ("B1", Centre),
+        (r"\pxqr;B1", Right),
+        (r"\pql;B1", Left),
+        (r"\pxqj;B1", Left),
+        (r"\pxqc;\PB1", Centre),
+        (r"\pi0,l0,r0,xqr;B1", Right),
+        (r"\pql,t4,c12,r20;B1", Left),
+        (r"\pqr;\pq*;B1", Centre),
+        (r"\psm1.5;B1", Centre),
+    ] {
+        let text = formatted(content, "71 2\n41 60");
+        assert_eq!(
+            (text.paragraphs, text.horizontal, text.obstacle),
+            (paragraphs, Centre, None),
+            "{content}"
+        );
+    }
+}
+
+#[test]
+fn formatting_that_hides_the_place_of_letters_is_reported() {
+    use LayoutObstacle::{Alignment, Columns, EmptyRows, Heights, Indent, Stack, Tab};
+    for (content, obstacle) in [
+        (r"\H2.5;B1\H2.52;F100", None),
+        (r"\H2.5;B1\H2.53;F100", Some(Heights)),
+        (r"{\H0.5;B1} F100", Some(Heights)),
+        (r"\pqc;B1\PF100", None),
+        (r"\pqc;B1\P\pqr;F100", Some(Alignment)),
+        (r"\pqd;B1", Some(Alignment)),
+        (r"B1\pqr;", None),
+        (r"\pi0,l0;B1", None),
+        (r"\pi*,l*;B1", None),
+        (r"\pi0.1;B1", Some(Indent)),
+        (r"\pxl30,t30;B1", Some(Indent)),
+        (r"B1^I", None),
+        (r"B1^I^I\PF100 ^I ", None),
+        (r"^IB1", Some(Tab)),
+        (r"B1^IF100", Some(Tab)),
+        (r"B1\NF100", Some(Columns)),
+        (r"B1\N \P", None),
+        (r"B\S1/2;", Some(Stack)),
+    ] {
+        assert_eq!(formatted(content, "41 60").obstacle, obstacle, "{content}");
+    }
+    for (groups, content, obstacle) in [
+        ("71 3", r"B1\P \P", None),
+        ("71 4", r"B1\P \P", Some(EmptyRows)),
+        ("71 9", r"B1 \P", Some(EmptyRows)),
+        ("71 4", r"\PB1 ", None),
+        ("71 4", r" \P", None),
+    ] {
+        assert_eq!(formatted(content, groups).obstacle, obstacle, "{groups} {content}");
+    }
+    assert_eq!(formatted(r"\pqc;B1\P\pqr;F100", "").obstacle, None, "the box is as wide as its longest row");
+}
+
+#[test]
+fn the_columns_of_an_embedded_object_are_counted() {
+    let columns = |groups: &str| formatted("B1", groups).obstacle;
+    assert_eq!(columns("72 5\n101 Embedded Object\n71 1\n72 1"), None);
+    assert_eq!(columns("72 5\n101 Embedded Object\n71 1\n72 2\n44 2"), Some(LayoutObstacle::Columns));
+    assert_eq!(columns("72 5\n101 Embedded Object\n71 0"), None);
+    assert_eq!(columns("72 5"), None);
 }
 
 #[test]

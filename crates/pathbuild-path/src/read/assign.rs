@@ -5,7 +5,8 @@ use std::mem::discriminant;
 use std::ops::Range;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Diagnostic, Message, Value};
+use pathbuild_diagnostic::{Diagnostic, Message, Value, words};
+use pathbuild_dxf::LayoutObstacle;
 
 use crate::element::{END_RADIUS, Element, Marker, Role, Shape, TURN_RADIUS, diagnostic_point};
 use crate::letter::{LetterUse, Letters};
@@ -139,6 +140,9 @@ impl<'d> LayerTexts<'d> {
             if let Some(found) = found {
                 remember(text, found);
             }
+            if let (Some(found), Some(obstacle)) = (found, text.text.obstacle()) {
+                path.diagnostics.push(layer.unknown_place_problem(text, found, obstacle));
+            }
             if has_owner {
                 let id = path.given.push_drawn(text.string());
                 layer.give_text(id, owners.clone(), path);
@@ -216,6 +220,33 @@ impl<'d> LayerTexts<'d> {
         }
         doubt.text = read().map(ParameterText::whole_text_fault);
         Some((rival, self.origin(text.source, text.anchor()).at(doubt)))
+    }
+
+    /// Returns PB116 for a text that the CAD program shows in a place that is unknown.
+    fn unknown_place_problem(
+        &self,
+        text: &FoundText<'_>,
+        found: AssignedCandidate,
+        obstacle: LayoutObstacle,
+    ) -> Diagnostic {
+        let reason = match obstacle {
+            LayoutObstacle::Alignment => &words::SEVERAL_ALIGNMENTS,
+            LayoutObstacle::Columns => &words::COLUMNS,
+            LayoutObstacle::EmptyRows => &words::EMPTY_ROWS,
+            LayoutObstacle::Heights => &words::SEVERAL_HEIGHTS,
+            LayoutObstacle::Indent => &words::INDENT,
+            LayoutObstacle::Stack => &words::STACKED_CHARACTERS,
+            LayoutObstacle::Tab => &words::TAB,
+        };
+        let element = &self.candidates[found.candidate];
+        let string = without_percent_codes(text.string());
+        let mut problem = Diagnostic::new(&messages::PLACE_UNKNOWN)
+            .quoting("text", string.replace('\n', " "))
+            .with("element", element.word())
+            .with("point", diagnostic_point(element.shape.point()))
+            .with("reason", reason);
+        problem.text = ParameterTexts::from(&*string).first().map(ParameterText::whole_text_fault);
+        self.origin(text.source, text.anchor()).at(problem)
     }
 
     fn missing_element_problem<'a>(

@@ -1,9 +1,11 @@
 //! The entities of a drawing as this crate sees them: points in the plane, and texts with the circles by which they find their elements.
 //! (book: language/parameter-texts)
 
+use std::mem::take;
+
 use nalgebra::Vector2;
 use pathbuild_diagnostic::{Diagnostic, Place};
-use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, MText, Point3, Text, VerticalAlign};
+use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, LayoutObstacle, MText, Point3, Text, VerticalAlign};
 
 use crate::approx::above;
 use crate::element::{Source, diagnostic_point};
@@ -65,6 +67,14 @@ impl<'d> AnyText<'d> {
         }
     }
 
+    /// Returns the formatting because of which the place of the text is unknown.
+    pub(super) fn obstacle(self) -> Option<LayoutObstacle> {
+        match self {
+            Self::Text(_) => None,
+            Self::MText(text) => text.obstacle,
+        }
+    }
+
     pub(super) fn anchor(self) -> Xy {
         let (Self::Text(Text { anchor, .. }) | Self::MText(MText { anchor, .. })) = self;
         xy(*anchor)
@@ -85,8 +95,12 @@ const LETTER_WIDTH: f64 = 0.6;
 impl TextCircle {
     /// Returns the circle of a single-line text.
     pub fn of_text(text: &Text) -> Self {
-        let width = LETTER_WIDTH * text.height * text.string.chars().count() as f64;
-        let mut offset = offset(text.horizontal, text.vertical, width, text.height);
+        let letter = LETTER_WIDTH * text.height;
+        let (row, indent) = visible_row(&text.string, counts_blanks(&text.string, text.counts_blanks));
+        let length = row.chars().count();
+        let mut offset = offset(text.horizontal, text.vertical, letter * length as f64, text.height);
+        offset.x += letter * indent as f64 / 2.0;
+        let width = letter * (length - indent) as f64;
         if text.backwards {
             offset.x = -offset.x;
         }
@@ -104,11 +118,30 @@ impl TextCircle {
     pub fn of_mtext(text: &MText) -> Self {
         let letter = LETTER_WIDTH * text.height;
         let room = text.width.map_or(f64::INFINITY, |width| width / letter);
-        let rows = text.plain.split('\n').flat_map(|line| Rows { words: line.split(' '), room, next: None });
-        let (lines, longest) = rows.fold((0, 0), |(rows, longest), row| (rows + 1, row.max(longest)));
-        let width = letter * longest as f64;
-        let height = text.height * f64::from(lines);
-        let offset = offset(text.horizontal, text.vertical, width, height);
+        let counts_blanks = counts_blanks(&text.plain, text.counts_blanks);
+        // The rows from the first to the last with letters are seen, of the columns those from `indent` to `longest`.
+        let (mut rows, mut first, mut last) = (0, None, 0);
+        let (mut indent, mut longest) = (usize::MAX, 0);
+        for line in text.plain.split('\n') {
+            let (line, mut blanks) = visible_row(line, counts_blanks);
+            for length in (Rows { words: line.split(' '), room, next: None }) {
+                rows += 1;
+                if length > 0 || counts_blanks {
+                    first.get_or_insert(rows - 1);
+                    last = rows;
+                    indent = indent.min(take(&mut blanks));
+                    longest = longest.max(length);
+                }
+            }
+        }
+        let first = first.unwrap_or_default();
+        let mut offset =
+            offset(text.paragraphs, text.vertical, letter * longest as f64, text.height * f64::from(rows));
+        offset.x += letter * indent as f64 / 2.0;
+        offset.x += text.width.unwrap_or_default() * (share(text.paragraphs) - share(text.horizontal));
+        offset.y += text.height * f64::from(rows - last - first) / 2.0;
+        let width = letter * (longest - indent) as f64;
+        let height = text.height * f64::from(last - first);
         let anchor = Xy::new(text.anchor.x, text.anchor.y);
         Self {
             centre: anchor + turned(offset, text.rotation),
@@ -159,6 +192,20 @@ impl TextCircle {
     }
 }
 
+/// Whether blanks at the ends of rows count for the size of a text. Those of a text that has nothing else do, so that it has a size.
+fn counts_blanks(text: &str, is_compatible: bool) -> bool {
+    is_compatible || text.trim().is_empty()
+}
+
+/// Returns a row without the blanks at its end, and the number of blanks at its start; if blanks count, the whole row and 0.
+fn visible_row(row: &str, counts_blanks: bool) -> (&str, usize) {
+    if counts_blanks {
+        return (row, 0);
+    }
+    let row = row.trim_end();
+    (row, row.chars().take_while(|character| character.is_whitespace()).count())
+}
+
 /// Iterator over the lengths, in characters, of the rows into which a CAD program wraps a line of text at spaces.
 struct Rows<'t> {
     words: std::str::Split<'t, char>,
@@ -188,17 +235,22 @@ impl Iterator for Rows<'_> {
 
 /// Returns the vector from the anchor to the centre of an unrotated text.
 fn offset(horizontal: HorizontalAlign, vertical: VerticalAlign, width: f64, height: f64) -> Vector2<f64> {
-    let right = match horizontal {
-        HorizontalAlign::Left => width / 2.0,
-        HorizontalAlign::Centre => 0.0,
-        HorizontalAlign::Right => -width / 2.0,
-    };
+    let right = width * (0.5 - share(horizontal));
     let up = match vertical {
         VerticalAlign::Baseline | VerticalAlign::Bottom => height / 2.0,
         VerticalAlign::Middle => 0.0,
         VerticalAlign::Top => -height / 2.0,
     };
     Vector2::new(right, up)
+}
+
+/// Returns the share of a box that lies to the left of its anchor.
+fn share(horizontal: HorizontalAlign) -> f64 {
+    match horizontal {
+        HorizontalAlign::Left => 0.0,
+        HorizontalAlign::Centre => 0.5,
+        HorizontalAlign::Right => 1.0,
+    }
 }
 
 fn turned(offset: Vector2<f64>, degrees: f64) -> Vector2<f64> {

@@ -235,6 +235,25 @@ fn a_second_text_over_a_circle_is_doubtful() {
     assert_eq!(at_small_text(ring, "15.9,0.5"), [""; 0], "the text is beside the ring");
 }
 
+#[test]
+fn a_text_whose_place_is_unknown_is_doubtful() {
+    let with = |text: &str| texts(&format!("mill 0,0 40,0\nmtext 20,0.3 \"{text}\" height 1 width 9"), 0.1);
+    for (text, codes) in [
+        (r"B1", &[][..]),
+        (r"{\H0.9;B1}", &[]),
+        (r"\pxqr,i0;B1", &[]),
+        (r"\pi5;B1", &["PB116"]),
+        (r"^IB1", &["PB116"]),
+        (r"{\H0.9;B1} F100", &["PB116"]),
+        (r"\H0.9;\pi5;B1\NF100", &["PB116"]),
+    ] {
+        assert_eq!(with(text), codes, "{text}");
+    }
+    let far = r#"mill 0,0 40,0
+mtext 20,9 "\pi5;B1" height 1"#;
+    assert_eq!(texts(far, 0.1), ["PB107"], "a text without an element");
+}
+
 /// Returns the codes for a path with lines or circles and a text.
 fn texts(statements: &str, margin: f64) -> Vec<String> {
     let drawing = format!("layer 1234.1P\nstart 500,0 \"T5 O3 I1 B0 D2\"\nend 500,90\n{statements}");

@@ -16,6 +16,7 @@ fn text() -> Text {
         vertical: VerticalAlign::Baseline,
         backwards: false,
         upside_down: false,
+        counts_blanks: false,
     }
 }
 
@@ -29,6 +30,9 @@ fn mtext() -> MText {
         rotation: 0.0,
         horizontal: HorizontalAlign::Left,
         vertical: VerticalAlign::Top,
+        paragraphs: HorizontalAlign::Left,
+        obstacle: None,
+        counts_blanks: false,
     }
 }
 
@@ -86,7 +90,8 @@ fn alignment_moves_the_centre() {
         for (vertical, up) in vertical {
             let one_line = TextCircle::of_text(&Text { horizontal, vertical, ..text() });
             assert_eq!(offset(one_line), (x, 2.0 * up), "TEXT {horizontal:?} {vertical:?}");
-            let two_lines = TextCircle::of_mtext(&MText { horizontal, vertical, ..mtext() });
+            let paragraphs = horizontal;
+            let two_lines = TextCircle::of_mtext(&MText { horizontal, vertical, paragraphs, ..mtext() });
             assert_eq!(offset(two_lines), (x, 4.0 * up), "MTEXT {horizontal:?} {vertical:?}");
         }
     }
@@ -112,6 +117,55 @@ fn mirrored_texts_mirror_the_offset() {
     // The text is mirrored first and then rotated.
     let turned = Text { backwards: true, rotation: 90.0, ..text() };
     assert_eq!(offset(TextCircle::of_text(&turned)), (-1.0, -6.0));
+}
+
+#[test]
+fn paragraphs_are_aligned_within_the_width() {
+    let sides = [HorizontalAlign::Left, HorizontalAlign::Centre, HorizontalAlign::Right];
+    let x = |horizontal, paragraphs| {
+        offset(TextCircle::of_mtext(&MText { horizontal, paragraphs, width: Some(60.0), ..mtext() })).0
+    };
+    // The text is 12 mm wide. Its box is 0 to 60, -30 to 30, or -60 to 0.
+    for (horizontal, expected) in
+        sides.into_iter().zip([[6.0, 30.0, 54.0], [-24.0, 0.0, 24.0], [-54.0, -30.0, -6.0]])
+    {
+        assert_eq!(sides.map(|paragraphs| x(horizontal, paragraphs)), expected, "{horizontal:?}");
+    }
+}
+
+#[test]
+fn blanks_at_the_ends_do_not_count() {
+    let text_of = |string: &str, counts_blanks| {
+        TextCircle::of_text(&Text { string: string.into(), counts_blanks, ..text() })
+    };
+    assert_eq!(text_of("0123456789 \u{a0}\t ", false), text_of("0123456789", false));
+    // A character is 1.2 mm wide.
+    let indented = text_of("  01234567", false);
+    assert_eq!(offset(indented), (7.2, 1.0));
+    assert_eq!(indented.radius, text_of("01234567", false).radius);
+    assert_eq!(text_of("  012345  ", true), text_of("0123456789", true));
+    assert_eq!(text_of("   ", false), text_of("   ", true), "nothing but blanks");
+    let right = Text { string: "  01234567  ".into(), horizontal: HorizontalAlign::Right, ..text() };
+    assert_eq!(offset(TextCircle::of_text(&right)), (-4.8, 1.0));
+}
+
+#[test]
+fn blanks_and_empty_rows_at_the_ends_of_an_mtext_do_not_count() {
+    let circle = |plain: &str, counts_blanks| {
+        TextCircle::of_mtext(&MText { plain: plain.into(), counts_blanks, ..mtext() })
+    };
+    assert_eq!(circle("012  \n0 ", false), circle("012\n0", false));
+    assert_eq!(circle("012\n\n \n", false), circle("012", false));
+    // The second row is seen; the first and the third count for the height of the box.
+    let (seen, alone) = (circle(" \n012\n", false), circle("012", false));
+    assert_eq!((offset(seen), seen.radius), ((1.8, -3.0), alone.radius));
+    assert_eq!(offset(circle("  01\n  012", false)), (4.2, -2.0));
+    assert_eq!(offset(circle("  01\n 012", false)), (3.0, -2.0), "indented by one");
+    assert_eq!(circle("01  \n ", true), circle("0123\n0", true));
+    assert_eq!(circle(" \n ", false), circle(" \n ", true), "nothing but blanks");
+    // Blanks at the end of a row start no other row.
+    let narrow = MText { plain: "B4.5 F50   ".into(), width: Some(9.6), ..mtext() };
+    assert_eq!(TextCircle::of_mtext(&narrow), circle("B4.5 F50", false));
 }
 
 /// `%%d` is displayed as one character but counts as three.
