@@ -15,6 +15,8 @@ mod rings;
 mod stray;
 mod texts;
 
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::drawing::BLOCK_MISSING;
 use pathbuild_dxf::Drawing;
 
 use crate::element::Origin;
@@ -35,7 +37,13 @@ pub use stray::{NearNames, is_near_clamps_or_parts, may_be_stray_text, stray_fin
 pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
     let mut collected = collect::paths(drawing, language);
     let without_elements = collected.extract_if(.., |path| !path.has_elements).collect::<Vec<_>>();
-    let mut diagnostics = drawing.diagnostics.clone();
+    // PB117 reports missing blocks among the clamps.
+    let is_clamp = |found: &&Diagnostic| {
+        found.message == &BLOCK_MISSING
+            && found.place.layer.as_deref().is_some_and(|layer| language.is_keep_out(layer))
+    };
+    let mut diagnostics: Vec<_> =
+        drawing.diagnostics.iter().filter(|found| !is_clamp(found)).cloned().collect();
     for path in without_elements {
         diagnostics.extend(path.orphans());
     }

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Arc, Curve, KeepOut, KeepOutMap, KeepOuts, Language, LayerPattern, Line, TipMove, Xy, keep_outs,
+    Arc, Curve, KeepOut, KeepOutMap, KeepOuts, Language, LayerPattern, Line, TipMove, Xy, keep_outs, raw_file,
 };
 use pathbuild_testkit::sheet;
 use proptest::prelude::*;
@@ -17,19 +17,36 @@ fn clamps_of(drawing: &str) -> KeepOuts {
 /// Reads the clamps of a drawing with further entities, which are given as pairs of DXF.
 fn clamps_among(drawing: &str, entities: &str) -> KeepOuts {
     let language = Language { keep_out: LayerPattern::new("clamps?|2000[.]1P").ok(), ..language() };
-    let options = Options {
-        keep_layer: &|layer| language.is_keep_out(layer),
+    let is_wanted = |layer: &str| language.is_keep_out(layer);
+    let sheet = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
+    let dxf = String::from_utf8(sheet.to_dxf()).expect("the sheet is text");
+    let dxf = dxf.replace("\r\n", "\n").replace("\nENTITIES\n", &format!("\nENTITIES\n{entities}"));
+    keep_outs(&pathbuild_dxf::read(dxf.as_bytes(), &options(&is_wanted)), &language)
+}
+
+fn options(keep_layer: &dyn Fn(&str) -> bool) -> Options<'_> {
+    Options {
+        keep_layer,
         note_text: None,
         units: Units::Header,
         approximate_curves: 0.0,
         max_entities: 10_000,
         max_text: 65_536,
         compatible: false,
+    }
+}
+
+/// The clamps' own finding is PB117, an error.
+#[test]
+fn a_missing_block_among_the_clamps_is_no_finding_of_the_paths() {
+    let language = Language { keep_out: LayerPattern::new("clamps").ok(), ..language() };
+    let count = |layer: &str| {
+        let insert = format!("0\nINSERT\n8\n{layer}\n2\nX\n10\n0\n20\n0\n");
+        let dxf = format!("0\nSECTION\n2\nENTITIES\n{insert}0\nENDSEC\n0\nEOF\n");
+        let drawing = pathbuild_dxf::read(dxf.as_bytes(), &options(&|_| false));
+        raw_file(&drawing, &language).diagnostics.len()
     };
-    let sheet = sheet(drawing).unwrap_or_else(|faults| panic!("{faults:?} in\n{drawing}"));
-    let dxf = String::from_utf8(sheet.to_dxf()).expect("the sheet is text");
-    let dxf = dxf.replace("\r\n", "\n").replace("\nENTITIES\n", &format!("\nENTITIES\n{entities}"));
-    keep_outs(&pathbuild_dxf::read(dxf.as_bytes(), &options), &language)
+    assert_eq!((count("clamps"), count("notes")), (0, 1));
 }
 
 /// Returns the clamps of a drawing that has no findings.
