@@ -112,6 +112,10 @@ words! {
     PROBE: "a Z-probe", "eine Z-Probe";
     /// Name of an element of any kind.
     ELEMENT: "an element", "ein Element";
+    /// Elements that share the problem of a message, before their number.
+    ELEMENTS_LIKE_THIS: "elements like this", "betroffene Elemente";
+    /// Texts that share the problem of a message, before their number.
+    TEXTS_LIKE_THIS: "texts like this", "betroffene Texte";
     /// Name of a line, whatever its meaning.
     LINE: "a line", "eine Linie";
     /// Name of an arc, whatever its meaning.

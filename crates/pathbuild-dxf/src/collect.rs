@@ -13,7 +13,8 @@ use pathbuild_diagnostic::messages::drawing::{
     BLOCK_MISSING, BLOCK_NESTED, BLOCK_TWICE, CURVE_WITHOUT_LENGTH, INSERTED_FROZEN, INVISIBLE, LAYER_TWICE,
     NOT_COMPATIBLE, TILTED, TOO_LARGE, WIDTH_IGNORED,
 };
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Message, Place, Point, Value};
+use pathbuild_diagnostic::words::{ELEMENTS_LIKE_THIS, TEXTS_LIKE_THIS};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Place, Point, Value};
 use smol_str::SmolStr;
 
 use crate::entities::Shape;
@@ -30,7 +31,7 @@ pub(crate) struct Collector<'d> {
     /// Indices into [`Drawing::layers`] by folded name.
     layers: BTreeMap<SmolStr, u32>,
     /// The notes that were given about each layer.
-    noted: BTreeSet<(u32, LayerNote)>,
+    noted: BTreeMap<(u32, LayerNote), CountedNote>,
     /// The folded names of missing blocks that are inserted on layers that are not read, to report each of them once.
     missing_blocks: BTreeSet<SmolStr>,
     /// Layer of the previous entity, as a cache.
@@ -43,16 +44,23 @@ pub(crate) struct Collector<'d> {
 }
 
 /// A finding about entities of a layer that is reported once, for the first of them.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
 enum LayerNote {
-    /// An entity is marked invisible.
-    Invisible,
-    /// An entity is in a block that is inserted on a frozen layer.
-    Frozen,
+    /// An entity, or else a text, is marked invisible.
+    Invisible { is_text: bool },
+    /// An entity, or else a text, is in a block that is inserted on a frozen layer.
+    Frozen { is_text: bool, layer: SmolStr },
     /// A polyline has a width.
     Wide,
     /// A polyline or curve is a single point.
     WithoutLength,
+}
+
+struct CountedNote {
+    /// Index into [`Drawing::diagnostics`].
+    index: usize,
+    /// Number of entities that the note is about.
+    count: usize,
 }
 
 /// Number of entities for which memory is reserved in advance.
@@ -108,7 +116,7 @@ impl<'d> Collector<'d> {
         Self {
             drawing,
             layers: BTreeMap::new(),
-            noted: BTreeSet::new(),
+            noted: BTreeMap::new(),
             missing_blocks: BTreeSet::new(),
             last: None,
             faulty: HashSet::new(),
@@ -130,10 +138,10 @@ impl<'d> Collector<'d> {
             self.refuse(placed, layer, &trouble)?;
         }
         if placed.is_invisible && shape.is_ok() {
-            self.note(placed, layer, LayerNote::Invisible, &INVISIBLE);
+            self.note_hidden(placed, layer, None);
         }
         if let Some(frozen) = placed.frozen.filter(|_| shape.is_ok() && !placed.layer.hidden) {
-            self.note_frozen(placed, layer, frozen);
+            self.note_hidden(placed, layer, Some(frozen));
         }
         match shape {
             Ok(Shape::Plain(mut geometry)) => {
@@ -156,7 +164,7 @@ impl<'d> Collector<'d> {
         let parts = match shape {
             Shape::Polyline(Polyline { mut pieces, is_wide }) => {
                 if is_wide {
-                    self.note(placed, layer, LayerNote::Wide, &WIDTH_IGNORED);
+                    self.note(placed, layer, LayerNote::Wide, Diagnostic::new(&WIDTH_IGNORED));
                 }
                 for piece in &mut pieces {
                     placement.apply(piece);
@@ -175,7 +183,8 @@ impl<'d> Collector<'d> {
             Err(ApproximationFailure::TooMany) => return Err(self.entity_limit_error()),
         };
         if parts.is_empty() {
-            self.note(placed, layer, LayerNote::WithoutLength, &CURVE_WITHOUT_LENGTH);
+            let problem = Diagnostic::new(&CURVE_WITHOUT_LENGTH);
+            self.note(placed, layer, LayerNote::WithoutLength, problem);
         }
         let group = Some(self.groups);
         self.groups += 1;
@@ -285,20 +294,36 @@ impl<'d> Collector<'d> {
         }
     }
 
-    /// Reports an entity unless another entity of its layer was reported for the same reason.
-    fn note(&mut self, placed: &PlacedEntity<'_>, layer: u32, note: LayerNote, message: &'static Message) {
-        if self.noted.insert((layer, note)) {
-            let diagnostic = Diagnostic::new(message).quoting("entity", placed.kind.name());
-            let diagnostic = self.located(diagnostic, placed, layer);
+    /// Reports an entity, or only counts it if another entity of its layer was reported for the same reason.
+    fn note(&mut self, placed: &PlacedEntity<'_>, layer: u32, note: LayerNote, problem: Diagnostic) {
+        let index = self.drawing.diagnostics.len();
+        let note = self.noted.entry((layer, note)).or_insert(CountedNote { index, count: 0 });
+        note.count += 1;
+        if note.count == 1 {
+            let diagnostic = self.located(problem.quoting("entity", placed.kind.name()), placed, layer);
             self.drawing.diagnostics.push(diagnostic);
         }
     }
 
-    fn note_frozen(&mut self, placed: &PlacedEntity<'_>, layer: u32, frozen: &str) {
-        if self.noted.insert((layer, LayerNote::Frozen)) {
-            let diagnostic = Diagnostic::new(&INSERTED_FROZEN).quoting("entity", placed.kind.name());
-            let diagnostic = self.located(diagnostic.quoting("layer", frozen), placed, layer);
-            self.drawing.diagnostics.push(diagnostic);
+    /// Reports an entity that is invisible, or that is in a block inserted on a frozen layer. Texts are reported apart from elements, because one
+    /// that is overlooked changes a visible element.
+    fn note_hidden(&mut self, placed: &PlacedEntity<'_>, layer: u32, frozen: Option<&SmolStr>) {
+        let is_text = matches!(placed.kind, EntityKind::Text | EntityKind::MText);
+        let (note, problem) = match frozen {
+            Some(frozen) => (
+                LayerNote::Frozen { is_text, layer: frozen.clone() },
+                Diagnostic::new(&INSERTED_FROZEN).quoting("layer", frozen),
+            ),
+            None => (LayerNote::Invisible { is_text }, Diagnostic::new(&INVISIBLE)),
+        };
+        let alike = if is_text { &TEXTS_LIKE_THIS } else { &ELEMENTS_LIKE_THIS };
+        self.note(placed, layer, note, problem.with("alike", alike));
+    }
+
+    /// Fills in the number of entities that each note is about.
+    pub(crate) fn count_noted(&mut self) {
+        for note in std::mem::take(&mut self.noted).into_values() {
+            self.drawing.diagnostics[note.index].arguments.push(("count", note.count.into()));
         }
     }
 

@@ -99,6 +99,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         {
             self.add_item(item, &around)?;
         }
+        self.collector.count_noted();
         Ok(())
     }
 

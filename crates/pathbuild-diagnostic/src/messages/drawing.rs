@@ -716,15 +716,15 @@ messages! {
     }
     /// An entity that is marked invisible.
     INVISIBLE: LayerNotVisible {
-        en: "{entity} is marked invisible, but is still used",
-        de: "{entity} ist als unsichtbar markiert, gilt aber trotzdem",
+        en: "{entity} is marked invisible, but is still used; {alike}: {count}",
+        de: "{entity} ist als unsichtbar markiert, gilt aber trotzdem; {alike}: {count}",
         help_en: "show all hidden objects in the CAD and delete what is not meant to be milled",
         help_de: "im CAD alle ausgeblendeten Objekte anzeigen und löschen, was nicht gefräst werden soll",
     }
     /// An entity in a block that is inserted on a frozen layer.
     INSERTED_FROZEN: LayerNotVisible {
-        en: "{entity} belongs to a block that is inserted on the frozen layer {layer}, but is still used",
-        de: "{entity} gehört zu einem Block, der auf dem gefrorenen Layer {layer} eingefügt ist, gilt aber trotzdem",
+        en: "{entity} belongs to a block that is inserted on the frozen layer {layer}, but is still used; {alike}: {count}",
+        de: "{entity} gehört zu einem Block, der auf dem gefrorenen Layer {layer} eingefügt ist, gilt aber trotzdem; {alike}: {count}",
         help_en: "thaw the layer, or delete the insertion if it is not meant to be milled",
         help_de: "den Layer auftauen oder die Einfügung löschen, wenn sie nicht gefräst werden soll",
     }

@@ -411,10 +411,36 @@ fn a_block_inserted_on_a_frozen_layer_is_told() {
     };
     assert_eq!(
         found("70 1"),
-        ["LINE belongs to a block that is inserted on the frozen layer X, but is still used"]
+        [
+            "LINE belongs to a block that is inserted on the frozen layer X, but is still used; elements like this: 1"
+        ]
     );
     assert_eq!(found("70 0"), [""; 0]);
     assert_eq!(found("70 0\n62 -7"), [""; 0], "off: what lies on other layers stays visible");
+}
+
+#[test]
+fn each_frozen_layer_is_told_with_the_number_of_elements() {
+    let layers = "0 TABLE\n2 LAYER\n0 LAYER\n2 X\n70 1\n0 LAYER\n2 Y\n70 1\n0 LAYER\n2 Z\n70 0\n0 ENDTAB";
+    let insertions = ["X", "Y", "Z", "X"].map(|layer| format!("0 INSERT\n8 {layer}\n2 B\n10 0\n20 0"));
+    let text = "0 TEXT\n8 P\n10 0\n20 0\n40 1\n1 B1";
+    let blocks = block("B", "", &format!("{LINE}\n{text}"));
+    let drawing = read_all(file("", layers, &blocks, &insertions.join("\n")));
+    assert_eq!(drawing.entities.len(), 8);
+    let found = |entity: &str, layer: &str, alike: &str| {
+        format!(
+            "{entity} belongs to a block that is inserted on the frozen layer {layer}, but is still used; {alike}"
+        )
+    };
+    assert_eq!(
+        drawing.diagnostics.iter().map(|it| it.text(Lang::En)).collect::<Vec<_>>(),
+        [
+            found("LINE", "X", "elements like this: 2"),
+            found("TEXT", "X", "texts like this: 2"),
+            found("LINE", "Y", "elements like this: 1"),
+            found("TEXT", "Y", "texts like this: 1")
+        ]
+    );
 }
 
 /// Returns the findings about a block that is inserted on layer P, the only layer that is read, with the layers on which the block draws.

@@ -23,7 +23,24 @@ fn invisible_entities_count_with_a_warning_for_each_layer() {
     assert_eq!(drawing.entities.len(), 4);
     assert_eq!(file_codes(&drawing), [Code::LayerNotVisible, Code::LayerNotVisible]);
     assert_eq!(drawing.diagnostics[0].severity, Severity::Warning);
-    assert_eq!(file_faults(&drawing)[0], "PB112 17 CIRCLE is marked invisible, but is still used");
+    let found = |line: u32, count: u32| {
+        format!("PB112 {line} CIRCLE is marked invisible, but is still used; elements like this: {count}")
+    };
+    assert_eq!(file_faults(&drawing), [found(17, 2), found(41, 1)]);
+}
+
+/// A text that is overlooked changes a visible element.
+#[test]
+fn invisible_texts_count_apart_from_elements() {
+    let text = "0 TEXT\n8 A\n60 1\n10 0\n20 0\n40 1\n1 B1";
+    let drawing = read_all(entities(&format!("{CIRCLE}\n60 1\n{text}\n{text}\n{CIRCLE}\n60 1")));
+    assert_eq!(
+        file_faults(&drawing),
+        [
+            "PB112 3 CIRCLE is marked invisible, but is still used; elements like this: 2",
+            "PB112 15 TEXT is marked invisible, but is still used; texts like this: 2"
+        ]
+    );
 }
 
 #[test]
