@@ -477,6 +477,27 @@ fn an_accepted_finding_of_a_drawing_holds_for_this_drawing_only() {
     assert_eq!(reported(""), (0, 0, 0), "the drawing has been moved from a to b");
 }
 
+#[test]
+fn an_accepted_hidden_element_holds_for_its_layer_only() {
+    let drawing = |first: &str, second: &str| {
+        let paths = [("1235.1P", first), ("1236.1P", second)].map(|(layer, state)| {
+            format!("layer {layer}\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0 {state}\nend 40,0\n")
+        });
+        dxf(&paths.concat())
+    };
+    let place = Place::new().file("pathbuild.toml", "library = [\".\"]");
+    let reported = |first: &str, second: &str| {
+        std::fs::write(place.path().join("1235.dxf"), drawing(first, second)).unwrap();
+        let run = place.run("check 1235.dxf --format concise");
+        ["PB112", "PB610"].map(|code| run.stderr.matches(code).count())
+    };
+    assert_eq!(reported("invisible", ""), [1, 0]);
+    let run = place.run_with(&["check", "1235.dxf", "--accept", "PB112", "--reason", "why"]);
+    assert_eq!(run.status, Some(0), "{run}");
+    assert_eq!(reported("invisible", ""), [0, 0]);
+    assert_eq!(reported("", "invisible"), [1, 1]);
+}
+
 /// Versions up to 0.2.0 numbered equal findings through all drawings of a run, and accepted some at any depth.
 #[test]
 fn entries_of_earlier_versions_hold_for_the_drawings_that_they_name() {

@@ -287,13 +287,19 @@ fn fnv(diagnostic: &Diagnostic, file: &str) -> Fnv {
     let place = &diagnostic.place;
     let point = place.point.map(|point| format!("{:.3} {:.3}", point.x.0 + 0.0, point.y.0 + 0.0));
     let fault = diagnostic.text.as_ref().map(|fault| &fault.text[fault.span()]);
-    Fnv::NEW
+    let hash = Fnv::NEW
         .add_bytes(diagnostic.code().to_string().as_bytes())
         .add_bytes(file.as_bytes())
         .add_bytes(diagnostic.path.as_deref().unwrap_or_default().to_uppercase().as_bytes())
         .add_bytes(place.entity.map_or("", |entity| entity.name()).as_bytes())
         .add_bytes(point.unwrap_or_default().as_bytes())
-        .add_bytes(fault.unwrap_or_default().as_bytes())
+        .add_bytes(fault.unwrap_or_default().as_bytes());
+    if diagnostic.code() != Code::LayerNotVisible {
+        return hash;
+    }
+    // One layer may be accepted, and another one then hidden by mistake.
+    let layers = [diagnostic.quoted("layer"), place.layer.as_deref()];
+    layers.into_iter().flatten().fold(hash, |hash, layer| hash.add_bytes(layer.to_uppercase().as_bytes()))
 }
 
 /// State of the 128-bit FNV-1a hash, which is the same on every machine and in every version.
