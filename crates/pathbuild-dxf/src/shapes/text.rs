@@ -209,6 +209,8 @@ struct PlainText {
     has_several_alignments: bool,
     /// Whether the next letters are not in the first column.
     is_in_new_column: bool,
+    /// Whether the last letter that counts is a digit.
+    ends_with_digit: bool,
     obstacle: Option<LayoutObstacle>,
 }
 
@@ -227,6 +229,7 @@ impl PlainText {
             first: None,
             has_several_alignments: false,
             is_in_new_column: false,
+            ends_with_digit: false,
             obstacle: None,
         };
         // Search for the last `;` only once: thousands of unterminated commands would otherwise each search the whole rest.
@@ -257,6 +260,9 @@ impl PlainText {
             return;
         }
         self.plain.push_str(letters);
+        if let Some(last) = letters.chars().next_back() {
+            self.ends_with_digit = last.is_ascii_digit();
+        }
         if letters.chars().all(char::is_whitespace) {
             return;
         }
@@ -302,6 +308,10 @@ impl PlainText {
             'S' => {
                 self.obstacle = Some(LayoutObstacle::Stack);
                 let (stacked, length) = stacked(&text[short..]);
+                if self.ends_with_digit && stacked.starts_with(|letter: char| letter.is_ascii_digit()) {
+                    // A raised or lowered digit is no further digit of the number before it.
+                    self.push("^");
+                }
                 self.push(&stacked);
                 return short + length;
             }

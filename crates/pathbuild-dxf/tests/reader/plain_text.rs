@@ -59,6 +59,14 @@ fn stacked_texts_are_flat() {
 }
 
 #[test]
+fn a_raised_or_lowered_digit_is_no_further_digit() {
+    assert_eq!(plain(r"B1 F100{\H0.7x;\S1^ ;}"), "B1 F100^1");
+    assert_eq!(plain(r"B1\S^ 5;"), "B1^5");
+    assert_eq!(plain(r"B\S1^ ; \S2^ ;"), "B1 2");
+    assert_eq!(plain(r"B1\Sst^ ;"), "B1st");
+}
+
+#[test]
 fn commands_run_to_their_semicolon() {
     assert_eq!(plain(r"{\fArial|b0|i0;T3} \A1;\H2.5x;\C1;O2"), "T3 O2");
     assert_eq!(plain(r"\pxqc,t12;x"), "x");
