@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::limits::{ENTITIES, TEXT_LENGTH, exceeded};
 use pathbuild_diagnostic::messages::drawing::{
-    BLOCK_MISSING, BLOCK_NESTED, BLOCK_TWICE, CURVE_WITHOUT_LENGTH, INSERTED_FROZEN, INVISIBLE, LAYER_TWICE,
+    BLOCK_MISSING, BLOCK_NESTED, BLOCK_TWICE, CURVE_WITHOUT_LENGTH, INSERTED_FROZEN, INVISIBLE,
     NOT_COMPATIBLE, TILTED, TOO_LARGE, WIDTH_IGNORED,
 };
 use pathbuild_diagnostic::words::{ELEMENTS_LIKE_THIS, TEXTS_LIKE_THIS};
@@ -134,7 +134,7 @@ impl<'d> Collector<'d> {
         shape: Result<Shape<'_>, EntityError<'_>>,
     ) -> Result<(), Fatal> {
         let layer = self.layer(placed);
-        if let Some(trouble) = placed.layer.contradiction() {
+        if let Some(trouble) = placed.layer.fault() {
             self.refuse(placed, layer, &trouble)?;
         }
         if placed.is_invisible && shape.is_ok() {
@@ -220,9 +220,7 @@ impl<'d> Collector<'d> {
             EntityError::Tilted => Diagnostic::new(&TILTED).quoting("entity", placed.kind.name()),
             EntityError::TooLarge => Diagnostic::new(&TOO_LARGE).quoting("entity", placed.kind.name()),
             EntityError::DefinedTwice(block) => Diagnostic::new(&BLOCK_TWICE).quoting("block", &**block),
-            EntityError::ContradictoryLayer { layer, line } => {
-                Diagnostic::new(&LAYER_TWICE).quoting("layer", &**layer).at_line(*line, None)
-            }
+            EntityError::Layer(problem) => (**problem).clone(),
             EntityError::Nested(block) => Diagnostic::new(&BLOCK_NESTED).quoting("block", &**block),
             EntityError::LeftOut { message, point, block, layers } => {
                 self.count()?;
@@ -237,7 +235,7 @@ impl<'d> Collector<'d> {
             }
         };
         let line = match trouble {
-            EntityError::ContradictoryLayer { line, .. } => *line,
+            EntityError::Layer(problem) => problem.place.line.unwrap_or_default(),
             _ => placed.own.line,
         };
         if self.faulty.insert((line, layer)) {

@@ -152,8 +152,12 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         space: Space,
     ) -> Result<Option<Item<'a>>, Stop<'a>> {
         let Some(traits) = self.read_common_properties(records, kind, space)? else { return Ok(None) };
-        let shape = match kind {
-            RecordKind::Polyline => self.polyline(records)?,
+        let visibility = self.fields.check_visibility();
+        let shape = match (kind, visibility) {
+            // The block may draw on a wanted layer even if the insertion is on another one.
+            (RecordKind::Insert, _) => self.shape(kind),
+            (_, Err(bad)) => Err(bad.into()),
+            (RecordKind::Polyline, _) => self.polyline(records)?,
             _ => self.shape(kind),
         };
         Ok(Some(Item { traits, shape }))

@@ -89,8 +89,8 @@ pub(crate) enum EntityError<'a> {
     Nested(Box<str>),
     /// The insertion of this block, which the file defines twice: PB002.
     DefinedTwice(Box<str>),
-    /// A layer with records that contradict each other, the second of them on this line: PB002.
-    ContradictoryLayer { layer: SmolStr, line: u32 },
+    /// A layer whose records leave its line type or visibility open: PB002, with the line of the record.
+    Layer(Box<Diagnostic>),
     /// More parts than the limit of entities: PB005, for the whole file.
     TooManyParts,
     /// A text longer than the limit: PB005, for the whole file.

@@ -235,6 +235,11 @@ impl<'a> Fields<'a> {
         whole_number(value.bytes).map(Some).map_err(|reason| BadGroup::Number { code, value, reason })
     }
 
+    /// Checks the numbers that decide whether the entity is visible (60) and in which space it is (67).
+    pub(crate) fn check_visibility(&self) -> Result<(), BadGroup<'a>> {
+        [60, 67].into_iter().try_for_each(|code| self.whole_number(code).map(drop))
+    }
+
     /// Returns the point that has this code for its x. `z` may be missing; R10 used the elevation (38) instead.
     #[inline]
     pub(crate) fn point(&self, x: i32) -> Result<Point3, BadGroup<'a>> {

@@ -7,10 +7,12 @@ use std::collections::HashMap;
 
 use memchr::memchr;
 use memchr::memmem::Finder;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::drawing::LAYER_TWICE;
 use smol_str::SmolStr;
 
 use crate::encoding::Decoder;
-use crate::faults::EntityError;
+use crate::faults::{EntityError, bad_value_error};
 use crate::fields::{Fields, FillDecision, Value};
 use crate::groups::Records;
 use crate::names::{Spellings, case_folded, without_xref};
@@ -53,8 +55,8 @@ pub(crate) struct UsedLayer {
     pub(crate) hidden: bool,
     /// Whether the layer is frozen, so that blocks inserted on it are invisible as a whole.
     pub(crate) is_frozen: bool,
-    /// Line of the first record of the layer that contradicts an earlier one.
-    contradiction: Option<u32>,
+    /// The error of entities whose line type or visibility the layer's records leave open.
+    fault: Option<Box<Diagnostic>>,
 }
 
 /// Number of layers for which memory is reserved in advance.
@@ -156,14 +158,13 @@ impl UsedLayer {
             line_type: record.line_type(),
             hidden: record.is_hidden(),
             is_frozen: record.is_frozen(),
-            contradiction: record.contradiction,
+            fault: record.fault(name).map(Box::new),
         })
     }
 
-    /// Returns the error of entities whose line type or visibility depends on which of the layer's records counts.
-    pub(crate) fn contradiction<'a>(&self) -> Option<EntityError<'a>> {
-        let line = self.contradiction?;
-        Some(EntityError::ContradictoryLayer { layer: self.name.clone(), line })
+    /// Returns the error of entities whose line type or visibility the layer's records leave open.
+    pub(crate) fn fault<'a>(&self) -> Option<EntityError<'a>> {
+        self.fault.clone().map(EntityError::Layer)
     }
 }
 
@@ -189,8 +190,8 @@ struct KnownLayers<'a> {
 pub(crate) struct LayerRecord<'a> {
     line: u32,
     line_type: Option<Cow<'a, [u8]>>,
-    colour: Option<&'a [u8]>,
-    flags: Option<&'a [u8]>,
+    colour: Option<Value<'a>>,
+    flags: Option<Value<'a>>,
     /// Line of the first further record with this name that says something else.
     contradiction: Option<u32>,
 }
@@ -248,13 +249,12 @@ impl<'a> KnownLayers<'a> {
     fn add(&mut self, groups: &Fields<'a>, decoder: &mut Decoder<'_>) {
         let Some(name) = groups.get(2) else { return };
         let folded = case_folded(&decoder.decode(name.bytes, name.line));
-        let bytes = |code: i32| groups.get(code).map(|value| value.bytes);
         let line_type = groups.get(6).map(|name| decoder.decode_bytes(name.bytes, name.line));
         let record = LayerRecord {
             line: name.line,
             line_type,
-            colour: bytes(62),
-            flags: bytes(70),
+            colour: groups.get(62),
+            flags: groups.get(70),
             contradiction: None,
         };
         let behind_prefix = without_xref(&folded);
@@ -284,6 +284,17 @@ impl LayerRecord<'_> {
         }
     }
 
+    /// Returns the first broken number, or else the contradiction between this record and another one of the layer.
+    fn fault(&self, layer: &str) -> Option<Diagnostic> {
+        let colour = self.colour.and_then(|value| Some((62, value, real(value.bytes).err()?)));
+        let flags = self.flags.and_then(|value| Some((70, value, whole_number(value.bytes).err()?)));
+        if let Some((code, value, reason)) = colour.or(flags) {
+            let line = value.line.saturating_add(1);
+            return Some(bad_value_error("LAYER", code, value.bytes, reason).at_line(line, None));
+        }
+        Some(Diagnostic::new(&LAYER_TWICE).quoting("layer", layer).at_line(self.contradiction?, None))
+    }
+
     /// Returns the line type in upper case.
     fn line_type(&self) -> SmolStr {
         let name = self.line_type.as_deref().map(|name| line_type_name(&String::from_utf8_lossy(name)));
@@ -292,12 +303,12 @@ impl LayerRecord<'_> {
 
     /// Whether the layer is frozen or off.
     fn is_hidden(&self) -> bool {
-        let is_off = self.colour.is_some_and(|colour| real(colour).is_ok_and(|number| number < 0.0));
+        let is_off = self.colour.is_some_and(|colour| real(colour.bytes).is_ok_and(|number| number < 0.0));
         is_off || self.is_frozen()
     }
 
     fn is_frozen(&self) -> bool {
-        self.flags.is_some_and(|flags| whole_number(flags).is_ok_and(|bits| bits & 1 != 0))
+        self.flags.is_some_and(|flags| whole_number(flags.bytes).is_ok_and(|bits| bits & 1 != 0))
     }
 }
 

@@ -184,7 +184,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
                 around,
             );
         }
-        if let Some(trouble) = place_entity(self.reader, traits, layer, around)?.layer.contradiction() {
+        if let Some(trouble) = place_entity(self.reader, traits, layer, around)?.layer.fault() {
             return self.refuse_insertion(traits, &wanted, &trouble, around);
         }
         if self.is_clipped(insert.dictionary)? {

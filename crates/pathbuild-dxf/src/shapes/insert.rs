@@ -54,6 +54,7 @@ impl<'a> Insert<'a> {
 
 impl Array {
     fn read<'a>(fields: &Fields<'a>, block: &str) -> Result<Self, EntityError<'a>> {
+        fields.check_visibility()?;
         let at = fields.point(10)?;
         let is_mirrored = is_mirrored(fields)?;
         let [x, y, z] = [scale(fields, 41)?, scale(fields, 42)?, scale(fields, 43)?];

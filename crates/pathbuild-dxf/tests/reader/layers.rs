@@ -68,6 +68,21 @@ fn frozen_layers_and_those_that_are_off_are_hidden() {
 }
 
 #[test]
+fn a_broken_number_of_a_layer_never_means_visible() {
+    let found = |record: &str| faults(&circles(&["A"], &table(&[record])));
+    for (record, code, value) in
+        [("2 A\n70 x", 70, "x"), ("2 A\n70 ", 70, ""), ("2 A\n62 - 7", 62, "- 7"), ("2 A\n62 ", 62, "")]
+    {
+        let faults = found(record);
+        let text = format!("A: LAYER: group {code} must be a number, not \"{value}\"");
+        assert!(faults.len() == 1 && faults[0].ends_with(&text), "{record}: {faults:?}");
+    }
+    for record in ["2 A\n70 1.0\n62 -7.0", "2 A", "2 B\n70 x"] {
+        assert_eq!(found(record), [""; 0], "{record}");
+    }
+}
+
+#[test]
 fn the_record_of_exactly_the_name_counts_before_one_with_a_prefix() {
     for records in [["2 x$0$A\n70 1\n6 DOT", "2 A\n6 DASHED"], ["2 A\n6 DASHED", "2 x$0$A\n70 1\n6 DOT"]] {
         let drawing = circles(&["A"], &table(&records));

@@ -44,6 +44,19 @@ fn invisible_texts_count_apart_from_elements() {
 }
 
 #[test]
+fn a_broken_number_never_means_visible_or_in_model_space() {
+    for code in [60, 67] {
+        for value in ["x", ""] {
+            let drawing = read_all(entities(&format!("{CIRCLE}\n{code} {value}")));
+            let fault = format!("PB002 16 A: CIRCLE: group {code} must be a number, not \"{value}\"");
+            assert_eq!((drawing.entities.len(), faults(&drawing)), (0, vec![fault]));
+        }
+        let drawing = read_all(entities(&format!("{CIRCLE}\n{code} 0.0")));
+        assert_eq!((drawing.entities.len(), faults(&drawing)), (1, vec![]));
+    }
+}
+
+#[test]
 fn an_invisible_element_that_is_left_out_or_broken_has_one_finding() {
     for (entity, found) in [
         ("0 SOLID\n8 A\n10 0\n20 0\n60 1", (1, 0)),
