@@ -36,6 +36,8 @@ pub(crate) struct Collector<'d> {
     missing_blocks: BTreeSet<SmolStr>,
     /// Layer of the previous entity, as a cache.
     last: Option<(LayerId, u32)>,
+    /// Number of entities and faults added so far, except for hatches and texts of blanks, which show nothing that could be milled.
+    pub(crate) drawn: usize,
     /// Lines of broken entities and contradictory records, with the layers on which they were reported.
     faulty: HashSet<(u32, u32)>,
     groups: u32,
@@ -119,6 +121,7 @@ impl<'d> Collector<'d> {
             noted: BTreeMap::new(),
             missing_blocks: BTreeSet::new(),
             last: None,
+            drawn: 0,
             faulty: HashSet::new(),
             groups: 0,
             has_ignored: false,
@@ -134,6 +137,7 @@ impl<'d> Collector<'d> {
         shape: Result<Shape<'_>, EntityError<'_>>,
     ) -> Result<(), Fatal> {
         let layer = self.layer(placed);
+        self.drawn += usize::from(!matches!(&shape, Ok(Shape::Plain(geometry)) if geometry.is_blank()));
         if let Some(trouble) = placed.layer.fault() {
             self.refuse(placed, layer, &trouble)?;
         }

@@ -170,7 +170,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             let trouble = EntityError::DefinedTwice(insert.block.as_str().into());
             return self.refuse_insertion(traits, &Vec::from_iter(layers), &trouble, around);
         }
-        if !wanted.iter().any(|layer| self.reader.layers.is_kept(*layer)) {
+        let has_wanted = wanted.iter().any(|layer| self.reader.layers.is_kept(*layer));
+        if !has_wanted {
             self.check_elsewhere(traits, layer, block, &insert, around)?;
         }
         if wanted.is_empty() {
@@ -196,8 +197,15 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             };
             return self.refuse_insertion(traits, &wanted, &trouble, around);
         }
-        match insert.array.and_then(|array| Ok(array.copies(self.blocks.base(block)?))) {
-            Ok(copies) => self.add_copies(traits, layer, block, copies, around),
+        match insert.array.clone().and_then(|array| Ok(array.copies(self.blocks.base(block)?))) {
+            Ok(copies) => {
+                let before = self.collector.drawn;
+                self.add_copies(traits, layer, block, copies, around)?;
+                if has_wanted && self.collector.drawn == before {
+                    self.check_elsewhere(traits, layer, block, &insert, around)?;
+                }
+                Ok(())
+            }
             Err(trouble) => self.refuse_insertion(traits, &wanted, &trouble, around),
         }
     }
@@ -252,7 +260,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         Ok(())
     }
 
-    /// Reports PB111 for a block on a wanted layer that draws only on layers that are not read.
+    /// Reports PB111 for a block on a wanted layer that draws nothing visible, except for hatches, on layers that are read, but something on others.
     fn check_elsewhere(
         &mut self,
         traits: &CommonProperties,

@@ -144,6 +144,15 @@ impl Placement {
 pub(crate) const MAX_COORDINATE: f64 = 1e6;
 
 impl Geometry {
+    /// Whether this is a text of blanks, which is invisible.
+    pub(crate) fn is_blank(&self) -> bool {
+        match self {
+            Self::Text(text) => text.string.trim().is_empty(),
+            Self::MText(text) => text.plain.trim().is_empty(),
+            Self::Line(_) | Self::Arc(_) | Self::Circle(_) => false,
+        }
+    }
+
     /// Whether all coordinates and lengths are within [`MAX_COORDINATE`] and all lengths positive.
     pub(crate) fn is_sound(&self) -> bool {
         let is_near = |point: &Point3| {

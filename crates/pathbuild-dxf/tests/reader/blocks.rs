@@ -455,6 +455,21 @@ fn left_out_on_p(blocks: &str) -> Vec<(String, Vec<String>)> {
 }
 
 #[test]
+fn hatches_and_blank_texts_do_not_make_a_block_draw_on_a_layer() {
+    let line = LINE.replace("8 P", "8 X");
+    let text = |string: &str| format!("0 MTEXT\n8 0\n10 0\n20 0\n40 1\n1 {string}");
+    let hatch = "0 HATCH\n8 0\n10 0\n20 0";
+    for (contents, count) in [
+        (format!("{line}\n{hatch}"), 1),
+        (format!("{line}\n{}", text(" ")), 1),
+        (format!("{line}\n{}", text("B1")), 0),
+        (hatch.to_owned(), 0),
+    ] {
+        assert_eq!(left_out_on_p(&block("B", "", &contents)).len(), count, "{contents}");
+    }
+}
+
+#[test]
 fn a_block_that_draws_on_unread_layers_only_is_left_out() {
     let on = |layer: &str| LINE.replace("8 P", &format!("8 {layer}"));
     let [(text, layers)] = &left_out_on_p(&block("B", "", &format!("{}\n{}", on("X"), on("Y"))))[..] else {
