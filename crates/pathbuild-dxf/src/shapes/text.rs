@@ -209,8 +209,8 @@ struct PlainText {
     has_several_alignments: bool,
     /// Whether the next letters are not in the first column.
     is_in_new_column: bool,
-    /// Whether the last letter that counts is a digit.
-    ends_with_digit: bool,
+    /// The last character that counts.
+    last: Option<char>,
     obstacle: Option<LayoutObstacle>,
 }
 
@@ -229,7 +229,7 @@ impl PlainText {
             first: None,
             has_several_alignments: false,
             is_in_new_column: false,
-            ends_with_digit: false,
+            last: None,
             obstacle: None,
         };
         // Search for the last `;` only once: thousands of unterminated commands would otherwise each search the whole rest.
@@ -260,9 +260,7 @@ impl PlainText {
             return;
         }
         self.plain.push_str(letters);
-        if let Some(last) = letters.chars().next_back() {
-            self.ends_with_digit = last.is_ascii_digit();
-        }
+        self.last = letters.chars().next_back().or(self.last);
         if letters.chars().all(char::is_whitespace) {
             return;
         }
@@ -308,7 +306,8 @@ impl PlainText {
             'S' => {
                 self.obstacle = Some(LayoutObstacle::Stack);
                 let (stacked, length) = stacked(&text[short..]);
-                if self.ends_with_digit && stacked.starts_with(|letter: char| letter.is_ascii_digit()) {
+                let is_behind_digit = self.last.is_some_and(|last| last.is_ascii_digit());
+                if is_behind_digit && stacked.starts_with(|letter: char| letter.is_ascii_digit()) {
                     // A raised or lowered digit is no further digit of the number before it.
                     self.push("^");
                 }
