@@ -133,8 +133,8 @@ messages! {
     }
     /// A text of blanks, which nobody sees, that belongs to no element.
     BLANK_TEXT: TextWithoutElement {
-        en: "a text that consists only of blanks, and is invisible, belongs to no element: its circle is at {centre}",
-        de: "ein Text nur aus Leerzeichen, der unsichtbar ist, gehört zu keinem Element: sein Kreis liegt bei {centre}",
+        en: "an invisible text that consists only of blanks belongs to no element: its circle is at {centre}",
+        de: "ein unsichtbarer Text, der nur aus Leerzeichen besteht, gehört zu keinem Element: sein Kreis liegt bei {centre}",
         help_en: "delete it",
         help_de: "löschen",
     }

@@ -40,7 +40,7 @@ fn switches_are_dropped() {
 #[test]
 fn what_is_struck_out_is_void() {
     assert_eq!(plain(r"B1 {\KF1000} I2"), "B1       I2");
-    assert_eq!(plain(r"F1\K2\P\~\S1/2;^I\k3"), "F1 \n     3");
+    assert_eq!(plain(r"F1\K2\P\~\S1/2;^I\k3"), "F1 \n      3");
     assert_eq!(plain(r"\KB1"), "  ");
     // Braces limit the effect of both switches.
     assert_eq!(plain(r"{\Ka{\kb}c}d"), " b d");

@@ -37,8 +37,8 @@ fn invisible_texts_count_apart_from_elements() {
     assert_eq!(
         file_faults(&drawing),
         [
-            "PB112 3 CIRCLE is marked invisible, but is still used; elements like this: 2",
-            "PB112 15 TEXT is marked invisible, but is still used; texts like this: 2"
+            "PB112 5 CIRCLE is marked invisible, but is still used; elements like this: 2",
+            "PB112 17 TEXT is marked invisible, but is still used; texts like this: 2"
         ]
     );
 }

@@ -261,7 +261,9 @@ impl<'d> LayerTexts<'d> {
     {
         let (string, circle) = (without_percent_codes(text.string()), text.circle());
         if string.trim().is_empty() {
-            return Diagnostic::new(&messages::BLANK_TEXT).with("centre", diagnostic_point(circle.centre));
+            let problem =
+                Diagnostic::new(&messages::BLANK_TEXT).with("centre", diagnostic_point(circle.centre));
+            return self.origin(text.source, text.anchor()).at(problem);
         }
         let mut diagnostic = Diagnostic::new(&messages::TEXT_WITHOUT_ELEMENT)
             .quoting("text", string.replace('\n', " "))

@@ -174,6 +174,6 @@ fn the_text_circle_follows_the_anchor() {
     );
     assert_eq!(
         circle("mtext 100,100 \"\\S1^ 2;\\~^Jb\" height 10 align middle centre"),
-        [100.0, 100.0, 13.454]
+        [100.0, 100.0, 11.662]
     );
 }
