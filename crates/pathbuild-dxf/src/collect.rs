@@ -36,7 +36,7 @@ pub(crate) struct Collector<'d> {
     missing_blocks: BTreeSet<SmolStr>,
     /// Layer of the previous entity, as a cache.
     last: Option<(LayerId, u32)>,
-    /// Number of entities and faults added so far, except for hatches and texts of blanks, which show nothing that could be milled.
+    /// Number of entities and faults added. Hatches and blank texts do not count, because they show nothing that could be milled.
     pub(crate) drawn: usize,
     /// Lines of broken entities and contradictory records, with the layers on which they were reported.
     faulty: HashSet<(u32, u32)>,

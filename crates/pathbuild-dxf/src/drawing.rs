@@ -244,7 +244,7 @@ pub enum LayoutObstacle {
     Columns,
     /// Empty rows at the end of a text that is not attached at its top.
     EmptyRows,
-    /// Letters whose heights differ by more than 1 %.
+    /// Letters with heights that differ by more than 1 %.
     Heights,
     /// An indented paragraph.
     Indent,

@@ -89,7 +89,7 @@ pub(crate) enum EntityError<'a> {
     Nested(Box<str>),
     /// The insertion of this block, which the file defines twice: PB002.
     DefinedTwice(Box<str>),
-    /// A layer whose records leave its line type or visibility open: PB002, with the line of the record.
+    /// A layer with broken or contradictory records, so that its line type or visibility is unknown: PB002, with the line of the record.
     Layer(Box<Diagnostic>),
     /// More parts than the limit of entities: PB005, for the whole file.
     TooManyParts,

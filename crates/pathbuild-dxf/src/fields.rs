@@ -271,8 +271,7 @@ pub(crate) fn handle(text: &[u8]) -> Option<Handle> {
     number.map(Handle)
 }
 
-/// Passes over the groups from `102/{NAME` to `102/}`, whose codes belong to an application. Returns the first pair of the next entity if
-/// that comes first.
+/// Passes over the groups of an application, from `102/{NAME` to `102/}`. Returns the first pair of the next entity if that comes first.
 fn skip_application_group<'a>(
     groups: &mut Groups<'a>,
     pass: impl FnMut(&Group<'a>),

@@ -55,7 +55,7 @@ pub(crate) struct UsedLayer {
     pub(crate) hidden: bool,
     /// Whether the layer is frozen, so that blocks inserted on it are invisible as a whole.
     pub(crate) is_frozen: bool,
-    /// The error of entities whose line type or visibility the layer's records leave open.
+    /// The error of the layer's entities if its records do not tell their line type or visibility.
     fault: Option<Box<Diagnostic>>,
 }
 
@@ -162,7 +162,7 @@ impl UsedLayer {
         })
     }
 
-    /// Returns the error of entities whose line type or visibility the layer's records leave open.
+    /// Returns the error of the layer's entities if its records do not tell their line type or visibility.
     pub(crate) fn fault<'a>(&self) -> Option<EntityError<'a>> {
         self.fault.clone().map(EntityError::Layer)
     }

@@ -20,7 +20,7 @@ pub fn above(a: f64, b: f64) -> bool {
     a > b && !near(a, b)
 }
 
-/// Whether `a > b` in a program, whose numbers have three decimals.
+/// Whether `a > b` in a program, that is, with three decimals.
 pub fn is_written_above(a: f64, b: f64) -> bool {
     (a * 1000.0).round() > (b * 1000.0).round()
 }

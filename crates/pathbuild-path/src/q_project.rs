@@ -349,9 +349,9 @@ fn differences_from_proxy(path: &Path, subpath: &Subpath, proxy: &ProxyLine) -> 
         (here != Some(there)).then(|| ("M".to_owned(), or_dash(here), Value::quoted(there), fault(Letter::M)))
     };
     let raised = || {
-        let there = proxy.value(Letter::H).map(|(there, _)| there);
-        (!is_number(there.unwrap_or("0"), subpath.height))
-            .then(|| ("H".to_owned(), subpath.height.into(), or_dash(there), fault(Letter::H)))
+        let proxy_height = proxy.value(Letter::H).map(|(height, _)| height);
+        (!is_number(proxy_height.unwrap_or("0"), subpath.height))
+            .then(|| ("H".to_owned(), subpath.height.into(), or_dash(proxy_height), fault(Letter::H)))
     };
     let [thickness, tool] = [number(Letter::T, subpath.thickness), number(Letter::O, subpath.tool)];
     let mut differences: Vec<Difference> =

@@ -131,7 +131,7 @@ messages! {
         help_en: "move it over its element; text and element must be on exactly the same layer",
         help_de: "über das Element schieben; Text und Element müssen auf genau demselben Layer liegen",
     }
-    /// A text of blanks, which nobody sees, that belongs to no element.
+    /// An invisible text, consisting only of blanks, that belongs to no element.
     BLANK_TEXT: TextWithoutElement {
         en: "an invisible text that consists only of blanks belongs to no element: its circle is at {centre}",
         de: "ein unsichtbarer Text, der nur aus Leerzeichen besteht, gehört zu keinem Element: sein Kreis liegt bei {centre}",
@@ -343,7 +343,7 @@ messages! {
         help_en: "delete one of the two",
         help_de: "eine der beiden löschen",
     }
-    /// A polyline or spline whose points all lie in one place.
+    /// A polyline or spline with all points in one place.
     CURVE_WITHOUT_LENGTH: LeftoverElement {
         en: "{entity} has no length: all of its points coincide, so it draws nothing",
         de: "{entity} hat keine Länge: alle Punkte fallen zusammen, sodass nichts zu sehen ist",
@@ -532,7 +532,7 @@ messages! {
         help_en: "open the drawing in a CAD program and save it again",
         help_de: "die Zeichnung in einem CAD-Programm öffnen und neu speichern",
     }
-    /// A group of an entity whose value should be a number, but is not.
+    /// A group of an entity with something other than a number as its value.
     VALUE_NOT_A_NUMBER: InvalidDxf {
         en: "{entity}: group {code} must be a number, not \"{value}\"",
         de: "{entity}: Gruppe {code} muss eine Zahl sein, nicht \"{value}\"",

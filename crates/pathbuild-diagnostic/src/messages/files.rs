@@ -118,7 +118,7 @@ messages! {
         help_en: "check infeed I and depth B (a wrong I gives thousands of passes); or, if that is intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "Zustellung I und Tiefe B prüfen (ein falsches I ergibt tausende Durchgänge); oder, wenn das so gewollt ist, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// `.gitignore` and `.ignore` files whose total size exceeds the limit; their directory is skipped.
+    /// `.gitignore` and `.ignore` files that together exceed the limit of their size; their directory is skipped.
     TOO_MANY_RULES: LimitReached {
         en: "the .gitignore and .ignore files below {directory} add up to more than {limit} bytes: the directory is skipped",
         de: "die .gitignore- und .ignore-Dateien unter {directory} haben zusammen mehr als {limit} Bytes: das Verzeichnis wird übergangen",

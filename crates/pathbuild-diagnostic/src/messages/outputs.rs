@@ -152,7 +152,7 @@ messages! {
         help_en: "do not mill with {name} until the path's errors are fixed and the file is written again",
         help_de: "nicht mit {name} fräsen, bevor die Fehler des Pfads behoben sind und die Datei neu geschrieben ist",
     }
-    /// An output file whose drawing cannot be read any more.
+    /// An output file of a drawing that can no longer be read.
     OUTPUT_OF_UNREAD: OlderOutput {
         en: "{name} was written for {drawing}, which cannot be read now",
         de: "{name} wurde für {drawing} geschrieben, die jetzt nicht lesbar ist",
@@ -215,7 +215,7 @@ messages! {
         help_en: "add it, or delete the Q-project and write it again: pathbuild q-project {argument}",
         help_de: "ihn hinzufügen oder das Q-Projekt löschen und neu schreiben lassen: pathbuild q-project {argument}",
     }
-    /// A Q-project whose drawing does not exist.
+    /// A Q-project without the drawing that it belongs to.
     WITHOUT_DRAWING: QProjectLacksPath {
         en: "there is no {drawing} beside this Q-project, so it is compared with nothing",
         de: "neben diesem Q-Projekt liegt keine {drawing}, deshalb wird es mit nichts verglichen",
