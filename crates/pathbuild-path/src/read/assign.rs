@@ -215,7 +215,9 @@ impl<'d> LayerTexts<'d> {
             .with("other", other.word())
             .with("other_point", diagnostic_point(other.shape.point()))
             .with("margin", at_least_a_micrometre(rival.farther));
-        if let Some(given) = path.text_of(other.owner).filter(|_| other.is_taken) {
+        if let Doubt::NearerWithText = rival.doubt {
+            // An element with an error of its own keeps no text, and needs no further finding.
+            let given = path.text_of(other.owner)?;
             doubt = doubt.quoting("other_text", given.as_str().replace('\n', " "));
         }
         doubt.text = read().map(ParameterText::whole_text_fault);

@@ -305,6 +305,15 @@ fn a_text_whose_nearest_element_has_another_text_is_doubtful() {
     assert_eq!(of_ring(-9.0), ["PB107"]);
 }
 
+/// Elements with an error of their own keep no text that a finding could quote.
+#[test]
+fn an_element_with_an_error_is_no_rival() {
+    let lines =
+        "line \"BREAK\" 0,0 40,0\nline \"BREAK\" 0,3 40,3\ntext 10,-0.2 \"F50\" height 2 align centre middle";
+    let found = texts(&format!("{lines}\ntext 20,0.6 \"B1\" height 4 align centre middle"), 0.1);
+    assert_eq!(found, ["PB106"]);
+}
+
 /// The text says that it is on the same layer as its element, but an element on another layer of the path is nearer.
 #[test]
 fn a_text_nearer_to_an_element_on_another_layer_is_doubtful() {
