@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
-    Database, Role, SourceFile, Target, check_file, drawn_path, effective_parameters, file_index, keep_outs,
-    path_names, placed_keep_outs, remaining_layers, traced_program, uncut_rings,
+    Database, Role, SourceFile, Target, assigned_texts, check_file, drawn_path, effective_parameters,
+    file_index, keep_outs, path_names, placed_keep_outs, remaining_layers, traced_program, uncut_rings,
 };
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
@@ -112,9 +112,10 @@ impl Session<'_> {
         scene
             .keep_outs
             .extend(keep_outs(self.db(), file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
-        // Collect these layers before the paths are built: the drawing is read again for them, which would otherwise add to the memory that the paths
-        // take.
+        // Collect these layers and texts before the paths are built: the drawing is read again for them, which would otherwise add to the memory that
+        // the paths take.
         scene.other_layers = view::other_layers(remaining_layers(self.db(), file));
+        assigned_texts(self.db(), file);
         for path in names {
             let (seen, found, clamps) = self.scene_path(file, path, text);
             let zero = seen.as_ref().map_or([0.0, 0.0], |seen| seen.zero);
