@@ -44,6 +44,15 @@ fn a_letter_that_is_missing_on_all_elements_is_one_error() {
     assert!(one.run("check --format concise --lang en").stderr.contains("[PB201] B is missing (path"));
 }
 
+/// The texts of subpath segments give O and T too, but none of them is the missing text of the start.
+#[test]
+fn a_project_without_a_start_text_is_one_error() {
+    let component = path("1001.1P", "T5 O2 I1 B0 MX", "mill 0,0 40,0\nend 40,0");
+    let project = "layer 8001.1P\nstart 0,0\nsubpath 0,0 40,0 \">1001.1P MX T5 O2\"\nend 40,0\n";
+    let place = place(&[("1001.1P", &component), ("8001.1P", project)]);
+    assert_eq!(found(&place), ["207 8001"]);
+}
+
 #[test]
 fn a_wrong_definition_of_a_variable_is_one_error() {
     let with = |definition: &str, value: &str| {

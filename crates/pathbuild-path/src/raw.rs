@@ -96,9 +96,11 @@ impl RawPath {
         self.drawn.text(self.parameters).unwrap_or_default()
     }
 
-    /// Whether the text of an element is probably the path's own, which is missing from the start.
+    /// Whether the text of an element is probably the path's own, which is missing from the start. A text that embeds a path
+    /// may have O and T as well.
     pub(crate) fn may_be_of_path(&self, text: ParameterText<'_>) -> bool {
-        self.parameters.is_none() && text.letters.contains(Letter::O) && text.letters.contains(Letter::T)
+        let has = |letter| text.letters.contains(letter);
+        self.parameters.is_none() && has(Letter::O) && has(Letter::T) && !has(Letter::Embed)
     }
 
     /// Places a diagnostic about the path's own parameters. Those borrowed by @ are reported with the lending path, so that each problem is
