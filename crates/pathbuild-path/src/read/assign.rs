@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Value, words};
 use pathbuild_dxf::LayoutObstacle;
 
 use crate::element::{END_RADIUS, Element, Marker, Role, Shape, TURN_RADIUS, diagnostic_point};
-use crate::letter::{LetterUse, Letters};
+use crate::letter::{Letter, LetterUse, Letters};
 use crate::names::is_tilde_layer;
 use crate::read::candidates::{
     AssignedCandidate, Candidate, Doubt, Owner, Rival, SearchBudget, find, find_rival, find_shape,
@@ -271,7 +271,12 @@ impl<'d> LayerTexts<'d> {
             .quoting("text", string.replace('\n', " "))
             .with("centre", diagnostic_point(circle.centre))
             .with("diameter", 2.0 * circle.radius);
-        diagnostic.text = ParameterTexts::from(&*string).first().map(ParameterText::whole_text_fault);
+        let texts = ParameterTexts::from(&*string);
+        diagnostic.text = texts.first().map(ParameterText::whole_text_fault);
+        // A start text is meant for the start marker, whatever it lies on.
+        let has = |letter| texts.first().is_some_and(|text| text.letters.contains(letter));
+        let is_start_text = has(Letter::O) && has(Letter::T) && !has(Letter::Embed);
+        let silent = || self.silent_element(text, path, &budgets.silent).filter(|_| !is_start_text);
         let budget = &budgets.candidates;
         let taken = find_taken(&circle, &self.candidates, &self.boxes, budget);
         if let Some(taken) = taken.map(|taken| &self.candidates[taken]) {
@@ -283,7 +288,7 @@ impl<'d> LayerTexts<'d> {
                     ("point", diagnostic_point(taken.shape.point()).into()),
                 ],
             );
-        } else if let Some((message, shape)) = self.silent_element(text, path, &budgets.silent) {
+        } else if let Some((message, shape)) = silent() {
             let point = diagnostic_point(shape.point());
             diagnostic = diagnostic.note(message, vec![("point", point.into())]);
         } else if let Some(miss) = nearest_miss(&circle, &self.candidates, &self.boxes, budget) {

@@ -290,6 +290,27 @@ fn a_text_on_an_element_that_takes_none_is_explained() {
     }
 }
 
+/// A start text belongs to the start marker, even if a HIDDEN sweep that begins there is nearer.
+#[test]
+fn a_start_text_beside_the_start_marker_is_not_for_a_hidden_sweep() {
+    let note = |string: &str| {
+        let text = mtext("10,1.2", string);
+        let drawn =
+            format!("layer 1234.1P\nstart 0,0\nline HIDDEN 0,0 40,0\nmill 40,0 40,60\nend 40,60\n{text}");
+        let raw = raw(&drawn);
+        let found = raw.diagnostics.iter().find(|found| found.code().to_string() == "PB107");
+        found.expect("a text without element").notes[0].text(pathbuild_diagnostic::Lang::En)
+    };
+    assert!(
+        note("O2 T5 I1").starts_with("the nearest element is a path start at (0, 0)"),
+        "{}",
+        note("O2 T5 I1")
+    );
+    for other in ["O2 I1", "T5 I1", ">1.1P O2 T5"] {
+        assert!(note(other).starts_with("the HIDDEN element at (0, 0)"), "{}", note(other));
+    }
+}
+
 #[test]
 fn a_text_without_element_says_on_which_layer_it_would_have_one() {
     let raw = drawing(&format!(
