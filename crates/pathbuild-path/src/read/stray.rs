@@ -28,7 +28,7 @@ const MAX_EXAMINED_CANDIDATES: usize = 1_000_000;
 /// Maximum number of characters after a path name that are taken for a typing error.
 const MAX_SLIP_CHARACTERS: usize = 2;
 
-/// Words that follow a path's name in the name of a layer with another version of the path, in English and German.
+/// Words that follow the name of a layer in that of a layer with another version of it, in English and German.
 const VERSIONS: [&str; 6] = ["old", "new", "copy", "alt", "neu", "Kopie"];
 
 /// Whether the undecoded bytes of a text may be a parameter text that [`stray_findings`] reports. If not, it is certain that nothing is reported.
@@ -216,9 +216,9 @@ pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
 /// Length in characters below which a name resembles too many others.
 const MIN_NAME_CHARACTERS: usize = 4;
 
-/// Returns the names that may have been meant by a layer's name: without a tilde and the text after it, without up to two characters at the end, and
-/// with the ending of a plural or a number. Look-alikes are replaced by plain characters; one of the names has no spaces, and one has a space before
-/// its first digit.
+/// Returns the names that may have been meant by a layer's name: without a tilde and the text after it, without up to two characters or a word for
+/// another version at the end, with the ending of a plural or a number, and with two neighbouring characters swapped. Look-alikes are replaced by
+/// plain characters; one of the names has no spaces, and one has a space before its first digit.
 fn similar_names(layer: &str) -> Vec<String> {
     let plain = look_alikes::with_keyboard_characters(layer);
     let plain = plain.split('~').next().unwrap_or_default().trim_end();
@@ -230,7 +230,27 @@ fn similar_names(layer: &str) -> Vec<String> {
     let shorter = std::iter::once(plain.len()).chain(ends).map(|end| plain[..end].trim_end());
     let shorter = shorter.filter(|name| is_long(name)).map(str::to_owned);
     let longer = PLURALS.iter().chain(&NUMBERS).map(|ending| [plain, ending].concat());
-    shorter.chain(longer).chain([plain.split_whitespace().collect()]).chain(with_space(plain)).collect()
+    let versions = VERSIONS.iter().filter_map(|word| without_version(plain, word));
+    let others = versions.chain(with_swapped_characters(plain)).chain(with_space(plain));
+    shorter.chain(longer).chain([plain.split_whitespace().collect()]).chain(others).collect()
+}
+
+/// Returns a name without the word for a version at its end: `Part` for `Part_OLD` and `Part (old)`.
+fn without_version(name: &str, word: &str) -> Option<String> {
+    let is_separator = |character: char| !character.is_alphanumeric();
+    let name = name.trim_end_matches(is_separator);
+    let (before, last) = name.split_at_checked(name.len().checked_sub(word.len())?)?;
+    last.eq_ignore_ascii_case(word).then(|| before.trim_end_matches(is_separator).to_owned())
+}
+
+/// Returns the names with two neighbouring characters swapped: `Part` for `Prat`.
+fn with_swapped_characters(name: &str) -> impl Iterator<Item = String> {
+    let characters: Vec<char> = name.chars().collect();
+    (1..characters.len()).map(move |second| {
+        let mut swapped = characters.clone();
+        swapped.swap(second - 1, second);
+        swapped.into_iter().collect()
+    })
 }
 
 /// Returns a name with a space before its first digit, which must follow a letter: `Part 1` for `Part1`.

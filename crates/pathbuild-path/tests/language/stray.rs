@@ -252,13 +252,20 @@ fn a_layer_that_keep_out_nearly_matches_is_named() {
         ("X{0,1}Clamps", "Clamp"),
         ("Xs*|Clamps", "Clamp"),
         ("[CK]lamps", "Clamp"),
+        ("Clamps", "Clamps old"),
+        ("Clamps", "Clamps_COPY"),
+        ("Clamps", "Clamps (alt)"),
+        ("Clamps", "Clmaps"),
     ] {
         assert_eq!(circle(keep_out, layer), ["PB120"], "{keep_out} {layer}");
     }
     for (keep_out, layer) in [
         ("Clamps", "Clamps"),
         ("Clamps.*", "Clamps 1"),
-        ("Clamps", "Clamps old"),
+        ("Clamps", "Clamps gold"),
+        ("Clamps", "Clamps older"),
+        ("Clamps", "old"),
+        ("Clamps", "Calpms"),
         ("Clamps", "Frame"),
         ("Clamps", "0"),
         // A short name resembles too many others.
