@@ -523,9 +523,11 @@ fn what_any_post_wrote_is_what_the_drawing_says() {
 
 #[test]
 fn material_of_several_heights_is_known_in_native_programs_alone() {
-    for (height, is_level) in [("", true), (" H3", false)] {
+    for (start, height, is_level) in
+        [("T5 MPlate", "", true), ("T5 MPlate", " H3", false), ("T6 MThick", " T5 MPlate", false)]
+    {
         let project = format!(
-            "== parts/1900.dxf ==\nlayer 1900.1P\nstart 0,0 \"T5 O2 MPlate\"\nsubpath 0,0 40,0 \">1234.1P\"\nsubpath 40,0 80,0 \">1234.1P{height}\"\nend 80,0\n"
+            "== parts/1900.dxf ==\nlayer 1900.1P\nstart 0,0 \"{start} O2\"\nsubpath 0,0 40,0 \">1234.1P T5 MPlate\"\nsubpath 40,0 80,0 \">1234.1P{height}\"\nend 80,0\n"
         );
         let place = Place::of(&format!("{LIBRARY}{project}"));
         for (post, file, is_known) in
@@ -536,7 +538,8 @@ fn material_of_several_heights_is_known_in_native_programs_alone() {
             let run = place.run(&format!("verify out/{file} --against 1900.1P"));
             assert_eq!(run.status, Some(0), "{run}");
             assert_eq!(run.stderr.contains("material up to Z"), is_known, "{height} {post}: {run}");
-            let reason = "rapid moves (the material of the drawing has several heights (H)";
+            let reason =
+                "rapid moves (the upper face of the drawing's material has several heights (several T, or H)";
             assert_eq!(run.stderr.contains(reason), !is_known, "{height} {post}: {run}");
         }
     }

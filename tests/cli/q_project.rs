@@ -53,7 +53,7 @@ fn every_path_is_embedded_as_its_proxy_line_says_else_with_its_own_values() {
     assert_eq!(
         texts,
         [
-            "T6 O2 MPlate",
+            "T6 O2 MPlate2",
             ">1234.1P O2 H2 MPlate T5",
             ">1234.2P MPlate2 T6 O2 :B0 :CB",
             "T4 O3 MPlate",
@@ -83,6 +83,32 @@ fn it_has_a_path_for_each_cutter() {
     let run = place.run_with(&["q-project", "gear 1234.dxf", "--path-name", "1234.3Q"]);
     assert_eq!(run.status, Some(1), "{run}");
     assert!(run.stderr.contains("PB004") && run.stderr.contains("1234.3Q"), "{run}");
+}
+
+/// A material has a single thickness: paths of a thinner sheet of the same M are in a path of their own.
+#[test]
+fn it_has_a_path_for_each_thickness_of_a_material() {
+    let paths = |second: &str, third: &str| {
+        let path = |name: &str, y: i32, text: &str| {
+            format!("layer {name}\nstart 0,{y} \"O2 I1 B0 {text}\"\nmill 0,{y} 40,{y}\nend 40,{y}\n")
+        };
+        let drawing =
+            [path("1234.1P", 0, "T5 MPlate"), path("1234.2P", 20, second), path("1234.3P", 40, third)];
+        let place = Place::of(&format!(
+            "== pathbuild.toml ==\nlibrary = [\".\"]\n== 1234.dxf ==\n{}",
+            drawing.concat()
+        ));
+        assert_eq!(place.run_with(&["q-project", "1234.dxf"]).status, Some(0));
+        let run = place.run("check");
+        assert!(run.stderr.contains("no errors, no warnings"), "{run}");
+        let run = place.run_with(&["texts", "1234_Q.dxf"]);
+        let texts = run.stdout.split('"').skip(1).step_by(2);
+        texts.filter(|text| text.starts_with('T')).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(paths("T6 MPlate", "T5 MPlate"), ["T5 O2 MPlate", "T6 O2 MPlate"]);
+    // The path that embeds sheets of several materials has T and M of the thickest.
+    assert_eq!(paths("T6 MOther", "T5 MPlate"), ["T6 O2 MOther"]);
+    assert_eq!(paths("T4 MOther", "T5 MPlate"), ["T5 O2 MPlate"]);
 }
 
 #[test]
@@ -125,7 +151,7 @@ fn a_q_project_that_its_file_name_does_not_cover_is_named_with_its_drawing() {
     let place = written();
     let found = place.run("emit 1234.0Q");
     assert_eq!(found.status, Some(0), "{found}");
-    let place = Place::of(&DRAWING.replace("gear 1234.dxf", "1234.1-1234.3P.dxf").replace("T4 O3", "T4 O2"));
+    let place = Place::of(&DRAWING.replace("gear 1234.dxf", "1234.1-1234.3P.dxf").replace("T4 O3", "T5 O2"));
     assert_eq!(place.run("q-project 1234.1-1234.3P.dxf").status, Some(0));
     for (lang, note) in [
         ("en", "note: 1234.1-1234.3P_Q.dxf defines the path, although the file's name does not include it"),

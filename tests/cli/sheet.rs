@@ -173,6 +173,33 @@ fn material_at_several_heights_is_several_pieces() {
     }
 }
 
+/// Sheets of different thickness lie side by side if they are of different materials.
+#[test]
+fn all_thicknesses_are_in_the_checklist() {
+    let sheet = |outer: &str, second: &str| {
+        let project = format!(
+            "layer 8001.1P\nstart 0,0 \"{outer} O2 S30\"\nsubpath 0,0 40,0 \">1300.1P T3 MX\"\nsubpath 40,0 80,0 \">1301.1P {second}\"\nend 80,0"
+        );
+        let component = |name: &str, text: &str| {
+            dxf(&format!("layer {name}\nstart 0,0 \"{text} O2 I1 B0\"\nmill 0,0 40,0\nend 40,0"))
+        };
+        let place = place("").file("8001.1P.dxf", dxf(&project));
+        let place = place.file("1300.1P.dxf", component("1300.1P", "T3 MX"));
+        let place = place.file("1301.1P.dxf", component("1301.1P", second));
+        let run = place.run("sheet 8001.1P -o sheet.svg");
+        assert_eq!(run.status, Some(0), "{run}");
+        texts(&place.read("sheet.svg")).join(" ")
+    };
+    let found = sheet("T3 MX", "T2 MY");
+    let expected = "Material is ready: X, 2 / 3 mm thick, in separate pieces for 2 heights";
+    assert!(found.contains(expected) && found.contains("its upper face is at Z 2 / 3"), "{found}");
+    let found = sheet("T3 MX", "T3 MY");
+    assert!(found.contains("Material is ready: X, 3 mm thick, at least"), "{found}");
+    // Without M, the project does not say that the sheets are different ones: that is a warning.
+    let found = sheet("T3", "T2 MX");
+    assert!(found.contains("Material is ready: 2 / 3 mm thick"), "{found}");
+}
+
 /// Each number of the picture is explained, or listed as one that does not fit. A table that continues on a new page repeats its title.
 #[test]
 fn operations_are_listed_and_no_number_is_lost() {

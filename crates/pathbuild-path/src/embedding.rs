@@ -557,6 +557,8 @@ impl<'a> SubpathChecker<'a> {
                 .with("path", self.outer.thickness)
                 .with("segment", subpath.thickness);
             problems.push(self.at(call, problem, call.fault(Letter::T)));
+        } else if near(subpath.thickness, inner.thickness) {
+            problems.extend(self.other_thickness_problem(call, inner));
         }
         let (here, there) = ((subpath.end - subpath.start).norm(), inner.size);
         if (here - there).abs() > CHORD_TOLERANCE {
@@ -594,6 +596,31 @@ impl<'a> SubpathChecker<'a> {
         (there.is_named && here.name != there.name).then(problem)
     }
 
+    /// Returns the finding about a path that is drawn for a thinner sheet, although the drawings do not say that it lies in a sheet of its own: its
+    /// rapid moves go down to its T, below the upper face of the embedding path's material. It is a warning if the embedding path names no material.
+    fn other_thickness_problem(&self, call: &SubpathCall, inner: &PathSignature) -> Option<Diagnostic> {
+        let unknown = self.outer.unknown.and(call.subpath.unknown);
+        let is_known = ![Letter::T, Letter::M, Letter::H].into_iter().any(|letter| unknown.contains(letter));
+        let is_thinner = is_known && !at_least(inner.thickness, self.outer.thickness);
+        if !is_thinner || call.subpath.material.is_none() || self.is_own_sheet(call) {
+            return None;
+        }
+        let problem = Diagnostic::new(&messages::THICKNESS_OF_PROJECT)
+            .quoting("outer", self.outer.name.as_str())
+            .with("here", self.outer.thickness)
+            .quoting("name", inner.name.as_str())
+            .with("there", inner.thickness);
+        let problem = self.at(call, problem, call.fault(Letter::T));
+        let is_doubt = self.is_compatible || self.outer.material.is_none();
+        Some(if is_doubt { as_warning(problem) } else { problem })
+    }
+
+    /// Whether the material of an embedded path is another sheet than that of the embedding path: it lies on shims (H), or has another name (M).
+    fn is_own_sheet(&self, call: &SubpathCall) -> bool {
+        let materials = self.outer.material.as_ref().zip(call.subpath.material.as_ref());
+        !near(call.subpath.height, 0.0) || materials.is_some_and(|(outer, here)| outer != here)
+    }
+
     fn material_mismatch(&self, call: &SubpathCall, inner: &PathSignature) -> Option<Diagnostic> {
         if call.subpath.hides(Letter::M) {
             return None;
@@ -623,9 +650,10 @@ impl<'a> SubpathChecker<'a> {
     ) -> Diagnostic {
         // If the path around the segment suits the embedded path, only the segment's own text is wrong.
         let is_own = call.fault(letter).is_some();
+        let is_own_sheet = self.is_own_sheet(call) && at_least(self.outer.thickness, inner.thickness);
         let message = match letter {
             Letter::O if !is_own || !near(self.outer.tool, inner.tool) => &messages::CUTTER_DIFFERS,
-            Letter::T if !is_own || !at_least(self.outer.thickness, inner.thickness) => {
+            Letter::T if !is_own_sheet && !near(self.outer.thickness, inner.thickness) => {
                 &messages::THICKNESS_DIFFERS
             }
             _ => &messages::PARAMETER_DIFFERS,

@@ -76,7 +76,7 @@ fn values(raw: &RawPath, proxy: Option<&ProxyLine>) -> Bindings {
 /// A planned path of a Q-project, which embeds all paths that are milled with the same cutter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QProject {
-    /// T, O and M of the path: T is the maximum of the embedded paths.
+    /// T, O and M of the path: those of the thickest embedded path.
     pub parameters: String,
     /// The segments of the path, in the order of the drawing's paths.
     pub lines: Vec<QProjectLine>,
@@ -91,12 +91,16 @@ pub struct QProjectLine {
     pub text: String,
 }
 
-/// Plans the Q-project of a component: one path for each O, in order of first appearance. Each embedded path uses the values of its first
-/// proxy line, or else its own values and example values. Paths with errors are left out.
+/// Plans the Q-project of a component: one path for each O, and for each T of one material, in order of first appearance. Each embedded path uses
+/// the values of its first proxy line, or else its own values and example values. Paths with errors are left out.
 pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
     let mut by_cutter: Vec<Vec<(Path, QProjectLine)>> = Vec::new();
     for planned in component.paths.iter().filter_map(|raw| planned_line(component, raw)) {
-        let is_same = |group: &&mut Vec<(Path, QProjectLine)>| near(group[0].0.tool, planned.0.tool);
+        let fits = |other: &Path| {
+            let is_same_sheet = other.material == planned.0.material;
+            near(other.tool, planned.0.tool) && (!is_same_sheet || near(other.thickness, planned.0.thickness))
+        };
+        let is_same = |group: &&mut Vec<(Path, QProjectLine)>| group.iter().all(|(other, _)| fits(other));
         match by_cutter.iter_mut().find(is_same) {
             Some(group) => group.push(planned),
             None => by_cutter.push(vec![planned]),
@@ -107,10 +111,11 @@ pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
 
 /// Returns the path that embeds these paths, all of which have the same O.
 fn of_cutter(planned: Vec<(Path, QProjectLine)>) -> QProject {
-    let first = &planned[0].0;
-    let thickness = planned.iter().map(|(path, _)| path.thickness).fold(first.thickness, f64::max);
-    let material = first.material.as_ref().map(|material| format!(" M{material}")).unwrap_or_default();
-    let parameters = format!("T{thickness} O{}{material}", first.tool);
+    let paths = planned.iter().map(|(path, _)| path);
+    let thickest =
+        paths.fold(&planned[0].0, |most, path| if path.thickness > most.thickness { path } else { most });
+    let material = thickest.material.as_ref().map(|material| format!(" M{material}")).unwrap_or_default();
+    let parameters = format!("T{} O{}{material}", thickest.thickness, thickest.tool);
     QProject { parameters, lines: planned.into_iter().map(|(_, line)| line).collect() }
 }
 

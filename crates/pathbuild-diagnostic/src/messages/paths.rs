@@ -298,6 +298,13 @@ messages! {
         help_en: "embed the path in another project, whose name `paths` of {there} also matches, and write both projects into one program with --join: a project is milled with one cutter",
         help_de: "den Pfad in einem anderen Projekt einbetten, auf dessen Namen `paths` von {there} auch passt, und beide Projekte mit --join in ein Programm schreiben: ein Projekt wird mit einem einzigen Fräser gefräst",
     }
+    /// An embedding path with a greater thickness (T) than the embedded one, although both are of one sheet: the same M, and no H.
+    THICKNESS_OF_PROJECT: SubpathParameterDiffers {
+        en: "path {name} is drawn for a sheet of {there} mm, but path {outer} has T{here}: rapid moves go down to Z {there}, into its material",
+        de: "Pfad {name} ist für ein Blech von {there} mm gezeichnet, Pfad {outer} aber hat T{here}: Eilgänge gehen bis Z {there} hinab, in dessen Material",
+        help_en: "correct the T that is wrong. If sheets of different thickness lie side by side, give them different M: the path that embeds them has T and M of the thickest. If the thinner one lies on shims, write H on the segment",
+        help_de: "das falsche T berichtigen. Liegen verschieden dicke Bleche nebeneinander, ihnen verschiedene M geben: der Pfad, der sie einbettet, hat T und M des dicksten. Liegt das dünnere auf Unterlagen, H an das Segment schreiben",
+    }
     /// A subpath segment in a block that is inserted mirrored.
     MIRRORED_SUBPATH: MirroredSubpath {
         en: "this subpath segment is in a block that is inserted mirrored, but the embedded path is never mirrored",
@@ -309,8 +316,8 @@ messages! {
     THICKNESS_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
-        help_en: "give both paths the same T, or embed a component that is drawn for this thickness: both are milled from the same sheet",
-        help_de: "beiden Pfaden dasselbe T geben oder ein Bauteil einbetten, das für diese Dicke gezeichnet ist: beide werden aus demselben Blech gefräst",
+        help_en: "give both paths the same T, or embed a component that is drawn for this thickness: both are milled from the same sheet; one of its own has another M, or lies on shims (H)",
+        help_de: "beiden Pfaden dasselbe T geben oder ein Bauteil einbetten, das für diese Dicke gezeichnet ist: beide werden aus demselben Blech gefräst; ein eigenes Blech hat ein anderes M oder liegt auf Unterlagen (H)",
     }
     /// A subpath segment with another T, O or M than the embedded path has, which can be corrected on the segment.
     PARAMETER_DIFFERS: SubpathParameterDiffers {
@@ -349,8 +356,8 @@ messages! {
     T_BELOW: PathTBelowSubpathT {
         en: "T of this path is {path}, which is less than the subpath's {segment}",
         de: "T dieses Pfads ist {path} und damit kleiner als {segment} beim Unterpfad",
-        help_en: "raise the path's T; otherwise the outer path's sweeps run through the inner path's material",
-        help_de: "T des Pfads erhöhen; sonst laufen die Leerfahrten des äußeren Pfads durch das Material des inneren",
+        help_en: "correct the T that is wrong; if the subpath's sheet is another one and thicker, give this path its T and M: otherwise the outer path's sweeps run through the inner path's material",
+        help_de: "das falsche T berichtigen; ist das Blech des Unterpfads ein anderes und dicker, diesem Pfad dessen T und M geben: sonst laufen die Leerfahrten des äußeren Pfads durch das Material des inneren",
     }
     /// An embedded path with errors.
     HAS_ERRORS: SubpathHasErrors {

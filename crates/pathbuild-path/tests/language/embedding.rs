@@ -71,7 +71,7 @@ fn the_segment_is_as_long_as_the_path() {
 #[test]
 fn t_and_o_are_those_of_the_path() {
     let inner = component("T5 O3 I1 B0 Mx");
-    let with = |text: &str| misfits(&project("T6 O3 I1 B0 Mx", &format!(">1111.1P {text}")), &inner);
+    let with = |text: &str| misfits(&project("T6 O3 I1 B0 My", &format!(">1111.1P Mx {text}")), &inner);
     assert_eq!(with("T5"), RIGHT);
     assert_eq!(with("T5.000005"), RIGHT);
     assert_eq!(with("T5.00001"), ["PB506 T"]);
@@ -91,9 +91,14 @@ fn the_advice_is_about_the_text_that_is_wrong() {
     assert!(help("T5 O3", "O2").contains("write its O on the segment"));
     assert!(help("T5 O2", "O2").contains("give both paths the same O"));
     assert!(help("T5 O2", "").contains("give both paths the same O"));
-    assert!(help("T6 O3", "T4").contains("write its T on the segment"));
+    assert!(help("T5 O3", "T4").contains("write its T on the segment"));
     assert!(help("T4 O3", "T4").contains("give both paths the same T"));
     assert!(help("T6 O3", "").contains("give both paths the same T"));
+    // The T of the path would be wrong on the segment as well, unless the path lies in a sheet of its own.
+    assert!(help("T6 O3", "T4").contains("give both paths the same T"));
+    assert!(help("T6 O3", "T4 H1").contains("write its T on the segment"));
+    assert!(help("T6 O3", "H1").contains("write its T on the segment"));
+    assert!(help("T4 O3", "H1").contains("give both paths the same T"));
 }
 
 /// A program has a single cutter, regardless of the text of a segment.
@@ -158,7 +163,34 @@ fn t_of_a_segment_is_no_more_than_that_of_its_path() {
     assert_eq!(with("5", "5"), RIGHT);
     assert_eq!(with("5", "5.000004"), RIGHT);
     assert_eq!(with("5", "5.00001"), ["PB510"]);
-    assert_eq!(with("5", "4"), RIGHT);
+    assert_eq!(with("5", "4"), ["PB506"]);
+}
+
+/// Rapid moves of an embedded path go down to its T, which must not be inside the material of the embedding path.
+#[test]
+fn a_thinner_sheet_has_another_m_or_lies_on_shims() {
+    let found = |outer: &str, segment: &str, inner: &str, is_compatible| {
+        let outer = project(&format!("O3 I1 B0 {outer}"), &format!(">1111.1P {segment}"));
+        let inner = component(&format!("O3 I1 B0 {inner}"));
+        let judge = SubpathChecker::new(&outer, &[], &LANGUAGE, is_compatible);
+        let found = judge.mismatches(&outer.subpaths[0], &inner);
+        found.into_iter().map(|problem| (problem.code().to_string(), problem.is_error())).collect::<Vec<_>>()
+    };
+    let error = [("PB506".to_owned(), true)];
+    let warning = [("PB506".to_owned(), false)];
+    assert_eq!(found("T5 Mx", "T4", "T4 Mx", false), error);
+    assert_eq!(found("T5 Mx", "T4", "T4 Mx", true), warning);
+    assert_eq!(found("T5 Mx", "T4 H0", "T4 Mx", false), error);
+    assert_eq!(found("T5 Mx", "T4.999996", "T4.999996 Mx", false), []);
+    assert_eq!(found("T5 Mx", "T4.99999", "T4.99999 Mx", false), error);
+    // Sheets of their own.
+    assert_eq!(found("T5 Mx", "T4 My", "T4 My", false), []);
+    assert_eq!(found("T5 Mx", "T4 H0.5", "T4 Mx", false), []);
+    // The path may be one for several sheets, but it does not say so.
+    assert_eq!(found("T5", "T4 Mx", "T4 Mx", false), warning);
+    assert_eq!(found("T5", "T5 Mx", "T5 Mx", false), []);
+    // Any other mismatch of T is reported alone.
+    assert_eq!(found("T5 Mx", "T4", "T3 Mx", false), error);
 }
 
 #[test]

@@ -262,6 +262,14 @@ fn mismatches(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str
     if is_thickness_known && path.thickness < subpath.thickness - LENGTH_TOLERANCE {
         found.push(("PB510", String::new()));
     }
+    let is_one_sheet = subpath.height == 0.0
+        && path.material.is_some()
+        && path.material == subpath.material
+        && ![Letter::M, Letter::H].into_iter().any(|letter| path.hides(letter) || subpath.hides(letter));
+    let is_thinner = path.thickness > subpath.thickness + LENGTH_TOLERANCE;
+    if is_thickness_known && is_one_sheet && is_thinner && !differs(subpath.thickness, inner.thickness) {
+        found.push(("PB506", "T".to_owned()));
+    }
     let length = |from: pathbuild_path::Xy, to: pathbuild_path::Xy| (to - from).norm();
     if differs(length(subpath.start, subpath.end), length(inner.start, inner.end)) {
         found.push(("PB505", String::new()));

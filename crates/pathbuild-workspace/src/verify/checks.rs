@@ -372,8 +372,8 @@ impl Reason {
                 de: "die Höhe des Materials ist nicht bekannt, daher wurden nur Eilgänge in Frästiefe untersucht",
             },
             Self::SeveralSurfaces => &Text {
-                en: "the material of the drawing has several heights (H), so rapid moves were only compared with those of the drawing",
-                de: "das Material der Zeichnung ist verschieden hoch (H), daher wurden Eilgänge nur mit denen der Zeichnung verglichen",
+                en: "the upper face of the drawing's material has several heights (several T, or H), so rapid moves were only compared with those of the drawing",
+                de: "die Oberseite des Materials der Zeichnung ist verschieden hoch (mehrere T, oder H), daher wurden Eilgänge nur mit denen der Zeichnung verglichen",
             },
             Self::TooLarge => &Text { en: "the program is too large", de: "das Programm ist zu groß" },
             Self::NoSpeed => &Text {

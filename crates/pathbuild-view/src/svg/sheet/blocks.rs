@@ -401,7 +401,7 @@ fn materials(sheet: &Sheet) -> Option<String> {
 }
 
 fn thicknesses(sheet: &Sheet) -> Option<String> {
-    format_numbers(&distinct(sheet.scene.paths.iter().filter_map(|path| path.thickness)))
+    format_numbers(&shims::thicknesses(sheet))
 }
 
 /// Describes the size of the removed material in X and Y; `None` if nothing is removed.

@@ -37,9 +37,23 @@ pub(super) fn checks(sheet: &Sheet, lang: Lang) -> Vec<String> {
     distinct(raised.iter().map(|run| run.heights)).into_iter().flat_map(sentences).collect()
 }
 
-/// Returns the number of different heights at which milled material lies.
+/// Returns the number of different heights of milled material: those at which it lies, and those of its upper face.
 pub(super) fn height_count(sheet: &Sheet) -> usize {
-    distinct(sheet.scene.paths.iter().flat_map(runs).map(|run| run.heights[0])).len()
+    distinct(sheet.scene.paths.iter().flat_map(runs).map(|run| run.heights)).len()
+}
+
+/// Returns the distinct thicknesses (T) of the paths and of the milled pieces in mm, in ascending order.
+pub(super) fn thicknesses(sheet: &Sheet) -> Vec<f64> {
+    let paths = sheet.scene.paths.iter();
+    let pieces = paths.clone().flat_map(runs).map(|run| rounded(run.heights[1] - run.heights[0]));
+    let mut thicknesses = distinct(paths.filter_map(|path| path.thickness).map(rounded).chain(pieces));
+    thicknesses.sort_by(f64::total_cmp);
+    thicknesses
+}
+
+/// Rounds a length to a thousandth of a millimetre.
+fn rounded(length: f64) -> f64 {
+    (length * 1000.0).round() / 1000.0
 }
 
 /// Returns the distinct Z of the upper faces of milled material in ascending order; `None` if no material lies on shims.
@@ -81,7 +95,7 @@ fn runs(path: &ScenePath) -> Vec<Run<'_>> {
     numbered.sort_by_key(|(number, ..)| *number);
     let mut runs: Vec<Run<'_>> = Vec::new();
     for (number, piece, lowest) in numbered {
-        let heights = [piece.raised, piece.thickness].map(|height| (height * 1000.0).round() / 1000.0);
+        let heights = [piece.raised, piece.thickness].map(rounded);
         match runs.last_mut() {
             Some(last) if (last.name, last.heights) == (&piece.name, heights) => {
                 last.numbers.push(number);
@@ -93,12 +107,13 @@ fn runs(path: &ScenePath) -> Vec<Run<'_>> {
     runs
 }
 
-/// Returns the outermost path whose material an embedded path shares: all paths between the two lie at the same height.
+/// Returns the outermost path whose material an embedded path shares: all paths between the two lie at the same height
+/// and are as thick.
 fn piece(path: &ScenePath, occurrence: usize) -> Option<&EmbeddedPath> {
     let mut piece = path.embedded.get(occurrence)?;
     while let Some(by) = piece.by {
         let embedder = path.embedded.get(path.elements.get(by as usize)?.path as usize)?;
-        if embedder.raised != piece.raised {
+        if (embedder.raised, embedder.thickness) != (piece.raised, piece.thickness) {
             break;
         }
         piece = embedder;
