@@ -1,7 +1,6 @@
 //! Tests random outlines with arcs and openings, with paths that are offset exactly, and with paths that are not.
 
 use std::collections::HashSet;
-use std::f64::consts::TAU;
 
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_path::{Xy, direction};
@@ -21,6 +20,8 @@ struct Corner {
 struct RandomPart {
     corners: Vec<Corner>,
     openings: Vec<(Xy, f64)>,
+    /// The outline as a polygon, with 40 sides for each arc.
+    ring: Vec<Xy>,
 }
 
 struct Random(u64);
@@ -72,7 +73,8 @@ impl RandomPart {
             (Xy::new(-6.0, 0.0), random.between(2.0, 4.0)),
             (Xy::new(7.0, 1.0), random.between(2.0, 5.0)),
         ];
-        fits.then_some(Self { corners, openings })
+        let ring = corners.iter().flat_map(Corner::points).collect();
+        fits.then_some(Self { corners, openings, ring })
     }
 
     /// Returns the outline shifted outwards by `distance` mm, as elements of a drawing.
@@ -113,39 +115,22 @@ impl RandomPart {
         text
     }
 
-    #[expect(clippy::disallowed_methods, reason = "only the sign of the sum of the angles counts")]
     /// Returns the signed distance from a point to the part, positive outside. This calculation is independent of the code under test.
     fn signed(&self, at: Xy) -> f64 {
         let mut distance = f64::INFINITY;
-        let mut turned = 0.0;
-        let mut visit = |from: Xy, to: Xy| {
-            let (a, b) = (from - at, to - at);
-            turned += a.perp(&b).atan2(a.dot(&b));
-        };
         for (number, corner) in self.corners.iter().enumerate() {
             let next = self.corners[(number + 1) % self.corners.len()].from;
             let way = next - corner.to;
             let share = (way.dot(&(at - corner.to)) / way.norm_squared()).clamp(0.0, 1.0);
             distance = distance.min((corner.to + way * share - at).norm());
-            visit(corner.to, next);
             let out = at - corner.centre;
             let is_beside =
                 [corner.from, corner.to].map(|end| (end - corner.centre).perp(&out) * corner.sign());
             if is_beside[0] >= 0.0 && is_beside[1] <= 0.0 {
                 distance = distance.min((out.norm() - corner.radius).abs());
             }
-            let steps = 40;
-            let angle = (corner.from - corner.centre).angle(&(corner.to - corner.centre)) * corner.sign();
-            let place = |step: u32| {
-                let from = corner.from - corner.centre;
-                let turn = direction((angle * f64::from(step) / f64::from(steps)).to_degrees());
-                corner.centre + rotated(from, turn)
-            };
-            for step in 0..steps {
-                visit(place(step), place(step + 1));
-            }
         }
-        let mut signed = if turned.abs() > TAU / 2.0 { -distance } else { distance };
+        let mut signed = if is_within(&self.ring, at) { -distance } else { distance };
         for (centre, radius) in &self.openings {
             let inside = radius - (at - centre).norm();
             signed = if inside > 0.0 { inside } else { signed.max(inside) };
@@ -155,6 +140,16 @@ impl RandomPart {
         }
         signed
     }
+}
+
+/// Whether a point is within a polygon: the ray to its right crosses an odd number of sides.
+fn is_within(polygon: &[Xy], at: Xy) -> bool {
+    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
+    let is_crossed = |&(from, to): &(&Xy, &Xy)| {
+        (from.y > at.y) != (to.y > at.y)
+            && at.x < from.x + (to.x - from.x) * (at.y - from.y) / (to.y - from.y)
+    };
+    sides.filter(is_crossed).count() % 2 == 1
 }
 
 fn rotated<V>(way: V, turn: V) -> V
@@ -170,6 +165,16 @@ where
 impl Corner {
     fn sign(&self) -> f64 {
         if self.is_outer { 1.0 } else { -1.0 }
+    }
+
+    /// Returns points on the corner's arc, from end to end.
+    fn points(&self) -> impl Iterator<Item = Xy> {
+        const STEPS: u32 = 40;
+        let angle = (self.from - self.centre).angle(&(self.to - self.centre)) * self.sign();
+        (0..=STEPS).map(move |step| {
+            let turn = direction((angle * f64::from(step) / f64::from(STEPS)).to_degrees());
+            self.centre + rotated(self.from - self.centre, turn)
+        })
     }
 
     /// Returns the ends of the corner's arc on a path `distance` mm outside.
