@@ -67,6 +67,19 @@ fn rapids_are_above_or_beside() {
     assert_hits(&rapid("10", "9.01"), "rapid move");
 }
 
+/// No sweep height leads the tool down into a clamp: the cut or the clamp must move.
+#[test]
+fn a_higher_s_is_advised_only_for_rapids_along_the_plate() {
+    let advice = |sweep: &str| {
+        let drawing = path(sweep, "sweep 0,0 25,15\nmill 25,15 60,15\nend 60,15");
+        let run = place(&drawing).run("check .");
+        assert!(run.stderr.contains("rapid move, lowest Z 5"), "{run}");
+        run.stderr.contains("raise S to 20 or more")
+    };
+    assert!(advice("19.99"));
+    assert!(!advice("20"));
+}
+
 #[test]
 fn arcs_are_arcs() {
     // The half circle bulges up towards the clamp, which begins at Y10; its chord at Y0 is far from it.

@@ -5,7 +5,7 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 use smol_str::SmolStr;
 
-use crate::approx::above;
+use crate::approx::{above, is_negligible};
 use crate::geometry::{Arc, Curve, Line, Placement, Xy};
 
 /// A clamp: an area that the tool must not enter below a given height.
@@ -99,6 +99,11 @@ impl KeepOutMap {
 }
 
 impl TipMove {
+    /// Whether only Z changes.
+    pub fn is_vertical(&self) -> bool {
+        is_negligible(self.curve.length())
+    }
+
     /// The lowest Z of the move.
     pub fn lowest(&self) -> f64 {
         self.from_z.min(self.to_z)

@@ -100,18 +100,21 @@ pub struct Collision {
     what: &'static Text,
     moves: u64,
     lowest: f64,
+    /// Whether one of the moves is not vertical. Only such a move can be led over the clamp.
+    is_sideways: bool,
 }
 
 impl Collision {
     /// Creates a collision without moves.
     pub fn new(what: &'static Text) -> Self {
-        Self { what, moves: 0, lowest: f64::INFINITY }
+        Self { what, moves: 0, lowest: f64::INFINITY, is_sideways: false }
     }
 
     /// Counts a move that hits the clamp.
     pub fn add(&mut self, way: &TipMove) {
         self.moves += 1;
         self.lowest = self.lowest.min(way.lowest());
+        self.is_sideways |= !way.is_vertical();
     }
 
     /// Returns PB407 without the places of the finding and of the clamp. Heights are given relative to the path, which is `raised` by this many mm.
@@ -175,7 +178,9 @@ impl<'t> Search<'t> {
         let clamp = &self.clamps[entry.clamp];
         let message = match entry.probe {
             Some(_) => &messages::PROBING_INTO_CLAMP,
-            None if collision.what != &words::RAPID_MOVE => &messages::CUTS_INTO_CLAMP,
+            None if collision.what != &words::RAPID_MOVE || !collision.is_sideways => {
+                &messages::CUTS_INTO_CLAMP
+            }
             None if mover != entry.occurrence => &messages::COMPONENT_INTO_CLAMP,
             None => &messages::MOVES_INTO_CLAMP,
         };
