@@ -19,6 +19,30 @@ fn mistakes_of_draughtsmen_are_named() {
         ("a name without >", "start\nsubpath 0,0 20,0 \"2050.1P\"\nend 20,0"),
         ("commas", "start 0,0 \"O2,T5,B0\"\nmill 0,0 20,0\nend 20,0"),
         ("a remark", "start\nmill 0,0 20,0 \"Deckel links\"\nend 20,0"),
+        (
+            "a gap before the corner",
+            "start\nsweep 0,0 20,0\nmill 20,0 40,0 40,20 20,20 20,0.2\nsweep 20,0 60,9\nend 60,9",
+        ),
+        (
+            "a gap beside the corner",
+            "start\nmill 0,0 20,0 \"N1\"\nmill 20,0 20,20 0.2,0.2\nmill 20,0 60,9\nend 60,9",
+        ),
+        ("a line that is too long", "start\nmill 0,0 20,0\nmill 19.995,0 19.995,30\nend 19.995,30"),
+        (
+            "a turn marker beside the tip",
+            "start\nmill 0,0 20,0 20,20\nmill 20,0 40,0 \"N9999\"\nturn 20,20.5\nend 40,0",
+        ),
+        (
+            "a helper line at a passed corner",
+            "start\nmill 0,0 20,0 \"N1\"\nmill 20,0 40,0 \"N2\"\nmill 20,0 20,20 \"N3\"\nend 40,0",
+        ),
+        ("a hole beside its sweep", "start\nsweep 0,0 20,0\nsweep 20,0 40,0\ncircle 20,0.005 d 5\nend 40,0"),
+        ("a part drawn twice, left", "start\nmill 0,0 20,0\nmill 0,0 10,0\nend 20,0"),
+        ("a part drawn twice, past", "start\nmill 0,0 20,0\nmill 5,0 15,0\nend 20,0"),
+        ("a part drawn twice, at the end", "start\nmill 0,0 20,0\nmill 10,0 20,0\nend 20,0"),
+        ("an end marker beside the end", "start\nmill 0,0 20,0\nend 20.2,0"),
+        ("a helper line behind the end marker", "start\nmill 0,0 20,0\nmill 20,0 30,0\nend 20,0"),
+        ("the last line missing", "start\nmill 0,0 20,0\nend 40,0"),
         ("F0", "start\nmill 0,0 20,0 \"F0\"\nend 20,0"),
         ("a start marker of 1.002 mm", "start\ncircle PHANTOM 0,0 d 1.002\nmill 0,0 20,0\nend 20,0"),
         ("a non-breaking space", "start 0,0 \"O2\u{a0}T5 I5 B0\"\nmill 0,0 20,0\nend 20,0"),
@@ -53,6 +77,45 @@ fn elements_on_a_wrong_layer_are_named() {
     let near = |circle: &str| said(&stray, &format!("mill circle {circle} d 1")).contains("by mistake?");
     for beside in [["53,50", "55,50"], ["47,50", "45,50"], ["50,53", "50,55"], ["50,47", "50,45"]] {
         assert_eq!(beside.map(near), [true, false], "{beside:?}");
+    }
+}
+
+/// What continues the path lies on another layer, for each code that a path ends in.
+#[test]
+fn what_continues_a_path_is_named_on_another_layer() {
+    let said = |layer: &str, own: &str, other: &str| {
+        let config = "== pathbuild.toml ==\npart = 'Part'\n";
+        let drawing = format!("layer 1234.1P\n{START}\n{own}\nlayer {layer}\n{other}\n");
+        Place::of(&format!("{config}== 1234.1P.dxf ==\n{drawing}")).run("check 1234.1P.dxf").stderr
+    };
+    let branch = "mill 0,0 20,0\nmill 20,0 20,10\nmill 20,0 50,0\nend 50,0";
+    for (code, own, [inside, outside], note) in [
+        ("PB401", branch, ["turn 20,11", "turn 20,11.01"], "layer Notes has a turn marker at (20, 11), 1 mm"),
+        ("PB401", branch, ["mill 20,11 60,60", "mill 20,11.01 60,60"], "LINE ends at (20, 11), 1 mm away"),
+        (
+            "PB402",
+            "mill 0,0 20,0\ncircle 30,5 d 2\nend 20,0",
+            ["sweep 60,60 30,6", "sweep 60,60 30,6.01"],
+            "on layer Notes, LINE ends at (30, 6), 1 mm away",
+        ),
+        (
+            "PB403",
+            "mill 0,0 20,0\nend 40,0",
+            ["mill 21,0 60,60", "mill 21.01,0 60,60"],
+            "on layer Notes, LINE ends at (21, 0), 1 mm away",
+        ),
+        (
+            "PB404",
+            "end 40,0",
+            ["mill arc 0,1 to 40,1 centre 20,1", "mill arc 0,1.01 to 40,1.01 centre 20,1.01"],
+            "on layer Notes, ARC ends at (0, 1), 1 mm away",
+        ),
+    ] {
+        let found = said("Notes", own, inside);
+        assert!(found.contains(code) && found.contains(note), "{found}");
+        for found in [said("Notes", own, outside), said("Part", own, inside)] {
+            assert!(found.contains(code) && !found.contains("wrong layer"), "{found}");
+        }
     }
 }
 

@@ -239,7 +239,7 @@ pub(crate) fn curve_role(line_type: LineType) -> Option<Role> {
 /// Radius in mm of the circle at which a path starts. (book: language/markers)
 pub const START_RADIUS: f64 = 0.5;
 /// Radius in mm of the circle at which a chain turns.
-pub(crate) const TURN_RADIUS: f64 = 0.75;
+pub const TURN_RADIUS: f64 = 0.75;
 /// Radius in mm of the circle at which a path ends.
 pub const END_RADIUS: f64 = 1.0;
 /// Radius in mm of a probe's circle.

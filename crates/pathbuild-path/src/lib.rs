@@ -34,7 +34,7 @@ pub use bind::{ExaminedPath, bind, examine, regex_reason};
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep, WalkedPath};
 pub use changes::{DrawnChange, DrawnChanges, DrawnSide, ElementChange, ElementKind, drawn_changes};
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
-pub use element::{Cut, END_RADIUS, Element, Marker, Origin, Role, START_RADIUS, Shape, Source};
+pub use element::{Cut, END_RADIUS, Element, Marker, Origin, Role, START_RADIUS, Shape, Source, TURN_RADIUS};
 pub use element_parameters::{ElementParameters, Parameter, element_parameters};
 pub use embedding::{PathHeader, PathSignature, Restriction, StatedHeight, SubpathCall, SweepLimits};
 pub use embedding::{SubpathChecker, with_near_names};

@@ -9,7 +9,7 @@ use pathbuild_dxf::{Drawing, Entity, Geometry};
 use pathbuild_path::approx::{coincide, near};
 use pathbuild_path::{
     Arc, Curve, END_RADIUS, Language, Letter, Line, LineType, ParameterTexts, PathName, START_RADIUS,
-    TextCircle, Xy, near_layer, on_circle,
+    TURN_RADIUS, TextCircle, Xy, near_layer, on_circle,
 };
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -28,6 +28,20 @@ struct AllLayers {
     boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
 }
 
+/// Messages about paths that break off or stop for a reason in the path itself: a copy, a gap or a branch.
+const EXPLAINED: [&Message; 10] = [
+    &paths::DRAWN_TWICE,
+    &paths::PART_DRAWN_TWICE,
+    &paths::UNREACHED_TWICE,
+    &paths::UNREACHED_PART_TWICE,
+    &paths::UNREACHED_BESIDE,
+    &paths::UNREACHED_BRANCH,
+    &paths::NO_END_THERE,
+    &paths::NO_END_THERE_ALIKE,
+    &paths::END_NOT_REACHED_TWICE,
+    &paths::END_NOT_REACHED_PART_TWICE,
+];
+
 /// Largest distance in mm at which an end or element on another layer is worth a hint.
 const MAX_HINT_DISTANCE: f64 = 1.0;
 
@@ -36,8 +50,8 @@ impl<'a> LayerEnds<'a> {
         Self { read, all: OnceCell::new(), markers: OnceCell::new() }
     }
 
-    /// Adds a note about the element on another layer that was probably meant: an end to PB401, a circle to PB101 and PB102, an element to PB107, a
-    /// text to PB207.
+    /// Adds a note about the element on another layer that was probably meant: an end or a turn marker to PB401 to PB404, a circle to PB101 and PB102,
+    /// an element to PB107, a text to PB207.
     pub(super) fn with_hint(
         &self,
         path: &PathName,
@@ -45,7 +59,9 @@ impl<'a> LayerEnds<'a> {
         mut problem: Diagnostic,
     ) -> Diagnostic {
         let hint = match problem.code() {
-            Code::NothingContinues if problem.message != &paths::DRAWN_TWICE => {
+            Code::NothingContinues | Code::UnreachedSegments | Code::EndNotReached | Code::EmptyPath
+                if !EXPLAINED.contains(&problem.message) =>
+            {
                 self.nearest_end(path, language, &problem)
             }
             Code::MissingStart => {
@@ -92,27 +108,45 @@ impl<'a> LayerEnds<'a> {
         self.all.get_or_init(|| AllLayers::new((self.read)()))
     }
 
-    /// Returns the nearest end on another layer, whether or not that layer belongs to a path.
+    /// Returns the nearest end or turn marker on another layer, whether or not that layer belongs to a path. It is searched where the path stops and
+    /// where a segment that was not reached begins.
     fn nearest_end(&self, path: &PathName, language: &Language, problem: &Diagnostic) -> Option<(Note, f64)> {
-        let Point { x: Number(x), y: Number(y) } = problem.place.point?;
-        let point = Xy::new(x, y);
-        let is_other =
-            |layer: &str| language.path_pattern.layer(layer).is_none_or(|layer| layer.path != *path);
-        let near = self.all_layers().near(point, MAX_HINT_DISTANCE).filter(|(layer, _)| is_other(layer));
-        let ends = near.flat_map(|(layer, entity)| {
-            ends_of(&entity.geometry).into_iter().flatten().map(move |end| (layer, entity.kind, end))
+        let begin = match problem.argument("point") {
+            Some(Value::Point(point)) if problem.code() != Code::NothingContinues => Some(*point),
+            _ => None,
+        };
+        let points = problem.place.point.into_iter().chain(begin);
+        let points = points.map(|Point { x: Number(x), y: Number(y) }| Xy::new(x, y));
+        let is_other = |layer: &str| {
+            language.path_pattern.layer(layer).is_none_or(|layer| layer.path != *path)
+                && is_drawn_for_paths(language, layer)
+        };
+        let near = points.flat_map(|point| {
+            let near = self.all_layers().near(point, MAX_HINT_DISTANCE);
+            near.filter(|(layer, _)| is_other(layer)).map(move |(layer, entity)| (layer, entity, point))
         });
-        let distances = ends.map(|(layer, kind, end)| (layer, kind, end, (end - point).norm()));
-        let (layer, kind, end, distance) =
-            distances.reduce(|best, other| if other.3 < best.3 { other } else { best })?;
-        let arguments = vec![
+        let ends = near.flat_map(|(layer, entity, point)| {
+            let marker = Some(entity).filter(|entity| {
+                problem.code() == Code::NothingContinues && is_phantom_circle(language, entity, TURN_RADIUS)
+            });
+            let marker = marker.and_then(|entity| centre_of(&entity.geometry));
+            let ends = ends_of(&entity.geometry).into_iter().flatten();
+            ends.chain(marker).map(move |end| (layer, entity, end, (end - point).norm()))
+        });
+        let (layer, entity, end, distance) =
+            ends.reduce(|best, other| if other.3 < best.3 { other } else { best })?;
+        let mut arguments = vec![
             ("layer", Value::quoted(layer)),
-            ("element", Value::quoted(kind.name())),
             ("point", Point::new(end.x, end.y).into()),
             ("distance", distance.into()),
         ];
-        let note = Note { message: &paths::END_ON_OTHER_LAYER, arguments };
-        (distance <= MAX_HINT_DISTANCE).then_some((note, distance))
+        let message = if centre_of(&entity.geometry).is_some() {
+            &paths::TURN_MARKER_ON_OTHER_LAYER
+        } else {
+            arguments.push(("element", Value::quoted(entity.kind.name())));
+            &paths::END_ON_OTHER_LAYER
+        };
+        (distance <= MAX_HINT_DISTANCE).then_some((Note { message, arguments }, distance))
     }
 
     /// Returns a start or end marker on a layer without a path.
@@ -155,8 +189,7 @@ impl<'a> LayerEnds<'a> {
         let text = TextCircle { centre: Xy::new(centre.x.0, centre.y.0), radius: diameter / 2.0 };
         let own = problem.place.layer.as_deref();
         let near = self.all_layers().near(text.centre, text.radius + MAX_HINT_DISTANCE);
-        let is_drawn_for_paths = |layer: &str| !language.is_part(layer) && !language.is_keep_out(layer);
-        let others = near.filter(|(layer, _)| Some(*layer) != own && is_drawn_for_paths(layer));
+        let others = near.filter(|(layer, _)| Some(*layer) != own && is_drawn_for_paths(language, layer));
         let distances = others
             .filter_map(|(layer, entity)| Some((layer, entity, distance_to_text(&text, &entity.geometry)?)));
         let (layer, entity, gap) =
@@ -264,12 +297,25 @@ impl AllLayers {
     }
 }
 
+/// Whether a layer shows neither parts nor clamps.
+fn is_drawn_for_paths(language: &Language, layer: &str) -> bool {
+    !language.is_part(layer) && !language.is_keep_out(layer)
+}
+
 /// Whether an entity is a marker of this radius on a layer without a path.
 fn is_marker(language: &Language, layer: &str, entity: &Entity, radius: f64) -> bool {
+    is_phantom_circle(language, entity, radius) && language.path_pattern.layer(layer).is_none()
+}
+
+fn is_phantom_circle(language: &Language, entity: &Entity, radius: f64) -> bool {
     let Geometry::Circle(circle) = &entity.geometry else { return false };
     near(circle.radius, radius)
         && LineType::of(&entity.line_type, &language.line_types) == Some(LineType::Phantom)
-        && language.path_pattern.layer(layer).is_none()
+}
+
+fn centre_of(geometry: &Geometry) -> Option<Xy> {
+    let Geometry::Circle(circle) = geometry else { return None };
+    Some(Xy::new(circle.centre.x, circle.centre.y))
 }
 
 /// Returns the distance in mm that a note gives.

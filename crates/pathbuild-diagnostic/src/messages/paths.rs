@@ -12,8 +12,29 @@ messages! {
     DEAD_END: NothingContinues {
         en: "the path breaks off here, at the tip of a dead end; segments not reached: {left}",
         de: "hier bricht der Pfad ab, an der Spitze einer Sackgasse; nicht erreichte Segmente: {left}",
-        help_en: "put a turn marker (a PHANTOM circle of 1.5 mm) at this point, from where the tool goes back",
-        help_de: "an diesem Punkt eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm), von der der Fräser zurückfährt",
+        help_en: "draw the segment that is missing here; or, if the dead end is a helper line, remove it or move it to another layer; put a turn marker (a PHANTOM circle of 1.5 mm) here only if the tool is to go along it and back",
+        help_de: "das Segment zeichnen, das hier fehlt; oder die Sackgasse, wenn sie eine Hilfslinie ist, entfernen oder auf einen anderen Layer legen; eine Wendemarke (PHANTOM-Kreis mit 1,5 mm) hier nur zeichnen, wenn der Fräser darauf hin- und zurückfahren soll",
+    }
+    /// The path breaks off beside a turn marker.
+    TURN_MARKER_BESIDE_TIP: NothingContinues {
+        en: "the path breaks off here, at the tip of a dead end: the turn marker at {point} is {distance} mm away; segments not reached: {left}",
+        de: "hier bricht der Pfad ab, an der Spitze einer Sackgasse: die Wendemarke bei {point} ist {distance} mm entfernt; nicht erreichte Segmente: {left}",
+        help_en: "move the turn marker exactly to the tip: `join-tolerance` does not apply to it",
+        help_de: "die Wendemarke genau auf die Spitze schieben: `join-tolerance` gilt für sie nicht",
+    }
+    /// The path breaks off near the end of a segment that it has already traversed, such as the first one of an outline.
+    ENDS_BESIDE_TRAVERSED: NothingContinues {
+        en: "the path breaks off here, {distance} mm from {point}, where {element} ends; segments not reached: {left}",
+        de: "hier bricht der Pfad ab, {distance} mm neben {point}, wo {element} endet; nicht erreichte Segmente: {left}",
+        help_en: "close the gap: let the two end at the same point",
+        help_de: "die Lücke schließen: beide an demselben Punkt enden lassen",
+    }
+    /// The path breaks off at the end of a segment that is slightly too long.
+    TOO_LONG: NothingContinues {
+        en: "the path breaks off here, {distance} mm past {point}, where {element} begins; segments not reached: {left}",
+        de: "hier bricht der Pfad ab, {distance} mm hinter {point}, wo {element} beginnt; nicht erreichte Segmente: {left}",
+        help_en: "let this line or arc end at {point}",
+        help_de: "diese Linie oder diesen Bogen bei {point} enden lassen",
     }
     /// The path breaks off; a remaining segment begins in the middle of a traversed one.
     BEGINS_ON_OTHER: NothingContinues {
@@ -29,6 +50,13 @@ messages! {
         help_en: "delete one of the two",
         help_de: "eines der beiden löschen",
     }
+    /// The path breaks off because a segment lies on part of another one.
+    PART_DRAWN_TWICE: NothingContinues {
+        en: "{element} at {point} lies on part of a longer one: this part is drawn twice, and the path breaks off; segments not reached: {left}",
+        de: "{element} bei {point} liegt auf einem Teil eines längeren Segments: dieser Teil ist doppelt gezeichnet, und der Pfad bricht ab; nicht erreichte Segmente: {left}",
+        help_en: "delete the shorter of the two",
+        help_de: "das kürzere der beiden löschen",
+    }
     /// A turn marker without a branch on the way back.
     TURN_FOUND_NOTHING: NothingContinues {
         en: "no segment branches off on the way back from this turn marker; segments not reached: {left}",
@@ -41,11 +69,6 @@ messages! {
         en: "the nearest open end is at {point}, {distance} mm away ({element})",
         de: "das nächste offene Ende ist bei {point}, {distance} mm entfernt ({element})",
     }
-    /// Note: a turn marker that is not exactly at the tip.
-    TURN_MARKER_BESIDE_TIP: NothingContinues {
-        en: "the turn marker at {point} is {distance} mm away: it must be exactly at the tip, `join-tolerance` does not apply to it",
-        de: "die Wendemarke bei {point} ist {distance} mm entfernt: sie muss genau an der Spitze liegen, `join-tolerance` gilt für sie nicht",
-    }
     /// Note: a segment that does not quite meet the way back.
     END_BESIDE_WAY_BACK: NothingContinues {
         en: "{element} ends at {point}, {distance} mm away from the way back, on which the ends must meet exactly: `join-tolerance` does not apply there",
@@ -55,6 +78,11 @@ messages! {
     END_ON_OTHER_LAYER: NothingContinues {
         en: "on layer {layer}, {element} ends at {point}, {distance} mm away: is it on the wrong layer?",
         de: "auf Layer {layer} endet {element} bei {point}, {distance} mm entfernt: liegt es auf dem falschen Layer?",
+    }
+    /// Note: a turn marker on another layer.
+    TURN_MARKER_ON_OTHER_LAYER: NothingContinues {
+        en: "layer {layer} has a turn marker at {point}, {distance} mm away: is it on the wrong layer?",
+        de: "auf Layer {layer} liegt bei {point} eine Wendemarke, {distance} mm entfernt: liegt sie auf dem falschen Layer?",
     }
     /// Note: a remaining segment that is drawn on top of a traversed one.
     DUPLICATE: NothingContinues {
@@ -77,8 +105,15 @@ messages! {
     UNREACHED_BRANCH: UnreachedSegments {
         en: "segments not reached: {left}; the path went past {point}, where {element} branches off, and ends here",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; der Pfad lief an {point} vorbei, wo {element} abzweigt, und endet hier",
-        help_en: "give the dead end a smaller N than the segment on which the path goes on from there (HIDDEN takes no N: use DASHED), and put a turn marker (a PHANTOM circle of 1.5 mm) at its tip",
-        help_de: "der Sackgasse ein kleineres N geben als dem Segment, auf dem der Pfad von dort weiterläuft (HIDDEN nimmt kein N: DASHED verwenden), und an ihrer Spitze eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm)",
+        help_en: "remove it if it is a helper line, or move it to another layer; otherwise give it a smaller N than the segment on which the path goes on from there (HIDDEN takes no N: use DASHED), and draw what leads back from its tip, or put a turn marker (a PHANTOM circle of 1.5 mm) there",
+        help_de: "ist es eine Hilfslinie, sie entfernen oder auf einen anderen Layer legen; sonst ihr ein kleineres N geben als dem Segment, auf dem der Pfad von dort weiterläuft (HIDDEN nimmt kein N: DASHED verwenden), und zeichnen, was von ihrer Spitze zurückführt, oder dort eine Wendemarke (PHANTOM-Kreis mit 1,5 mm)",
+    }
+    /// A segment that is not reached because a small gap separates it from the end of a traversed one.
+    UNREACHED_BESIDE: UnreachedSegments {
+        en: "segments not reached: {left}; {element} at {point} is {distance} mm away from {end}, where {other} ends",
+        de: "nicht alle Segmente wurden erreicht; übrig: {left}; {element} bei {point} liegt {distance} mm neben {end}, wo {other} endet",
+        help_en: "move the one to the other with the object snap (`join-tolerance` closes a gap only where the path cannot continue otherwise), or remove what does not belong to the path",
+        help_de: "das eine mit dem Objektfang auf das andere schieben (`join-tolerance` schließt eine Lücke nur, wo der Pfad nicht anders weitergeht) oder entfernen, was nicht zum Pfad gehört",
     }
     /// A segment that is not reached because it is drawn twice.
     UNREACHED_TWICE: UnreachedSegments {
@@ -86,6 +121,13 @@ messages! {
         de: "{element} bei {point} ist doppelt gezeichnet, der Pfad läuft aber nur über eines der beiden Segmente; nicht erreichte Segmente: {left}",
         help_en: "delete one of the two",
         help_de: "eines der beiden löschen",
+    }
+    /// A segment that is not reached because one lies on part of the other.
+    UNREACHED_PART_TWICE: UnreachedSegments {
+        en: "{element} at {point} lies on part of a longer one: this part is drawn twice; segments not reached: {left}",
+        de: "{element} bei {point} liegt auf einem Teil eines längeren Segments: dieser Teil ist doppelt gezeichnet; nicht erreichte Segmente: {left}",
+        help_en: "delete the shorter of the two",
+        help_de: "das kürzere der beiden löschen",
     }
     /// A segment that is not reached because it touches another kind of segment between that segment's ends.
     NO_END_THERE: UnreachedSegments {
@@ -108,12 +150,33 @@ messages! {
         help_en: "delete one of the two",
         help_de: "eines der beiden löschen",
     }
+    /// An end that is not reached because a segment lies on part of another one.
+    END_NOT_REACHED_PART_TWICE: EndNotReached {
+        en: "the path stops at {point}, but its end marker is at {end}: {element} at {begin} lies on part of a longer one",
+        de: "der Pfad hört bei {point} auf, seine Endmarke ist aber bei {end}: {element} bei {begin} liegt auf einem Teil eines längeren Segments",
+        help_en: "delete the shorter of the two",
+        help_de: "das kürzere der beiden löschen",
+    }
+    /// A path that stops near its end marker.
+    STOPS_BESIDE_END: EndNotReached {
+        en: "the path stops at {point}, {distance} mm away from its end marker at {end}",
+        de: "der Pfad hört bei {point} auf, {distance} mm neben seiner Endmarke bei {end}",
+        help_en: "close the gap: let the last segment end at the centre of the end marker",
+        help_de: "die Lücke schließen: das letzte Segment im Mittelpunkt der Endmarke enden lassen",
+    }
+    /// A path that runs past its end marker into a dead end.
+    END_PASSED: EndNotReached {
+        en: "the path runs past its end marker at {end} and stops at {point}",
+        de: "der Pfad läuft an seiner Endmarke bei {end} vorbei und hört bei {point} auf",
+        help_en: "draw what leads from there back to the end marker; or, if what goes on from the end marker is a helper line, remove it or move it to another layer; move the end marker to {point} only if the path is to end there",
+        help_de: "zeichnen, was von dort zur Endmarke zurückführt; oder, wenn hinter der Endmarke eine Hilfslinie folgt, sie entfernen oder auf einen anderen Layer legen; die Endmarke nur dann nach {point} verschieben, wenn der Pfad dort enden soll",
+    }
     /// An end that is not reached although all segments are traversed.
     END_NOT_REACHED: EndNotReached {
         en: "the path stops at {point}, but its end marker is at {end}",
         de: "der Pfad hört bei {point} auf, seine Endmarke ist aber bei {end}",
-        help_en: "move the end marker there, or draw the missing segments between the two points",
-        help_de: "die Endmarke dorthin verschieben oder die fehlenden Segmente dazwischen zeichnen",
+        help_en: "draw the missing segments between the two points; or, if the path ends in a helper line, remove it or move it to another layer; move the end marker to {point} only if the path is to end there",
+        help_de: "die fehlenden Segmente dazwischen zeichnen; oder, wenn der Pfad in einer Hilfslinie endet, sie entfernen oder auf einen anderen Layer legen; die Endmarke nur dann nach {point} verschieben, wenn der Pfad dort enden soll",
     }
     /// A path that has no segments.
     EMPTY_PATH: EmptyPath {

@@ -10,11 +10,19 @@ use crate::chain::Item;
 use crate::element::{Element, diagnostic_point};
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind, SubpathName};
-use crate::read::TextCircle;
 use crate::walk::{MAX_SKIPPED_GAP, OpenEnds, Walker};
 
 /// Tolerance in mm within which a point is considered to be on a curve: the offset is invisible on screen.
 const ON_CURVE_TOLERANCE: f64 = 0.001;
+
+/// An end of a remaining segment that a small gap separates from the end of a traversed one.
+struct EndBeside {
+    segment: usize,
+    end: Xy,
+    /// The traversed segment.
+    other: usize,
+    distance: f64,
+}
 
 impl Walker<'_> {
     pub(super) fn empty_path_problem(&self) -> Diagnostic {
@@ -22,39 +30,92 @@ impl Walker<'_> {
     }
 
     pub(super) fn nothing_continues(&self) -> Diagnostic {
-        if let Some(segment) = self.last.filter(|last| self.is_drawn_twice(*last)) {
-            let problem = Diagnostic::new(&messages::DRAWN_TWICE)
-                .with("element", self.word(segment))
-                .with("point", diagnostic_point(self.ends.of(segment)[0]))
-                .with("left", self.left);
-            return self.path.origin(&self.path.segments[segment]).at(problem);
+        if let Some(problem) = self.last.and_then(|last| self.runs_back_on_copy(last)) {
+            return problem;
         }
-        let begin = self.begin_on_another();
-        let problem = match begin {
-            Some((segment, begin)) => Diagnostic::new(&messages::BEGINS_ON_OTHER)
-                .with("element", self.word(segment))
-                .with("point", diagnostic_point(begin)),
-            None if self.is_dead_end() => Diagnostic::new(&messages::DEAD_END),
-            None => Diagnostic::new(&messages::NOTHING_CONTINUES),
-        };
-        let problem = problem.with("left", self.left);
         let last = self.last.map(|segment| self.path.origin(&self.path.segments[segment]));
-        let problem = last.as_ref().unwrap_or(&self.path.start_origin).at(problem);
-        let mut problem = self.with_turn_marker_beside(problem);
-        problem.place.point = Some(diagnostic_point(self.at));
-        if begin.is_some() { problem } else { self.with_hints(problem) }
+        let report = |problem: Diagnostic| {
+            let origin = last.as_ref().unwrap_or(&self.path.start_origin);
+            let mut problem = origin.at(problem.with("left", self.left));
+            problem.place.point = Some(diagnostic_point(self.at));
+            problem
+        };
+        let is_dead_end = self.passed_branch().is_some() && self.duplicate_segment().is_none();
+        if let Some(problem) = self.begins_on_another() {
+            report(problem)
+        } else if let Some((at, distance)) = self.turn_marker_beside().filter(|_| is_dead_end) {
+            let problem = Diagnostic::new(&messages::TURN_MARKER_BESIDE_TIP);
+            report(problem.with("point", diagnostic_point(at)).with("distance", distance))
+        } else if self.has_open_end_beside() || !is_dead_end {
+            self.with_hints(report(Diagnostic::new(&messages::NOTHING_CONTINUES)))
+        } else if let Some((segment, end)) = self.traversed_end_beside() {
+            report(
+                Diagnostic::new(&messages::ENDS_BESIDE_TRAVERSED)
+                    .with("element", self.word(segment))
+                    .with("point", diagnostic_point(end))
+                    .with("distance", (end - self.at).norm()),
+            )
+        } else {
+            self.with_hints(report(Diagnostic::new(&messages::DEAD_END)))
+        }
     }
 
-    /// Returns the nearest segment that was not reached, and the point at which it begins, if that point is in the middle of a traversed segment.
-    fn begin_on_another(&self) -> Option<(usize, Xy)> {
-        let (segment, begin, _) = self.nearest_end(self.at)?;
-        self.segment_through(begin).map(|_| (segment, begin))
+    /// Returns the problem that a segment lies on another one, wholly or in part, so that the path runs back along it.
+    fn runs_back_on_copy(&self, segment: usize) -> Option<Diagnostic> {
+        let (segment, message) = if self.is_drawn_twice(segment) {
+            (segment, &messages::DRAWN_TWICE)
+        } else {
+            (self.part_drawn_twice(segment)?, &messages::PART_DRAWN_TWICE)
+        };
+        let problem = Diagnostic::new(message)
+            .with("element", self.word(segment))
+            .with("point", diagnostic_point(self.ends.of(segment)[0]))
+            .with("left", self.left);
+        Some(self.path.origin(&self.path.segments[segment]).at(problem))
     }
 
-    /// Whether the nearest remaining segment branches off at a point that the walk has already passed, and no segment is drawn twice.
-    fn is_dead_end(&self) -> bool {
-        let Some((_, end, _)) = self.nearest_end(self.at) else { return false };
-        self.is_passed(end) && self.duplicate_segment().is_none()
+    /// Returns the problem that the nearest segment that was not reached begins in the middle of a traversed one, unless that is a small gap.
+    fn begins_on_another(&self) -> Option<Diagnostic> {
+        let (segment, begin, distance) = self.nearest_end(self.at)?;
+        let other = self.segment_through(begin)?;
+        let is_near = distance <= MAX_SKIPPED_GAP;
+        let problem = if !is_near {
+            Diagnostic::new(&messages::BEGINS_ON_OTHER)
+        } else if Some(other) == self.last {
+            Diagnostic::new(&messages::TOO_LONG).with("distance", distance)
+        } else {
+            return None;
+        };
+        Some(problem.with("element", self.word(segment)).with("point", diagnostic_point(begin)))
+    }
+
+    /// Whether only a small gap separates the current point from a segment that was not reached.
+    fn has_open_end_beside(&self) -> bool {
+        let nearest = self.nearest_end(self.at);
+        nearest.is_some_and(|(_, end, distance)| distance <= MAX_SKIPPED_GAP && !self.is_foot_of_last(end))
+    }
+
+    /// Returns the nearest end of a traversed segment, if only a small gap separates it from the current point. After a short segment there is none:
+    /// what lies near it may be the way that led there.
+    fn traversed_end_beside(&self) -> Option<(usize, Xy)> {
+        self.last.filter(|last| self.length(*last) > MAX_SKIPPED_GAP)?;
+        let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
+        let ends = traversed.flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));
+        let distance = |(_, end): &(usize, Xy)| (end - self.at).norm();
+        let beside = ends.filter(|end| distance(end) <= MAX_SKIPPED_GAP && !coincide(end.1, self.at));
+        beside.reduce(|best, other| if distance(&other) < distance(&best) { other } else { best })
+    }
+
+    /// Whether the last segment leads from a point to the current one and is as short as a gap.
+    fn is_foot_of_last(&self, point: Xy) -> bool {
+        self.last.is_some_and(|last| {
+            self.length(last) <= MAX_SKIPPED_GAP && self.ends.of(last).iter().any(|end| coincide(*end, point))
+        })
+    }
+
+    /// Returns the length of a segment; 0 for holes and circles.
+    fn length(&self, segment: usize) -> f64 {
+        self.path.curve(&self.path.segments[segment]).map_or(0.0, |curve| curve.length())
     }
 
     /// Whether a traversed segment ends at a point.
@@ -75,8 +136,8 @@ impl Walker<'_> {
     pub(super) fn turn_found_nothing(&self, marker: usize) -> Diagnostic {
         let problem = Diagnostic::new(&messages::TURN_FOUND_NOTHING).with("left", self.left);
         let problem = self.path.turns[marker].origin.at(problem);
-        match self.end_beside_way_back() {
-            Some((segment, end, distance)) => problem.note(
+        match self.end_beside_traversed() {
+            Some(EndBeside { segment, end, distance, .. }) => problem.note(
                 &messages::END_BESIDE_WAY_BACK,
                 vec![
                     ("element", self.word(segment).into()),
@@ -88,79 +149,100 @@ impl Walker<'_> {
         }
     }
 
-    /// Returns the end of a remaining segment that is nearest to the traversed segments' ends, with its distance, if that is a small gap.
-    fn end_beside_way_back(&self) -> Option<(usize, Xy, f64)> {
+    /// Returns the end of a remaining segment that is nearest to the traversed segments' ends, if only a small gap separates them.
+    fn end_beside_traversed(&self) -> Option<EndBeside> {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
         let passed = OpenEnds::new(traversed, &self.ends);
         let beside = self.unreached_segments().flat_map(|segment| {
-            let ends = self.ends.of(segment).into_iter();
-            ends.filter_map(|end| Some((segment, end, passed.distance(end)?))).collect::<Vec<_>>()
+            let [one, two] = self.ends.of(segment);
+            // The tip of a short branch is near the point where it branches off.
+            let is_short_branch = |from| self.length(segment) <= MAX_SKIPPED_GAP && self.is_passed(from);
+            let ends = [(one, two), (two, one)].map(|(end, from)| {
+                let (other, distance) = passed.nearest(end)?;
+                let is_gap = !self.is_passed(end) && distance <= MAX_SKIPPED_GAP && !is_short_branch(from);
+                is_gap.then_some(EndBeside { segment, end, other, distance })
+            });
+            ends.into_iter().flatten()
         });
-        let nearest = beside.reduce(|best, other| if other.2 < best.2 { other } else { best })?;
-        (nearest.2 <= MAX_SKIPPED_GAP).then_some(nearest)
+        beside.reduce(|best, other| if other.distance < best.distance { other } else { best })
     }
 
-    /// Adds a note about the nearest turn marker, if only a small gap separates it from the current point.
-    fn with_turn_marker_beside(&self, problem: Diagnostic) -> Diagnostic {
+    /// Returns the nearest turn marker, with its distance, if only a small gap separates it from the current point.
+    fn turn_marker_beside(&self) -> Option<(Xy, f64)> {
         let distances = self.path.turns.iter().map(|turn| (turn.at, (turn.at - self.at).norm()));
         let nearest = distances.reduce(|best, other| if other.1 < best.1 { other } else { best });
-        match nearest.filter(|(_, distance)| *distance <= MAX_SKIPPED_GAP) {
-            Some((at, distance)) => problem.note(
-                &messages::TURN_MARKER_BESIDE_TIP,
-                vec![("point", diagnostic_point(at).into()), ("distance", distance.into())],
-            ),
-            None => problem,
-        }
+        nearest.filter(|(_, distance)| *distance <= MAX_SKIPPED_GAP)
     }
 
     pub(super) fn unreached_problem(&self) -> Diagnostic {
         let all = Curves::new(self.path, 0..self.path.segments.len());
         let twice = self.unreached_segments().find(|segment| all.has_duplicate(*segment));
-        let one = twice
-            .or_else(|| self.unreached_segments().next())
-            .map(|segment| (segment, self.ends.of(segment)[0]));
-        let mut problem = Diagnostic::new(&messages::UNREACHED);
-        let branch = self.passed_branch().filter(|_| twice.is_none());
-        if let Some((segment, start)) = branch.or(one) {
-            if twice.is_some() {
-                problem = Diagnostic::new(&messages::UNREACHED_TWICE);
-            } else if branch.is_some() {
-                problem = Diagnostic::new(&messages::UNREACHED_BRANCH);
-            } else if let Some(other) = self.segment_through(start) {
-                problem = if self.word(other) == self.word(segment) {
-                    Diagnostic::new(&messages::NO_END_THERE_ALIKE)
-                } else {
-                    Diagnostic::new(&messages::NO_END_THERE).with("other", self.word(other))
-                };
+        let first = |segment: usize| (segment, self.ends.of(segment)[0]);
+        let branch = self.passed_branch();
+        let remaining = branch.or_else(|| self.unreached_segments().next().map(first));
+        let part_twice = remaining.and_then(|(segment, _)| self.part_drawn_twice(segment));
+        let about = |message, (segment, point): (usize, Xy)| {
+            let problem = Diagnostic::new(message).with("element", self.word(segment));
+            problem.with("point", diagnostic_point(point))
+        };
+        let problem = if let Some(segment) = twice {
+            about(&messages::UNREACHED_TWICE, first(segment))
+        } else if let Some(segment) = part_twice {
+            about(&messages::UNREACHED_PART_TWICE, first(segment))
+        } else if let Some(EndBeside { segment, end, other, distance }) = self.end_beside_traversed() {
+            let [one, two] = self.ends.of(other);
+            let beside = if (two - end).norm() < (one - end).norm() { two } else { one };
+            about(&messages::UNREACHED_BESIDE, (segment, end))
+                .with("other", self.word(other))
+                .with("end", diagnostic_point(beside))
+                .with("distance", distance)
+        } else if let Some(branch) = branch {
+            about(&messages::UNREACHED_BRANCH, branch)
+        } else if let Some((segment, point)) = remaining {
+            match self.segment_through(point).map(|other| self.word(other)) {
+                Some(other) if other == self.word(segment) => {
+                    about(&messages::NO_END_THERE_ALIKE, (segment, point))
+                }
+                Some(other) => about(&messages::NO_END_THERE, (segment, point)).with("other", other),
+                None => about(&messages::UNREACHED, (segment, point)),
             }
-            problem = problem.with("element", self.word(segment)).with("point", diagnostic_point(start));
-        }
-        let is_told = problem.message == &messages::UNREACHED_TWICE;
+        } else {
+            Diagnostic::new(&messages::UNREACHED)
+        };
+        let is_told = twice.is_some() || part_twice.is_some();
         let problem = self.path.end_origin.at(problem.with("left", self.left));
         if is_told { problem } else { self.with_duplicate(problem) }
     }
 
     /// Returns a traversed segment that passes through a point without ending there.
     fn segment_through(&self, point: Xy) -> Option<usize> {
-        let at = TextCircle { centre: point, radius: 0.0 };
         let is_on = |curve: Curve| {
-            let beside = match &curve {
-                Curve::Line(line) => at.distance_to_line(line),
-                Curve::Arc(arc) => at.distance_to_arc(arc),
-            };
-            let is_end = coincide(curve.start(), point) || coincide(curve.end(), point);
-            !is_end && beside.is_some_and(|distance| distance < ON_CURVE_TOLERANCE)
+            let is_end =
+                [curve.start(), curve.end()].iter().any(|end| (end - point).norm() < ON_CURVE_TOLERANCE);
+            !is_end && curve.distance_to(point) < ON_CURVE_TOLERANCE
         };
         let mut traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
         traversed.find(|segment| self.path.curve(&self.path.segments[*segment]).is_some_and(is_on))
     }
 
     pub(super) fn end_not_reached(&self, stopped_at: Xy) -> Diagnostic {
-        let problem = match self.duplicate_segment() {
-            Some(segment) => Diagnostic::new(&messages::END_NOT_REACHED_TWICE)
-                .with("element", self.word(segment))
-                .with("begin", diagnostic_point(self.ends.of(segment)[0])),
-            None => Diagnostic::new(&messages::END_NOT_REACHED),
+        let end = self.path.end;
+        let part = self.last.and_then(|last| self.part_drawn_twice(last));
+        let about_copy = |message, segment: usize| {
+            let problem = Diagnostic::new(message).with("element", self.word(segment));
+            problem.with("begin", diagnostic_point(self.ends.of(segment)[0]))
+        };
+        let distance = (end - stopped_at).norm();
+        let problem = if let Some(segment) = self.duplicate_segment() {
+            about_copy(&messages::END_NOT_REACHED_TWICE, segment)
+        } else if let Some(segment) = part {
+            about_copy(&messages::END_NOT_REACHED_PART_TWICE, segment)
+        } else if distance <= MAX_SKIPPED_GAP && !self.is_foot_of_last(end) {
+            Diagnostic::new(&messages::STOPS_BESIDE_END).with("distance", distance)
+        } else if self.is_passed(end) && !coincide(end, self.path.start) {
+            Diagnostic::new(&messages::END_PASSED)
+        } else {
+            Diagnostic::new(&messages::END_NOT_REACHED)
         };
         self.path.end_origin.at(problem
             .with("point", diagnostic_point(stopped_at))
@@ -202,6 +284,34 @@ impl Walker<'_> {
     fn is_drawn_twice(&self, segment: usize) -> bool {
         let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
         Curves::new(self.path, traversed).has_duplicate(segment)
+    }
+
+    /// Returns the shorter of two segments of which one lies on part of the other: this one and any other. If both have a text, the user cuts that
+    /// part twice on purpose.
+    fn part_drawn_twice(&self, segment: usize) -> Option<usize> {
+        let kind = |segment: usize| std::mem::discriminant(&self.path.segments[segment].kind);
+        let has_text = |segment: usize| {
+            let element = self.path.segments[segment].element;
+            self.path.drawn.elements[element as usize].text.is_some()
+        };
+        let lies_on = |part: usize, whole: usize| {
+            let [Some(part), Some(whole)] =
+                [part, whole].map(|segment| self.path.curve(&self.path.segments[segment]))
+            else {
+                return false;
+            };
+            let mut points = [part.start(), middle(&part), part.end()].into_iter();
+            points.all(|point| whole.distance_to(point) < ON_CURVE_TOLERANCE)
+        };
+        let others = (0..self.path.segments.len()).filter(|other| {
+            *other != segment && kind(*other) == kind(segment) && !(has_text(*other) && has_text(segment))
+        });
+        let mut shorter = others.filter_map(|other| {
+            let is_shorter = self.length(segment) < self.length(other);
+            let [part, whole] = if is_shorter { [segment, other] } else { [other, segment] };
+            lies_on(part, whole).then_some(part)
+        });
+        shorter.next()
     }
 
     /// Returns a segment that lies on a traversed one: either it was not reached, or the walk went along both.

@@ -175,7 +175,8 @@ impl<'a> Walker<'a> {
 
     /// Returns the end at which the walk continues after a small gap, to find independent problems.
     fn end_beyond_gap(&self, problem: Option<&Diagnostic>) -> Option<Xy> {
-        let is_gap = problem.is_some_and(|problem| problem.message == &paths::NOTHING_CONTINUES);
+        let is_gap = problem
+            .is_some_and(|problem| [&paths::NOTHING_CONTINUES, &paths::TOO_LONG].contains(&problem.message));
         let (_, end, distance) =
             self.nearest_end(self.at).filter(|_| is_gap && self.gaps.len() < MAX_GAPS)?;
         (distance <= MAX_SKIPPED_GAP).then_some(end)
@@ -351,12 +352,6 @@ impl OpenEnds {
         let nearest = points.take_while(|(_, other)| *other <= distance);
         let firsts = nearest.filter_map(|(end, _)| self.segments.get(&bits(*end))?.first());
         Some((*firsts.min()?, distance))
-    }
-
-    /// Returns the distance in mm from a point to the nearest end.
-    fn distance(&self, point: Xy) -> Option<f64> {
-        let nearest = self.points.nearest_neighbor([point.x, point.y])?;
-        Some((Xy::from(*nearest) - point).norm())
     }
 }
 

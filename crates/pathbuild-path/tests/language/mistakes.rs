@@ -256,9 +256,17 @@ fn a_line_drawn_twice_is_not_an_end_marker_out_of_place() {
     assert_one(&found("mill 0,0 20,0\nmill 20,0 0,0\nend 20,0"), "PB403 ", "delete one of the two");
     assert_one(
         &found("mill 0,0 20,0\nmill 20,0 0,5\nend 20,0"),
-        "PB403 ",
-        "draw the missing segments between the two points",
+        "PB403 the path runs past its end marker at (20, 0) and stops at (0, 5); draw what leads",
+        "only if the path is to end there",
     );
+    assert_one(
+        &found("mill 0,0 20,0\nend 40,0"),
+        "PB403 the path stops at (20, 0), but its end marker is at (40, 0); draw the missing segments",
+        "only if the path is to end there",
+    );
+    // The last line of a closed outline is missing: its end is also its start.
+    let open = found("mill 0,0 20,0\nmill 20,0 20,20\nend 0,0");
+    assert_one(&open, "PB403 the path stops at (20, 20), but its end", "only if the path is to end there");
 }
 
 #[test]
@@ -267,8 +275,8 @@ fn a_dead_end_wants_a_turn_marker() {
     let branch = "mill 0,0 20,0\nmill 20,0 20,10\nmill 20,0 50,0\nend 50,0";
     assert_one(
         &found(branch),
-        "PB401 the path breaks off here, at the tip of a dead end",
-        "the tool goes back",
+        "PB401 the path breaks off here, at the tip of a dead end; segments not reached: 1; draw the segment that",
+        "only if the tool is to go along it and back",
     );
     assert_one(
         &found("mill 0,0 20,0\nmill 20.2,0 50,0\nend 50,0"),
@@ -401,7 +409,7 @@ fn a_dead_end_that_is_passed_wants_a_smaller_n() {
         messages_with_help(&compile(&path(P, &drawn)).found)
     };
     let passed = found(" \"N1\"", " \"N2\"");
-    assert_one(&passed, "PB402 segments not reached: 1; the path went past (20, 0)", "at its tip");
+    assert_one(&passed, "PB402 segments not reached: 1; the path went past (20, 0)", "of 1.5 mm) there");
     assert_eq!(found(" \"N2\"", " \"N1\""), [""; 0]);
 }
 
@@ -506,11 +514,11 @@ fn points_that_look_alike_are_told_apart() {
     let text = |drawing: &str| compile(&path(P, drawing)).found[0].text(Lang::En);
     assert_eq!(
         text("mill 0,0 20,0\nend 20,0.0004"),
-        "the path stops at (20, 0), but its end marker is at (20, 0.0004)"
+        "the path stops at (20, 0), 0.0004 mm away from its end marker at (20, 0.0004)"
     );
     assert_eq!(
         text("mill 0,0 61.5,36.4996\nend 61.5,36.5"),
-        "the path stops at (61.5, 36.4996), but its end marker is at (61.5, 36.5)"
+        "the path stops at (61.5, 36.4996), 0.0004 mm away from its end marker at (61.5, 36.5)"
     );
     let (_, notes) = noted(&path(P, "mill 0,0 20,0\nmill 20.0004,0 40,0\nend 40,0"));
     assert_eq!(notes, ["the nearest open end is at (20, 0), 0.0004 mm away (a milling segment)"]);

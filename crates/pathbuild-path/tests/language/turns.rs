@@ -202,14 +202,15 @@ fn notes_of(statements: &str) -> Vec<String> {
 
 #[test]
 fn a_turn_marker_beside_the_tip_is_named() {
-    let notes = |marker: &str| {
-        notes_of(&format!("mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9999\"\nturn {marker}\nend 40,0"))
+    let text = |marker: &str| {
+        let drawn = format!("mill 0,0 20,0 20,10\nmill 20,0 40,0 \"N9999\"\nturn {marker}\nend 40,0");
+        compile(&path(P, &drawn)).found[0].text(pathbuild_diagnostic::Lang::En)
     };
-    assert_eq!(
-        notes("20,10.5")[0],
-        "the turn marker at (20, 10.5) is 0.5 mm away: it must be exactly at the tip, `join-tolerance` does not apply to it"
-    );
-    assert!(notes("20,11.1")[0].starts_with("the nearest open end"));
+    let tip = "the path breaks off here, at the tip of a dead end";
+    let left = "segments not reached: 1";
+    assert_eq!(text("20,10.5"), format!("{tip}: the turn marker at (20, 10.5) is 0.5 mm away; {left}"));
+    assert_eq!(text("20,11"), format!("{tip}: the turn marker at (20, 11) is 1 mm away; {left}"));
+    assert_eq!(text("20,11.01"), format!("{tip}; {left}"));
 }
 
 #[test]

@@ -252,3 +252,167 @@ fn a_gap_does_not_hide_another_mistake() {
     let pieces: Vec<String> = (0..200).map(|at| format!("mill {at},0 {at}.5,0\n")).collect();
     assert_eq!(found(&format!("{}end 199.5,0", pieces.concat())).0.len(), 11);
 }
+
+/// Returns code, text and help of the first finding about a path with these statements.
+fn first(statements: &str) -> String {
+    let compiled = compile(&path(P, statements));
+    let found = &compiled.found[0];
+    format!("{} {}; {}", found.code(), found.text(Lang::En), found.help(Lang::En).unwrap_or_default())
+}
+
+#[track_caller]
+fn assert_first(statements: &str, begin: &str) {
+    let first = first(statements);
+    assert!(first.starts_with(begin), "{first}");
+}
+
+const DEAD_END: &str = "PB401 the path breaks off here, at the tip of a dead end; segments not reached: 1; draw the segment that is missing here; or, if";
+
+/// The outline 20,0 40,0 40,20 20,20 20,0 that does not close is no dead end: nothing is to be milled there and back.
+#[test]
+fn a_gap_in_a_closed_outline_is_to_be_closed() {
+    let outline = |last: &str| {
+        format!("sweep 0,0 20,0\nmill 20,0 40,0 40,20 20,20 {last}\nsweep 20,0 60,-9\nend 60,-9")
+    };
+    let gap = "PB401 the path breaks off here; segments not reached: 1; close the gap";
+    for last in ["20,0.2", "20,1", "20.0004,0", "20,0.00004"] {
+        assert_first(&outline(last), gap);
+    }
+    assert_first(&outline("20,1.01"), DEAD_END);
+    assert_first(&outline("20,15"), DEAD_END);
+    // The path goes on elsewhere: only the beginning of the outline is near.
+    let elsewhere = |gap: f64| {
+        let last = 20.0 + gap;
+        format!(
+            "sweep 0,0 20,0\nmill 20,0 40,0 \"N1\"\nmill 40,0 40,20 20,20 20,{gap} {last},{gap}\nsweep 40,0 60,-9\nend 60,-9"
+        )
+    };
+    assert_first(
+        &elsewhere(0.5).replace("20,0.5 20.5,0.5", "20,0.5"),
+        "PB401 the path breaks off here, 0.5 mm from (20, 0), where a sweep ends; segments not reached: 1; close the gap",
+    );
+    assert_first(&elsewhere(1.01).replace("20,1.01 21.01,1.01", "20,1.01"), DEAD_END);
+}
+
+/// The point where a short dead end begins is near its tip, but there is no gap.
+#[test]
+fn a_short_dead_end_is_no_gap() {
+    let branch = |tip: &str| format!("mill 0,0 20,0\nmill 20,0 {tip}\nmill 20,0 40,0 \"N9999\"\nend 40,0");
+    for tip in ["20,0.5", "20,1", "20,1.01"] {
+        assert_first(&branch(tip), DEAD_END);
+    }
+}
+
+/// A helper line at a corner is longer than a gap; its other end may be nearer to an end that the path has not reached yet.
+#[test]
+fn a_helper_line_is_a_dead_end_wherever_the_next_end_is() {
+    assert_first(
+        "mill 0,0 20,0\nmill 20,0 30,12\nmill 20,0 50,0 50,20\nend 50,20",
+        &DEAD_END.replace('1', "2").replace("PB402", "PB401"),
+    );
+    // Without a branch that was passed, something is missing.
+    assert_first(
+        "mill 0,0 20,0\nmill 40,0 60,0\nend 60,0",
+        "PB401 the path breaks off here; segments not reached: 1; close the gap, draw the missing segment",
+    );
+}
+
+#[test]
+fn a_line_that_is_too_long_is_to_end_at_the_next() {
+    let next = |x: &str| format!("mill 0,0 20,0\nsubpath {x},0 {x},30 \">1111.1P\"\nend {x},30");
+    for (x, distance) in [("19.998", "0.002"), ("19.995", "0.005"), ("19", "1")] {
+        assert_first(
+            &next(x),
+            &format!(
+                "PB401 the path breaks off here, {distance} mm past ({x}, 0), where a subpath begins; segments"
+            ),
+        );
+    }
+    assert_first(
+        &next("18.99"),
+        "PB401 the path breaks off here: a subpath begins at (18.99, 0), in the middle of",
+    );
+    // On the screen, both are at one point: a gap.
+    assert_first(&next("19.9995"), "PB401 the path breaks off here; segments not reached: 1; close the gap");
+    // It begins in the middle of the line before the last one.
+    let beside = "mill 0,0 20,0\nmill 20,0 20,0.5\nmill 19.9,0 19.9,-30\nend 19.9,-30";
+    assert_first(beside, "PB401 the path breaks off here; segments not reached: 1; close the gap");
+}
+
+/// A hole beside the ends of two sweeps, and on one of them.
+#[test]
+fn a_hole_beside_its_sweep_is_told_with_the_distance() {
+    let hole = |at: &str| format!("sweep 0,0 20,0\nsweep 20,0 40,0\ncircle {at} d 8\nend 40,0");
+    assert_eq!(codes_of(&hole("20.00003,0")), [""; 0]);
+    for (at, point, distance) in [
+        ("20,0.00004", "(20, 0.00004)", "0.00004"),
+        ("20.0001,0", "(20.0001, 0)", "0.0001"),
+        ("20,0.005", "(20, 0.005)", "0.005"),
+        ("20,1", "(20, 1)", "1"),
+        ("20.5,0", "(20.5, 0)", "0.5"),
+    ] {
+        let first = first(&hole(at));
+        let text =
+            format!("is {distance} mm away from (20, 0), where a sweep ends; move the one to the other");
+        assert!(first.starts_with("PB402 segments not reached: 1; a helical circle at "), "{first}");
+        assert!(first.contains(&text), "{point}: {first}");
+    }
+    assert_first(
+        &hole("20,1.01"),
+        "PB402 the path ends here; segments not reached: 1, including a helical circle",
+    );
+    assert_first(
+        &hole("21.01,0"),
+        "PB402 segments not reached: 1; a helical circle at (21.01, 0) touches a sweep",
+    );
+}
+
+/// The tip of a short branch is near the path because it begins there.
+#[test]
+fn a_branch_that_is_passed_is_no_gap_however_short() {
+    let branch =
+        |tip: &str| format!("mill 0,0 20,0 \"N1\"\nmill 20,0 40,0 \"N2\"\nmill 20,0 {tip} \"N3\"\nend 40,0");
+    for tip in ["20,0.5", "20,1", "20,5"] {
+        assert_first(&branch(tip), "PB402 segments not reached: 1; the path went past (20, 0), where");
+    }
+    assert_first(
+        &branch("40,0.5"),
+        "PB402 segments not reached: 1; a milling segment at (40, 0.5) is 0.5 mm away from (40, 0)",
+    );
+}
+
+#[test]
+fn an_end_marker_beside_the_last_end_is_told_with_the_distance() {
+    let ends = |x: &str| format!("mill 0,0 20,0\nend {x},0");
+    for (x, distance) in [("20.00004", "0.00004"), ("20.2", "0.2"), ("21", "1"), ("19", "1")] {
+        assert!(first(&ends(x)).contains(&format!(", {distance} mm away from its end marker")), "{x}");
+    }
+    assert_first(&ends("21.01"), "PB403 the path stops at (20, 0), but its end marker is at (21.01, 0)");
+    // A short helper line behind the end marker.
+    assert_first(
+        "mill 0,0 20,0\nmill 20,0 20.5,0\nend 20,0",
+        "PB403 the path runs past its end marker at (20, 0)",
+    );
+    // A closed outline with a gap.
+    assert_first("mill 0,0 20,0 20,20 0,0.2\nend 0,0", "PB403 the path stops at (0, 0.2), 0.2 mm away");
+}
+
+/// A line or arc that lies on part of another one is neither a dead end nor a wrong end.
+#[test]
+fn a_part_that_is_drawn_twice_is_named() {
+    let part =
+        |code: &str, point: &str| format!("{code} a milling segment at {point} lies on part of a longer one");
+    assert_first("mill 0,0 20,0\nmill 0,0 10,0\nend 20,0", &part("PB401", "(0, 0)"));
+    assert_first("mill 0,0 20,0\nmill 5,0 15,0\nend 20,0", &part("PB402", "(5, 0)"));
+    let back = first("mill 0,0 20,0\nmill 10,0 20,0\nend 20,0");
+    assert!(back.starts_with("PB403 ") && back.contains("(10, 0) lies on part of a longer one"), "{back}");
+    let arcs = "mill arc 0,0 to 20,0 centre 10,0\nmill arc 0,0 to 10,-10 centre 10,0\nend 20,0";
+    assert_first(arcs, &part("PB401", "(0, 0)"));
+    // Both have a text: that part is cut twice on purpose.
+    assert_first("mill 0,0 20,0 \"B0\"\nmill 0,0 10,0 \"B1\"\nend 20,0", DEAD_END);
+    // Beside it, on another kind of segment, and in another direction.
+    assert_first("mill 0,0 20,0\nmill 0,0 10,0.001\nend 20,0", DEAD_END);
+    assert_first("mill 0,0 20,0\nmill 0,0 10,0.0009\nend 20,0", &part("PB401", "(0, 0)"));
+    assert_first("sweep 0,0 20,0\nmill 0,0 10,0\nend 20,0", DEAD_END);
+    assert_first("mill 0,0 20,0\nmill 0,0 -10,0\nend 20,0", DEAD_END);
+}
