@@ -13,7 +13,7 @@ use pathbuild_motion::Turning;
 
 use crate::findings::EngineOutput;
 use crate::job::{Job, Operation, Units};
-use crate::line_words::{CommentMarks, first_other_line};
+use crate::line_words::{CommentMarks, first_other_line, words};
 use crate::read_back::{self, ReadBackOptions};
 use crate::rs274_translation::TranslatedText;
 use crate::target::{self, Target};
@@ -183,7 +183,8 @@ impl PostDefinition {
             let problems = problems.into_iter().map(|problem| read_back::in_output(problem, text, &origins));
             problems.map(|problem| problem.in_file(&self.file)).collect::<Vec<_>>()
         };
-        let doubts = found.map_err(|errors| {
+        let doubts = found.map_err(|mut errors| {
+            self.explain_centres(&mut errors, &output.text, &shadow);
             let causes = self.empty_motion().into_iter();
             causes.chain(placed(errors, &output.text)).collect::<Vec<_>>()
         })?;
@@ -229,6 +230,25 @@ impl PostDefinition {
             milliseconds,
         };
         read_back::check(text, job, &expected)
+    }
+
+    /// Adds a note to the first error in an arc if the definition writes absolute centres but its output does not state that.
+    fn explain_centres(&self, errors: &mut [Diagnostic], text: &[u8], shadow: &TranslatedText) {
+        let is_absolute = match &self.engine {
+            Engine::CamBam(definition) => definition.writes_absolute_centres(),
+            Engine::Cad6(definition) => definition.writes_absolute_centres(),
+        };
+        if !is_absolute || shadow.text.contains("G90.1") {
+            return;
+        }
+        let has_centre = |error: &&mut Diagnostic| {
+            let line = error.place.line.and_then(|number| read_back::line_of(text, number));
+            let found = words(&line.unwrap_or_default(), &CommentMarks::default());
+            found.words.iter().any(|word| matches!(word.letter, 'I' | 'J'))
+        };
+        if let Some(error) = errors.iter_mut().find(has_centre) {
+            error.notes.push(Note { message: &posts::CENTRES_NOT_STATED, arguments: Vec::new() });
+        }
     }
 
     /// Returns the error about a text that should write moves but writes nothing. It is reported only with the errors that follow from it, because a

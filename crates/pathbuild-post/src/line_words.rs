@@ -45,7 +45,9 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
             if found.foreign.is_none() && !matches!(first, '%' | '/' | ':' | ' ' | '\t') {
                 found.foreign = rest.split([' ', '\t']).next().map(str::to_owned);
             }
-            &rest[first.len_utf8()..]
+            let after = &rest[first.len_utf8()..];
+            // `:10` is a block number.
+            if first == ':' { after.trim_start_matches(|c: char| c.is_ascii_digit()) } else { after }
         };
     }
     found

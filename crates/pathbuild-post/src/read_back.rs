@@ -1,6 +1,8 @@
 //! Reads the text of a post back and compares it with the job: the moves, and at each cut the tool, its length and the spindle.
 //! (book: program/posts, "Before a program is written")
 
+use std::borrow::Cow;
+
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
 use pathbuild_gcode::dialect::Dialect;
@@ -122,7 +124,7 @@ pub(super) fn check(
             doubts.extend(unused_words(&read.problems));
         }
         doubts.extend(translated.and_then(disputed_words_warning));
-        doubts.extend(translated.iter().flat_map(|translated| translated.unstated.iter().cloned()));
+        doubts.extend(translated.iter().flat_map(|translated| translated.warnings.iter().cloned()));
         let shortest = tolerance.place.max(DWELL_TOLERANCE);
         problems.extend(dwells::check(&read.steps, *translated, job, shortest).map(as_finding_of_post));
         if target.is_some() {
@@ -247,13 +249,18 @@ fn disputed_words_warning(translated: &TranslatedText) -> Option<Diagnostic> {
     Some(doubt.at_line(*line, None))
 }
 
-/// Warns about words that select a work offset other than G54, or a tool length other than that of a tool (G43.1), because the job specifies neither.
+/// Warns about words that select a work offset other than G54, set a zero, or select a tool length other than that of a tool (G43.1), because
+/// the job specifies none of them.
 fn work_offset_warnings(steps: &[Step]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for step in steps {
         let doubt = match &step.action {
             Action::System { system, .. } if *system != WorkSystem::default() => {
                 Diagnostic::new(&posts::OFFSET_CHOSEN).quoting("word", system.name())
+            }
+            // G10 overwrites a stored zero even if this program does not use it.
+            Action::Change(Change::Offsets { code, is_followed, .. }) if *code == 100 || !is_followed => {
+                Diagnostic::new(&posts::ZERO_SET).quoting("word", code_name('G', *code))
             }
             Action::Change(Change::ToolLength(ToolLength::Other(code))) => {
                 Diagnostic::new(&posts::LENGTH_CHOSEN).quoting("word", code_name('G', *code))
@@ -324,9 +331,8 @@ pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineO
     let Some(number) = problem.place.line.take() else { return problem };
     let index = usize::try_from(number).unwrap_or(usize::MAX).saturating_sub(1);
     if problem.text.is_none()
-        && let Some(line) = output.split(|byte| *byte == b'\n').nth(index)
+        && let Some(line) = line_of(output, number)
     {
-        let line = String::from_utf8_lossy(line.trim_ascii_end());
         problem.text = Some(TextFault::new(&line, 0..line.len()));
     }
     if !has_line_in_message(&problem) {
@@ -340,6 +346,13 @@ pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineO
         problem.notes.push(Note { message, arguments });
     }
     problem
+}
+
+/// Returns a line of the output by its number, counted from 1.
+pub(super) fn line_of(output: &[u8], number: u32) -> Option<Cow<'_, str>> {
+    let index = usize::try_from(number).ok()?.checked_sub(1)?;
+    let line = output.split(|byte| *byte == b'\n').nth(index)?;
+    Some(String::from_utf8_lossy(line.trim_ascii_end()))
 }
 
 fn has_line_in_message(problem: &Diagnostic) -> bool {

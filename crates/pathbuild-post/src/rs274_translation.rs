@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::gcode;
+use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_gcode::interpret::{DisputedWords, UnionWord, code_name, union_word};
 
+use crate::findings::MAX_WARNINGS;
 use crate::job::Units;
 use crate::line_words::{LineWords, Word};
 
@@ -14,6 +15,8 @@ use crate::line_words::{LineWords, Word};
 #[derive(Debug)]
 pub(crate) struct Rs274Translation {
     text: String,
+    /// The word for the units of the definition.
+    units: &'static str,
     line: u32,
     doubtful: Vec<DoubtfulWord>,
     disputes: DisputedWords,
@@ -21,6 +24,8 @@ pub(crate) struct Rs274Translation {
     /// Whether the definition of the blank (workpiece) has begun in a Heidenhain program. Such a definition begins with G30 and ends with G31.
     is_blank_open: bool,
     modes: ModeWords,
+    /// Lines that are no G-code; `None` if the definition says that it writes such lines.
+    unreadable: Option<Vec<Diagnostic>>,
     /// Whether any line so far has words.
     has_words: bool,
     /// Whether a `%` follows the first words. Some controls end the program there.
@@ -77,8 +82,9 @@ pub struct TranslatedText {
     /// The G4 words, which the translation omits: line number and duration. It is unknown whether a duration is in seconds or
     /// milliseconds.
     pub dwells: Vec<(u32, f64)>,
-    /// Warnings if the program does not state the unit, the distance mode or the plane. The translation always states them.
-    pub unstated: Vec<Diagnostic>,
+    /// Warnings about lines that are no G-code, and about a unit, distance mode or plane that the program does not state although it
+    /// depends on them.
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// A word with an effect that the translation lacks.
@@ -108,39 +114,38 @@ const FRAME_STATEMENTS: [&str; 11] =
     ["TRANS", "ATRANS", "ROT", "AROT", "ROTS", "AROTS", "SCALE", "ASCALE", "MIRROR", "AMIRROR", "CYCLE800"];
 
 impl Rs274Translation {
-    /// Creates an empty translation. Units and the mode of arc centres are those of the definition until a line changes them.
-    pub(crate) fn new(units: Units, absolute_centres: bool) -> Self {
-        let units = if units == Units::Inches { "G20" } else { "G21" };
-        let centres = if absolute_centres { "G90.1" } else { "G91.1" };
-        let text = format!("{units} {centres} G90 G17 ");
+    /// Creates an empty translation. The units are those of the definition until a line changes them; the centres of arcs are distances from
+    /// the start, on which all controls agree. `has_other_lines` is set if the definition says that it writes lines that are no G-code.
+    pub(crate) fn new(units: Units, has_other_lines: bool) -> Self {
         Self {
-            text,
+            text: String::new(),
+            units: if units == Units::Inches { "G20" } else { "G21" },
             line: 1,
             doubtful: Vec::new(),
             disputes: DisputedWords::default(),
             dwells: Vec::new(),
             is_blank_open: false,
             modes: ModeWords::default(),
+            unreadable: (!has_other_lines).then(Vec::new),
             has_words: false,
             has_ended: false,
         }
     }
 
-    /// Translates a line with these words. `motion` is the number of the G word that a word of the definition's own in this line stands for. If
+    /// Translates a line with this text and these words. `motion` is the number of the G word that a word of the definition's own in this line stands for. If
     /// `is_mirrored`, one axis of the plane is reversed, so the direction of arcs is reversed too.
-    pub(crate) fn line(&mut self, line: &LineWords, motion: Option<u32>, is_mirrored: bool) {
+    pub(crate) fn line(&mut self, text: &str, line: &LineWords, motion: Option<u32>, is_mirrored: bool) {
         if self.enter_blank_definition(line) {
             return self.end_line();
         }
         let codes = |word: &&Word| word.letter == 'G';
         let is_motion = |word: &Word| matches!(tenths(word), 0..=30 | 310 | 382..=385 | 730 | 810..=890);
         let motion = motion.filter(|_| !line.words.iter().filter(codes).any(is_motion));
+        self.report_unreadable(text, line);
         self.report_dangerous(line, motion.is_some());
         self.modes.line(self.line, line, motion);
         if line.is_optional {
-            // In the first line, the modes of the definition are already written, and `/` must precede them as well.
-            let begin = if self.line == 1 { 0 } else { self.text.len() };
-            self.text.insert(begin, '/');
+            self.text.push('/');
         }
         // The coordinates of G4 are not positions.
         if line.words.iter().filter(codes).any(|word| tenths(word) == 40) {
@@ -161,9 +166,8 @@ impl Rs274Translation {
                     'A' | 'B' | 'C' | 'U' | 'V' | 'W' => {
                         self.report(word.letter.to_string(), Doubt::Dangerous);
                     }
-                    'D' | 'E' | 'O' if moves(line) => {
-                        self.report(word.letter.to_string(), Doubt::Unknown);
-                    }
+                    'D' | 'E' => self.report(word.letter.to_string(), Doubt::Unknown),
+                    'O' if moves(line) => self.report(word.letter.to_string(), Doubt::Unknown),
                     _ => {}
                 }
             }
@@ -191,8 +195,8 @@ impl Rs274Translation {
         let has = |letter: char, numbers: &[i64]| {
             line.words.iter().any(|word| word.letter == letter && numbers.contains(&(tenths(word) / 10)))
         };
-        // G10 L1, L10 and L11 write into the tool table.
-        if has('G', &[10]) && has('L', &[1, 10, 11]) {
+        // G10 L1, L10 and L11 write into the tool table, and without L it means something else on each control. R turns the coordinates.
+        if has('G', &[10]) && (!has('L', &[2, 20]) || line.words.iter().any(|word| word.letter == 'R')) {
             self.report("G10 L".to_owned(), Doubt::Dangerous);
         }
         self.has_ended |= line.is_percent && self.has_words;
@@ -202,9 +206,41 @@ impl Rs274Translation {
         self.has_words |= !line.words.is_empty();
     }
 
+    /// Reports a line that is no G-code, unless the same line was reported before.
+    fn report_unreadable(&mut self, text: &str, line: &LineWords) {
+        let Some(reported) = self.unreadable.as_mut().filter(|reported| reported.len() < MAX_WARNINGS) else {
+            return;
+        };
+        if line.foreign.is_none() || line.is_percent || line.formula.is_some() {
+            return;
+        }
+        let found = Diagnostic::new(&posts::LINE_UNREADABLE).quoting("line", text.trim());
+        if !reported.iter().any(|known| known.arguments == found.arguments) {
+            reported.push(found.at_line(self.line, None));
+        }
+    }
+
     fn end_line(&mut self) {
+        if self.line == 1 {
+            self.state_modes();
+        }
         self.text.push('\n');
         self.line += 1;
+    }
+
+    /// Adds to the first line the modes that it does not state itself.
+    fn state_modes(&mut self) {
+        let begin = usize::from(self.text.starts_with('/'));
+        let first: Vec<&str> = self.text[begin..].split(' ').collect();
+        let modes: [(&str, &[&str]); 4] = [
+            (self.units, &["G20", "G21"]),
+            ("G91.1", &["G90.1", "G91.1"]),
+            ("G90", &["G90", "G91"]),
+            ("G17", &["G17", "G18", "G19"]),
+        ];
+        let missing = modes.iter().filter(|(_, words)| !words.iter().any(|word| first.contains(word)));
+        let missing: String = missing.flat_map(|(mode, _)| [mode, " "]).collect();
+        self.text.insert_str(begin, &missing);
     }
 
     /// Whether a line defines the blank (workpiece). On a Heidenhain control, a line with G30, the plane and all axes begins the definition, and the
@@ -260,10 +296,11 @@ impl Rs274Translation {
         write!(self.text, "{letter}{number} ").expect("a String takes everything");
     }
 
-    /// Returns the translation, with the doubtful and disputed words, the dwells and the unstated modes of the program.
+    /// Returns the translation, with the doubtful and disputed words, the dwells and the warnings.
     pub(crate) fn finish(self) -> TranslatedText {
-        let Self { text, doubtful, disputes, dwells, modes, .. } = self;
-        TranslatedText { text, doubtful, disputed: disputes.finish(), dwells, unstated: modes.unstated }
+        let Self { text, doubtful, disputes, dwells, modes, unreadable, .. } = self;
+        let warnings = unreadable.into_iter().flatten().chain(modes.unstated).collect();
+        TranslatedText { text, doubtful, disputed: disputes.finish(), dwells, warnings }
     }
 }
 

@@ -40,8 +40,8 @@ messages! {
     LINE_UNREADABLE: UnreadableLine {
         en: "the post writes \"{line}\", which is not G-code; its effect on the machine is unknown",
         de: "der Postprozessor schreibt \"{line}\"; das ist kein G-Code, und die Wirkung an der Maschine ist unbekannt",
-        help_en: "if that is intended, set SuppressParserErrors in the post",
-        help_de: "wenn das so gewollt ist, SuppressParserErrors im Postprozessor setzen",
+        help_en: "remove the line from the post; if it is intended, set SuppressParserErrors (.cbpp) or suppress-parser-errors (.toml) there",
+        help_de: "die Zeile aus dem Postprozessor entfernen; wenn sie so gewollt ist, dort SuppressParserErrors (.cbpp) oder suppress-parser-errors (.toml) setzen",
     }
     /// A cutter diameter that is missing from the tool table.
     TOOL_UNKNOWN: UnknownTool {
@@ -330,6 +330,18 @@ messages! {
         de: "die Ausgabe wählt eine Nullpunktverschiebung der Maschine ({word}), die die Lage des Zeichnungsnullpunkts bestimmt",
         help_en: "set that offset at the machine before each run, or remove the word from the post",
         help_de: "diese Verschiebung vor jedem Lauf an der Maschine setzen oder das Wort aus dem Postprozessor entfernen",
+    }
+    /// A zero that the output sets at the machine, such as G10 L2.
+    ZERO_SET: DoubtfulPost {
+        en: "the output sets a zero of the machine with {word}: the operator's zero is overwritten or shifted, and the drawing lies somewhere else",
+        de: "die Ausgabe setzt mit {word} einen Nullpunkt der Maschine: der Nullpunkt des Bedieners wird überschrieben oder verschoben, und die Zeichnung liegt woanders",
+        help_en: "set the zero at the machine before the program starts, and remove the word from the post",
+        help_de: "den Nullpunkt vor dem Start des Programms an der Maschine setzen und das Wort aus dem Postprozessor entfernen",
+    }
+    /// Note: absolute centres of arcs in an output without G90.1.
+    CENTRES_NOT_STATED: PostDiffers {
+        en: "the post writes absolute centres for arcs, but no line says G90.1, without which controls count I and J from the start of the arc: write G90.1 before the first arc (in a .cbpp with the macro $arccentermode), or centres relative to the arc's start",
+        de: "der Postprozessor schreibt absolute Bogenmittelpunkte, aber keine Zeile sagt G90.1; ohne das zählen Steuerungen I und J vom Anfang des Bogens: vor dem ersten Bogen G90.1 schreiben (in einer .cbpp mit dem Makro $arccentermode), oder Mittelpunkte relativ zum Bogenanfang",
     }
     /// A tool length in the output that does not come from an entry of the tool table, such as that of G43.1.
     LENGTH_CHOSEN: DoubtfulPost {

@@ -256,8 +256,9 @@ pub fn union_word(letter: char, code: u16) -> UnionWord {
 
 fn union_m_word(code: u16) -> UnionWord {
     match code {
-        // M48 and M49 enable and disable overrides.
-        480 | 490 => UnionWord::Neutral,
+        // M48 enables the operator's overrides, as they are by default. M49 disables them.
+        480 => UnionWord::Neutral,
+        490 => UnionWord::NotFollowed { is_dangerous: false },
         _ if is_jump(code) || code == 190 => UnionWord::NotFollowed { is_dangerous: true },
         _ if is_followed_m(code) => UnionWord::Followed(code),
         _ => UnionWord::NotFollowed { is_dangerous: false },

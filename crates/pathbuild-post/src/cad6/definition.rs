@@ -121,6 +121,10 @@ impl Definition {
         self.text(kind).is_some_and(|text| names.any(|name| text.text.contains(&name)))
     }
 
+    pub(crate) fn writes_absolute_centres(&self) -> bool {
+        self.names(ControlTextKind::Arc, &["XC", "YC"])
+    }
+
     /// Returns the reason why no program ever calls a text, or `None` if some program may.
     fn uncalled_reason(&self, kind: ControlTextKind) -> Option<UncalledReason> {
         let instead = |other| self.text(other).map(|_| UncalledReason::Instead(other));
@@ -336,7 +340,7 @@ impl Abilities {
             hole: has(hole),
             peck: definition.names(hole, &["PeckDepth"]),
             dwell: definition.names(hole, &["DwellTime"]),
-            has_absolute_centres: definition.names(ControlTextKind::Arc, &["XC", "YC"]),
+            has_absolute_centres: definition.writes_absolute_centres(),
             has_relative_centres: definition.names(ControlTextKind::Arc, &["IRel", "JRel"]),
             decimals: definition.settings.decimals,
             arc: has(ControlTextKind::Arc),
@@ -418,6 +422,7 @@ fn leading_name(text: &str) -> &str {
 
 /// The values of the table `[post]` in a definition.
 #[derive(Clone, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "the file's keys are independent switches")]
 pub(super) struct Settings {
     pub(super) name: Box<str>,
     pub(super) extension: Box<str>,
@@ -431,6 +436,8 @@ pub(super) struct Settings {
     /// Whether trailing blanks of lines are removed.
     pub(super) trim: bool,
     pub(super) dialect: Option<Box<str>>,
+    /// Whether lines that are no G-code are intended.
+    pub(super) suppress_parser_errors: bool,
     /// Maximum distance in mm between an arc and the lines that replace it.
     pub(super) arc_tolerance: f64,
     /// Maximum angle swept by an arc, in degrees. Arcs that sweep more are split.
@@ -451,6 +458,7 @@ impl Default for Settings {
             number_lines: true,
             trim: true,
             dialect: None,
+            suppress_parser_errors: false,
             arc_tolerance: 0.01,
             arc_sweep: 360.0,
             lift_between_passes: false,
@@ -504,6 +512,9 @@ settings! {
         "ob Leerzeichen am Zeilenende entfallen; sonst `true`";
     "dialect" |s, v| put(&mut s.dialect, text(v).map(Some)), "a text", "ein Text",
         "the dialect in which the output is read back", "der Dialekt, in dem die Ausgabe zurückgelesen wird";
+    "suppress-parser-errors" |s, v| put(&mut s.suppress_parser_errors, v.as_bool()), "true or false", "true oder false",
+        "whether lines that are no G-code pass without a warning; default `false`",
+        "ob Zeilen, die kein G-Code sind, ohne Warnung bleiben; sonst `false`";
     "arc-tolerance" |s, v| put(&mut s.arc_tolerance, positive(v)), "mm above 0", "mm über 0",
         "greatest distance of a line from the arc that it stands for; default 0.01",
         "größter Abstand einer Strecke vom Bogen, für den sie steht; sonst 0.01";

@@ -69,11 +69,12 @@ fn note_switches(output: &mut EngineOutput, uses: impl Fn(&str) -> bool, job: &J
 
 /// Translates a text to the words of RS274. `units` are the units of the job, which apply if the definition names none.
 pub(super) fn translate(definition: &Definition, text: &[u8], units: Units) -> TranslatedText {
-    let mut shadow = Rs274Translation::new(definition.units().unwrap_or(units), false);
+    let has_other_lines = definition.settings.suppress_parser_errors;
+    let mut shadow = Rs274Translation::new(definition.units().unwrap_or(units), has_other_lines);
     for line in text.split(|&byte| byte == b'\n') {
         let line = String::from_utf8_lossy(line);
         let code = line.find("//").map_or(&*line, |comment| &line[..comment]);
-        shadow.line(&words(code, &CommentMarks::default()), None, false);
+        shadow.line(code, &words(code, &CommentMarks::default()), None, false);
     }
     shadow.finish()
 }

@@ -104,6 +104,10 @@ impl Definition {
             || self.templates().flat_map(Template::macros).any(|(what, _)| is_turned(what))
     }
 
+    pub(crate) fn writes_absolute_centres(&self) -> bool {
+        self.options.absolute_centres
+    }
+
     pub(crate) fn is_wrapped(&self) -> bool {
         self.options.rotary.wrap
     }

@@ -61,12 +61,12 @@ pub(super) fn write(
 pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText {
     let marks = definition.comment_marks();
     let own_words = definition.own_motions();
-    let mut shadow = Rs274Translation::new(Units::default(), definition.options.absolute_centres);
+    let mut shadow = Rs274Translation::new(Units::default(), definition.options.suppress_parser_errors);
     for line in text.split(|&byte| byte == b'\n') {
         let line = String::from_utf8_lossy(line);
         let motion =
             own_words.iter().find(|(_, word)| line.contains(word.as_str())).map(|(number, _)| *number);
-        shadow.line(&words(&line, &marks), motion, false);
+        shadow.line(&line, &words(&line, &marks), motion, false);
     }
     shadow.finish()
 }

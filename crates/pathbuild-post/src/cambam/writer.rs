@@ -84,7 +84,7 @@ impl<'a> Writer<'a> {
             lines: Lines::new(&plan.definition.options),
             guard: TextInserter::new(plan.target, marks.clone(), plan.options.charset),
             marks,
-            shadow: Rs274Translation::new(plan.job.units, plan.definition.options.absolute_centres),
+            shadow: Rs274Translation::new(plan.job.units, plan.definition.options.suppress_parser_errors),
             turned: [None; 3],
             own: [None, None, None],
             place: (Section::PostFile, 0),
@@ -341,9 +341,6 @@ impl<'a> Writer<'a> {
         }
         let code = self.plan.target.map_or(text.len(), |target| target.code_length(&text));
         let found = words(&text[..code], &self.marks);
-        if found.foreign.is_some() && !self.plan.definition.options.suppress_parser_errors {
-            self.warn(Diagnostic::new(&posts::LINE_UNREADABLE).quoting("line", text.as_str()));
-        }
         self.check_replaced(&found, &text);
         self.machine.read(&found, line.code, self.number_format());
         let meant = LineWords {
@@ -352,6 +349,7 @@ impl<'a> Writer<'a> {
         };
         let has_word = |(_, section): &Code| !self.plan.definition.section(*section).is_blank();
         self.shadow.line(
+            &text,
             &meant,
             line.code.filter(has_word).map(|(number, _)| number),
             self.turned[0] != self.turned[1],

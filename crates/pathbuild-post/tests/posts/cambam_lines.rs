@@ -193,17 +193,6 @@ fn check_goes_by_way_of_the_clearance_plane() {
     assert_eq!(lines(&text("{$check(7,y,2)}"), &job)[3..], ["G0 Z5.0", "G0 X7.0", "G0 Z2.0"]);
 }
 
-#[test]
-fn lines_that_are_no_gcode_are_warnings_unless_suppressed() {
-    let warnings = |suppress: &str| {
-        let text = definition(&format!("<PostFile>G0 HOME\nG0 HOME\nM0</PostFile>{suppress}"));
-        texts(&output(&text, &job(vec![]), &PostOptions::default()).unwrap().warnings)
-    };
-    assert_eq!(warnings("").len(), 1, "once is enough");
-    assert!(warnings("")[0].starts_with("PB758 the post writes \"G0 HOME\""));
-    assert_eq!(warnings("<SuppressParserErrors>true</SuppressParserErrors>"), [""; 0]);
-}
-
 /// The corners of the blank in a Heidenhain program are not approached. G31 without them is a probing move.
 #[test]
 fn corners_of_the_blank_are_no_moves() {

@@ -139,6 +139,122 @@ fn doubtful_options_and_bare_macros_are_told() {
     assert!(open[0].contains("PB754") && open[0].contains("under [macros]"), "{open:?}");
 }
 
+/// Writes `milled` with a line in the text of the tool change, in both languages of definitions. Returns the findings.
+fn with_line(line: &str, setting: [&str; 2]) -> [Vec<Diagnostic>; 2] {
+    let change = format!("<ToolChange>T{{$tool.index}}\nM6\n{line}\n{line}\nS1000 M3</ToolChange>");
+    let cbpp = definition(&format!(
+        "<PostFile>G17 G21 G90\n{{$mops}}\nM5\nM30</PostFile><MOP>{{$toolchange}}\n{{$blocks}}</MOP>{change}{}",
+        setting[0]
+    ));
+    let toml = DIN
+        .replace("T{#~MachineToolNo~} S", &format!("T{{#~MachineToolNo~}} M06\n{line}\n{line}\nS"))
+        .replace("'M30'", "'''M05\nM30'''")
+        .replace("[text]", &format!("{}\n[text]", setting[1]));
+    [read(&cbpp).unwrap(), read_toml(&toml)].map(|post| {
+        match post.write(&milled(), &PostOptions::default()) {
+            Ok(output) => output.warnings,
+            Err(errors) => errors,
+        }
+    })
+}
+
+/// Both kinds of definitions are read back by the same rules if no dialect is named.
+#[test]
+fn a_line_that_is_no_gcode_is_a_warning_in_both_languages() {
+    for line in ["CALL PGM X", "$H", "$32=0", "TRAORI", "HELLO"] {
+        for found in with_line(line, ["", ""]) {
+            let found = texts(&found);
+            assert_eq!(found.len(), 1, "once is enough: {found:?}");
+            assert!(found[0].contains(&format!("PB758 the post writes \"{line}\"")), "{found:?}");
+        }
+    }
+    for line in [":10", "M0", "(HELLO)"] {
+        for found in with_line(line, ["", ""]) {
+            assert_eq!(texts(&found), [""; 0], "{line}");
+        }
+    }
+    let suppressed = ["<SuppressParserErrors>true</SuppressParserErrors>", "suppress-parser-errors = true"];
+    for found in with_line("HELLO", suppressed) {
+        assert_eq!(texts(&found), [""; 0]);
+    }
+}
+
+#[test]
+fn a_word_that_sets_a_zero_is_a_warning_in_both_languages() {
+    for (line, word) in [("G10 L2 P1 X5", "G10"), ("G10 L20 P2 X5", "G10"), ("G92 X5 Y0 Z0\nG92.1", "G92")] {
+        for found in with_line(line, ["", ""]) {
+            let expected = format!("PB752 the output sets a zero of the machine with {word}");
+            assert!(texts(&found).iter().any(|text| text.contains(&expected)), "{line}: {:?}", texts(&found));
+        }
+    }
+    for line in ["G10 L2 P1 X5 R3", "G10 P1 R3", "G10 L1 P1 Z5"] {
+        for found in with_line(line, ["", ""]) {
+            assert!(texts(&found)[0].contains("PB767"), "{line}: {:?}", texts(&found));
+        }
+    }
+    for line in ["G54", "G92.1", "G52 X0 Y0 Z0"] {
+        for found in with_line(line, ["", ""]) {
+            assert_eq!(texts(&found), [""; 0], "{line}");
+        }
+    }
+}
+
+#[test]
+fn a_word_without_a_known_effect_is_a_warning_even_alone_in_its_line() {
+    for (line, word) in [("D2", "D"), ("E1", "E"), ("M49", "M49"), ("M42", "M42")] {
+        for found in with_line(line, ["", ""]) {
+            let expected = format!("PB752 the output contains {word},");
+            assert!(texts(&found).iter().any(|text| text.contains(&expected)), "{line}: {:?}", texts(&found));
+        }
+    }
+    for found in with_line("M48", ["", ""]) {
+        assert_eq!(texts(&found), [""; 0]);
+    }
+}
+
+/// Without G90.1 every control takes I and J for distances from the start of the arc.
+#[test]
+fn absolute_centres_must_be_stated_in_both_languages() {
+    let mut job = milled();
+    let quarter = arc(false, [9.0, 0.0, -1.0], [9.0, 10.0], [19.0, 10.0, -1.0], Some(100.0));
+    job.operations[0].steps.insert(3, quarter);
+    job.operations[0].steps[4] = rapid(19.0, 10.0, 5.0);
+    let cbpp = |start: &str, mode: &str| {
+        read(&definition(&format!(
+            "<PostFile>G17 G21 G90 {start}\n{{$mops}}\nM5\nM30</PostFile>\
+             <MOP>{{$toolchange}}\nS1000 M3\n{{$blocks}}</MOP><ArcCenterMode>{mode}</ArcCenterMode>"
+        )))
+        .unwrap()
+    };
+    let toml = |start: &str, centre: [&str; 2]| {
+        let text = DIN
+            .replace("G17 G21 G90", &format!("G17 G21 G90 {start}"))
+            .replace("'M30'", "'''M05\nM30'''")
+            .replace("T{#~MachineToolNo~}", "T{#~MachineToolNo~} M06\n");
+        read_toml(&text.replace("~IRel~", centre[0]).replace("~JRel~", centre[1]))
+    };
+    let (absolute, relative) = (["~XC~", "~YC~"], ["~IRel~", "~JRel~"]);
+    let result = |post: PostDefinition, dialect: &str| {
+        let dialect = Some(dialect.into()).filter(|_| !dialect.is_empty());
+        post.write(&job, &PostOptions { dialect, ..PostOptions::default() })
+            .map_err(|errors| (texts(&errors), notes(&errors)))
+    };
+    for post in [cbpp("", "Absolute"), toml("", absolute), toml("G91.1", absolute)] {
+        for dialect in ["", "linuxcnc"] {
+            let found = result(post.clone(), dialect).unwrap_err();
+            assert!(found.1.iter().any(|note| note.contains("no line says G90.1")), "{found:?}");
+        }
+    }
+    for post in [
+        cbpp("{$arccentermode}", "Absolute"),
+        cbpp("", "Incremental"),
+        toml("G90.1", absolute),
+        toml("", relative),
+    ] {
+        result(post, "").unwrap_or_else(|errors| panic!("{errors:?}"));
+    }
+}
+
 /// Two decimals are precise enough in mm, but in inches they round by up to 0.127 mm.
 #[test]
 fn rounding_is_judged_in_millimetres() {
