@@ -43,6 +43,15 @@ fn mistakes_of_draughtsmen_are_named() {
         ("an end marker beside the end", "start\nmill 0,0 20,0\nend 20.2,0"),
         ("a helper line behind the end marker", "start\nmill 0,0 20,0\nmill 20,0 30,0\nend 20,0"),
         ("the last line missing", "start\nmill 0,0 20,0\nend 40,0"),
+        ("an end marker of 1 mm", "start\nmill 0,0 20,0\ncircle PHANTOM 20,0 d 1"),
+        (
+            "a turn marker of 1 mm",
+            "start\nmill 0,0 20,0 20,20\nmill 20,0 60,0\nend 60,0\ncircle PHANTOM 20,20 d 1",
+        ),
+        (
+            "a subpath drawn twice",
+            "start\nsubpath 0,0 20,0 \">1234.2P\"\nsubpath 0,0 20,0\nend 20,0\nlayer 1234.2P\nstart 0,0 \"T5 O2 I5 B0 F100 M20x2\"\nmill 0,0 20,0\nend 20,0",
+        ),
         ("F0", "start\nmill 0,0 20,0 \"F0\"\nend 20,0"),
         ("a start marker of 1.002 mm", "start\ncircle PHANTOM 0,0 d 1.002\nmill 0,0 20,0\nend 20,0"),
         ("a non-breaking space", "start 0,0 \"O2\u{a0}T5 I5 B0\"\nmill 0,0 20,0\nend 20,0"),

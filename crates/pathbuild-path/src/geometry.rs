@@ -90,6 +90,21 @@ impl Curve {
         }
     }
 
+    /// Returns the point halfway along the curve.
+    pub(crate) fn middle(&self) -> Xy {
+        match self {
+            Self::Line(line) => nalgebra::center(&line.start, &line.end),
+            Self::Arc(arc) => self.section(0.0, arc.length() / 2.0).end(),
+        }
+    }
+
+    /// Whether two curves lie on each other, drawn in the same or in opposite directions.
+    pub(crate) fn is_copy_of(&self, other: &Self) -> bool {
+        let has_ends_of =
+            |other: &Self| coincide(self.start(), other.start()) && coincide(self.end(), other.end());
+        (has_ends_of(other) || has_ends_of(&other.reversed())) && coincide(self.middle(), other.middle())
+    }
+
     /// Returns the area in mm² between a point and the curve, positive if the curve runs counterclockwise around the point. The sum over a closed
     /// sequence of curves is its area.
     pub(crate) fn area_from(&self, point: Xy) -> f64 {

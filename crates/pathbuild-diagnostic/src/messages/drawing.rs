@@ -63,6 +63,11 @@ messages! {
         en: "the circle at {point} has a diameter of 2 mm, but its line type is not PHANTOM: is it meant as the end marker?",
         de: "der Kreis bei {point} hat 2 mm Durchmesser, sein Linientyp ist aber nicht PHANTOM: ist er als Endmarke gemeint?",
     }
+    /// Note: a circle with a start marker's diameter, but without its text.
+    MEANT_AS_END: MissingEnd {
+        en: "the circle at {point} has the diameter of a start marker, 1 mm, but no text with O and T; if it is meant as the end marker, draw it with a diameter of 2 mm",
+        de: "der Kreis bei {point} hat den Durchmesser einer Anfangsmarke, 1 mm, aber keinen Text mit O und T; ist er als Endmarke gemeint, mit 2 mm Durchmesser zeichnen",
+    }
     /// A path without an end marker.
     MISSING_END: MissingEnd {
         en: "path {name} has no end marker",
@@ -82,12 +87,19 @@ messages! {
         help_en: "remove one of the two, or move it to another path's layer",
         help_de: "eine davon entfernen oder auf den Layer eines anderen Pfads legen",
     }
+    /// A second circle with a start marker's diameter, in a path that has an end marker.
+    SECOND_START_WITHOUT_TEXT: TwoStarts {
+        en: "path {name} has a second circle with the diameter of a start marker, 1 mm, but without a text with O and T; the start marker is at {first}",
+        de: "Pfad {name} hat einen zweiten Kreis mit dem Durchmesser einer Anfangsmarke, 1 mm, aber ohne Text mit O und T; die Anfangsmarke ist bei {first}",
+        help_en: "remove it; or, if it is meant as a turn marker, draw it with a diameter of 1.5 mm",
+        help_de: "ihn entfernen; oder, wenn er als Wendemarke gemeint ist, mit 1,5 mm Durchmesser zeichnen",
+    }
     /// A second end marker.
     TWO_ENDS: TwoEnds {
         en: "path {name} has a second end marker; the first is at {first}",
         de: "Pfad {name} hat eine zweite Endmarke; die erste ist bei {first}",
-        help_en: "remove one of the two, or move it to another path's layer",
-        help_de: "eine davon entfernen oder auf den Layer eines anderen Pfads legen",
+        help_en: "remove one of the two, or move it to another path's layer; or, if it is meant as a turn marker, draw it with a diameter of 1.5 mm",
+        help_de: "eine davon entfernen oder auf den Layer eines anderen Pfads legen; oder, wenn sie als Wendemarke gemeint ist, mit 1,5 mm Durchmesser zeichnen",
     }
     /// A PHANTOM circle with a meaningless diameter.
     UNKNOWN_SPECIAL_CIRCLE: UnknownSpecialCircle {

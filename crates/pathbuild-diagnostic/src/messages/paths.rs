@@ -269,6 +269,13 @@ messages! {
         help_en: "put a text over it: \">1234.1P\"; or change the line type to DOT to skip it, to DASHED for a sweep",
         help_de: "einen Text darüberlegen: \">1234.1P\"; oder den Linientyp ändern: DOT, um ihn auszulassen, DASHED für eine Leerfahrt",
     }
+    /// A subpath without `>` on top of another one, which has the text.
+    COPY_OF_SUBPATH: MissingSubpathName {
+        en: "this subpath is drawn twice: the text \"{text}\" belongs to the other one",
+        de: "dieser Unterpfad ist doppelt gezeichnet: der Text \"{text}\" gehört zu dem anderen",
+        help_en: "delete one of the two",
+        help_de: "einen der beiden löschen",
+    }
     /// A subpath drawn as a single point, to which no text can belong.
     SUBPATH_WITHOUT_LENGTH: MissingSubpathName {
         en: "this subpath has no length, so no text can belong to it",

@@ -7,7 +7,7 @@ mod uncut_runs;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
-use pathbuild_diagnostic::messages::{drawing, parameters as messages};
+use pathbuild_diagnostic::messages::{drawing, parameters as messages, paths};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_motion::ChipLoad;
 use regex::Regex;
@@ -496,8 +496,25 @@ impl Binder<'_> {
         {
             return Some((order, SegmentKind::Sweep { height: None }));
         }
+        if let Some(text) = self.text_of_copy(element, &curve) {
+            let problem = Diagnostic::new(&paths::COPY_OF_SUBPATH).quoting("text", text);
+            self.report(scope.at, problem);
+            return None;
+        }
         let subpath = self.subpath(element, &scope, curve);
         Some((order, SegmentKind::Subpath(Box::new(subpath))))
+    }
+
+    /// Returns the text of another subpath that lies on this one, if that one names a path and this one has no text.
+    fn text_of_copy(&self, element: &Element, curve: &Curve) -> Option<String> {
+        if element.text.is_some() {
+            return None;
+        }
+        let subpaths = self.raw.drawn.elements.iter().filter(|other| other.role == Role::Subpath);
+        let copies =
+            subpaths.filter(|other| matches!(&other.shape, Shape::Curve(other) if other.is_copy_of(curve)));
+        let mut texts = copies.filter_map(|copy| self.raw.drawn.text(copy.text));
+        texts.find(|text| text.letters.contains(Letter::Embed)).map(|text| text.as_str().replace('\n', " "))
     }
 
     /// Returns N of an element, or else the default order.

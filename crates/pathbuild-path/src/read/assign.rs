@@ -195,6 +195,7 @@ impl<'d> LayerTexts<'d> {
                 std::ptr::eq(self, rivals) && self.parts(found.candidate).contains(&rival.candidate);
             is_reported(rival.doubt)
                 && !is_part
+                && !are_copies_of_subpath([element.owner, other.owner], &path.elements)
                 && discriminant(&element.owner) == discriminant(&other.owner)
                 && !read().is_some_and(refuses)
         };
@@ -348,6 +349,19 @@ impl<'d> LayerTexts<'d> {
             ("point", diagnostic_point(candidate.shape.point()).into()),
         ])
     }
+}
+
+/// Whether two subpaths lie on each other, which is an error (PB501): the text names the path of both.
+fn are_copies_of_subpath(owners: [Owner; 2], elements: &[Element]) -> bool {
+    let curve = |owner| match owner {
+        Owner::Element(element) if elements[element].role == Role::Subpath => match elements[element].shape {
+            Shape::Curve(curve) => Some(curve),
+            Shape::Circle { .. } => None,
+        },
+        Owner::Element(_) | Owner::Start | Owner::Probe(_) | Owner::Faulty => None,
+    };
+    let [Some(one), Some(other)] = owners.map(curve) else { return false };
+    one.is_copy_of(&other)
 }
 
 /// Whether an element does not accept one of the letters of a text (PB202).

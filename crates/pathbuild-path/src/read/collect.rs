@@ -29,6 +29,8 @@ use crate::text::{ParameterText, ParameterTexts, TextId};
 pub(crate) struct PathCollector<'d> {
     pub(crate) name: PathName,
     pub(crate) start: Option<Marker>,
+    /// Circles like a start marker, after the first one.
+    other_starts: Vec<Marker>,
     pub(super) ends: Vec<Marker>,
     pub(super) turns: Vec<Marker>,
     pub(crate) probes: Vec<Marker>,
@@ -98,6 +100,7 @@ impl PathCollector<'_> {
         let mut path = Self {
             name: layers[0].path.clone(),
             start: None,
+            other_starts: Vec::new(),
             ends: Vec::new(),
             turns: Vec::new(),
             probes: Vec::new(),
@@ -457,13 +460,9 @@ impl<'d> PathCollector<'d> {
 
     fn add_start(&mut self, found: &LayerEntity<'_>, shape: Shape) {
         let marker = self.marker(found, shape.point());
-        if let Some(first) = &self.start {
-            let diagnostic = Diagnostic::new(&messages::TWO_STARTS)
-                .quoting("name", self.name.as_str())
-                .with("first", first.origin.point);
+        if self.start.is_some() {
             self.candidate(found, shape, Owner::Faulty);
-            self.faults.has_second_start = true;
-            return self.report(marker.origin.at(diagnostic));
+            return self.other_starts.push(marker);
         }
         self.candidate(found, shape, Owner::Start);
         self.start = Some(marker);
@@ -541,10 +540,32 @@ impl PathCollector<'_> {
             let end = end.or_else(|| has_other_line_type.then(|| self.element_like_end(texts)).flatten());
             self.ends.extend(end);
         }
+        self.report_other_starts(texts);
         let first = self.ends.first().map(|end| end.origin.point);
         for end in self.ends.iter().skip(1).map(|end| end.origin.clone()).collect::<Vec<_>>() {
             let problem = Diagnostic::new(&messages::TWO_ENDS).quoting("name", self.name.as_str());
             self.report(end.at(problem.with("first", first.unwrap_or(end.point))));
+        }
+    }
+
+    /// Reports circles like a second start marker. Without a start's text they were probably meant as another marker.
+    fn report_other_starts(&mut self, texts: &Texts<'_>) {
+        let Some(start) = self.start.clone() else { return };
+        let has_text = texts.has_path_text(&start, START_RADIUS);
+        for marker in take(&mut self.other_starts) {
+            let is_start = !has_text || texts.has_path_text(&marker, START_RADIUS);
+            if is_start {
+                self.faults.has_second_start = true;
+            } else {
+                self.faults.unclear_circles.push(marker.at);
+            }
+            if !is_start && self.ends.is_empty() && self.hints.meant_as_end.is_none() {
+                self.hints.meant_as_end = Some(marker.origin.point);
+                continue;
+            }
+            let message = if is_start { &messages::TWO_STARTS } else { &messages::SECOND_START_WITHOUT_TEXT };
+            let problem = Diagnostic::new(message).quoting("name", self.name.as_str());
+            self.report(marker.origin.at(problem.with("first", start.origin.point)));
         }
     }
 

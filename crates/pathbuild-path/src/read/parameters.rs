@@ -35,6 +35,8 @@ pub(super) struct StartHints {
     pub(super) text: Option<(SmolStr, Xy)>,
     /// Position of an end marker with a text that gives O and T, if the start marker of the path has no such text.
     pub(super) swapped: Option<Point>,
+    /// Position of a circle like a start marker, but without its text, in a path that has a start and no end.
+    pub(super) meant_as_end: Option<Point>,
 }
 
 impl PathCheck<'_> {
@@ -345,7 +347,13 @@ impl PathCheck<'_> {
                 None => start,
             }
         });
-        let end = self.raw.end.is_none().then(|| missing(&drawing::MISSING_END));
+        let end = self.raw.end.is_none().then(|| {
+            let end = missing(&drawing::MISSING_END);
+            match self.hints.meant_as_end {
+                Some(point) => end.note(&drawing::MEANT_AS_END, vec![("point", point.into())]),
+                None => end,
+            }
+        });
         let somewhere = self.raw.drawn.elements.first().map(|element| self.raw.drawn.origin(element));
         for diagnostic in start.into_iter().chain(end) {
             let placed = match &somewhere {

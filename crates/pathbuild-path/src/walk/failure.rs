@@ -300,7 +300,7 @@ impl Walker<'_> {
             else {
                 return false;
             };
-            let mut points = [part.start(), middle(&part), part.end()].into_iter();
+            let mut points = [part.start(), part.middle(), part.end()].into_iter();
             points.all(|point| whole.distance_to(point) < ON_CURVE_TOLERANCE)
         };
         let others = (0..self.path.segments.len()).filter(|other| {
@@ -450,13 +450,6 @@ impl CurveKey {
         };
         let curve = path.curve(segment)?;
         let (one, other) = (grid_square(curve.start()), grid_square(curve.end()));
-        Some(Self(kind, [one.min(other), one.max(other), grid_square(middle(&curve))]))
-    }
-}
-
-fn middle(curve: &Curve) -> Xy {
-    match curve {
-        Curve::Line(line) => nalgebra::center(&line.start, &line.end),
-        Curve::Arc(arc) => curve.section(0.0, arc.length() / 2.0).end(),
+        Some(Self(kind, [one.min(other), one.max(other), grid_square(curve.middle())]))
     }
 }

@@ -523,3 +523,51 @@ fn points_that_look_alike_are_told_apart() {
     let (_, notes) = noted(&path(P, "mill 0,0 20,0\nmill 20.0004,0 40,0\nend 40,0"));
     assert_eq!(notes, ["the nearest open end is at (20, 0), 0.0004 mm away (a milling segment)"]);
 }
+
+/// A marker that was drawn with the diameter of another one is called neither a second start nor a second end alone.
+#[test]
+fn a_marker_of_another_diameter_may_be_the_missing_one() {
+    let found = |drawn: &str| {
+        let found = compile(&path(P, drawn)).found;
+        let notes = found.iter().flat_map(|found| &found.notes).map(|note| note.text(Lang::En));
+        (messages_with_help(&found), notes.collect::<Vec<_>>().concat())
+    };
+    let (end, notes) = found("mill 0,0 20,0\ncircle PHANTOM 20,0 d 1");
+    assert_one(&end, "PB102 path 1234.1P has no end marker", "");
+    assert!(
+        notes.starts_with("the circle at (20, 0) has the diameter of a start marker, 1 mm, but no text"),
+        "{notes}"
+    );
+    // With the text of a start it is one.
+    let (second, notes) = found("mill 0,0 20,0\nstart 20,0 \"T5 O3 I1 B0\"\nend 20,0");
+    assert_one(&second, "PB103 path 1234.1P has a second start marker", "another path's layer");
+    assert_eq!(notes, "");
+    let branch = |marker: &str| {
+        found(&format!("mill 0,0 20,0\nmill 20,0 20,10\nmill 20,0 50,0\nend 50,0\n{marker}")).0
+    };
+    assert_one(
+        &branch("circle PHANTOM 20,10 d 1"),
+        "PB103 path 1234.1P has a second circle with",
+        "a diameter of 1.5 mm",
+    );
+    assert_one(
+        &branch("circle PHANTOM 20,10 d 2"),
+        "PB104 path 1234.1P has a second end",
+        "a diameter of 1.5 mm",
+    );
+}
+
+#[test]
+fn a_subpath_that_is_drawn_twice_is_one_error() {
+    let found = |second: &str| {
+        let drawn = format!("subpath 0,0 20,0 \">1111.1P\"\n{second}\nend 20,0");
+        messages_with_help(&compile(&path("T5 O3", &drawn)).found)
+    };
+    for second in ["subpath 0,0 20,0", "subpath 20,0 0,0"] {
+        let problem = "PB501 this subpath is drawn twice: the text \">1111.1P\" belongs to the other one";
+        assert_one(&found(second), problem, "delete one of the two");
+    }
+    for second in ["subpath arc 0,0 to 20,0 centre 10,0", "subpath 0,0 20.0001,0", "sweep 0,0 20,0"] {
+        assert!(!found(second).concat().contains("PB501"), "{second}");
+    }
+}
