@@ -176,11 +176,14 @@ impl<'m> Visit<'m> {
             Errors::Cycle(_) | Errors::Own => return self.stop(at("PB511", &[raw.name.as_str()])),
         }
         let inner = model.sound_path(&child);
+        let is_thinner = inner.as_ref().is_some_and(|inner| is_thinner_in_one_sheet(path, subpath, inner));
         let misfits = inner.map_or(Vec::new(), |inner| mismatches(path, subpath, &inner));
         for (code, word) in &misfits {
             self.found.push(at(code, &[word]));
         }
-        Errors::of(!misfits.is_empty())
+        self.found.extend(is_thinner.then(|| at("PB506", &["T"])));
+        // If the path gives no M, the sheets may be different ones: that is a warning.
+        Errors::of(!misfits.is_empty() || is_thinner && path.material.is_some())
     }
 
     fn stop(&mut self, finding: Finding) -> Errors {
@@ -240,6 +243,17 @@ fn allows(definition: &Definition, value: &str) -> bool {
     }
 }
 
+/// Whether a path is drawn for a thinner sheet than the path that embeds it, and nothing says that it lies in a sheet of its own.
+fn is_thinner_in_one_sheet(path: &Path, subpath: &Subpath, inner: &Path) -> bool {
+    let letters = [Letter::T, Letter::M, Letter::H];
+    let is_known = !letters.into_iter().any(|letter| path.hides(letter) || subpath.hides(letter));
+    let is_one_sheet = subpath.height == 0.0
+        && subpath.material.is_some()
+        && (path.material.is_none() || path.material == subpath.material);
+    let is_of_component = (subpath.thickness - inner.thickness).abs() <= LENGTH_TOLERANCE;
+    is_known && is_one_sheet && is_of_component && path.thickness > inner.thickness + LENGTH_TOLERANCE
+}
+
 /// Returns the mismatches in M, T, O and the length, each with its code and its letter.
 fn mismatches(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str, String)> {
     let differs = |a: f64, b: f64| (a - b).abs() > LENGTH_TOLERANCE;
@@ -261,14 +275,6 @@ fn mismatches(path: &Path, subpath: &Subpath, inner: &Path) -> Vec<(&'static str
     let is_thickness_known = !subpath.hides(Letter::T) && !path.hides(Letter::T);
     if is_thickness_known && path.thickness < subpath.thickness - LENGTH_TOLERANCE {
         found.push(("PB510", String::new()));
-    }
-    let is_one_sheet = subpath.height == 0.0
-        && path.material.is_some()
-        && path.material == subpath.material
-        && ![Letter::M, Letter::H].into_iter().any(|letter| path.hides(letter) || subpath.hides(letter));
-    let is_thinner = path.thickness > subpath.thickness + LENGTH_TOLERANCE;
-    if is_thickness_known && is_one_sheet && is_thinner && !differs(subpath.thickness, inner.thickness) {
-        found.push(("PB506", "T".to_owned()));
     }
     let length = |from: pathbuild_path::Xy, to: pathbuild_path::Xy| (to - from).norm();
     if differs(length(subpath.start, subpath.end), length(inner.start, inner.end)) {
