@@ -9,7 +9,7 @@ use pathbuild_dxf::{Drawing, Geometry, OmittedCurve};
 
 use crate::element::{CircleMeaning, Shape, circle_meaning, diagnostic_point};
 use crate::language::Language;
-use crate::letter::{Letter, Letters};
+use crate::letter::{ElementClass, Letter, Letters};
 use crate::line_type::LineType;
 use crate::look_alikes;
 use crate::names::PathName;
@@ -17,7 +17,7 @@ use crate::read::candidates::{Candidate, Owner, SearchBudget, find_shape};
 use crate::read::collect::{self, PathCollector, PathLayers};
 use crate::read::entities::{AnyText, at_entity, begin, xy};
 use crate::read::keep_outs::unread_clamps;
-use crate::text::{ParameterText, ParameterTexts, ValueKind};
+use crate::text::{ParameterText, ParameterTexts, ValueKind, is_special_space};
 
 /// Letters that spoil a part if they are missing. A stray text must contain one of them to be reported.
 const ESSENTIAL_LETTERS: Letters = Letters::of(&[Letter::B, Letter::D, Letter::F, Letter::I, Letter::W]);
@@ -39,12 +39,19 @@ pub fn may_be_stray_text(text: &[u8]) -> bool {
     // A colon begins a variable, as in `:D0.5`, which is never reported; a backslash begins a format code of MTEXT, as in `\\W0.8;`, or a
     // line break: `\\P`. A bar separates the properties of a font: `\\fArial|b0|i0;`.
     let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'\\' | b':' | b'|');
-    let is_begin = |before: &[u8]| !before.last().is_some_and(is_inside) || before.ends_with(b"\\P");
-    let has_value =
-        |after: &[u8]| after.iter().find(|byte| **byte != b' ').is_some_and(|byte| is_value(*byte));
+    let is_begin = |before: &[u8]| {
+        !before.last().is_some_and(is_inside) || BEGINNING_CODES.iter().any(|code| before.ends_with(code))
+    };
+    let has_value = |after: &[u8]| {
+        after.iter().find(|byte| !matches!(byte, b' ' | b':')).is_some_and(|byte| is_value(*byte))
+    };
     let mut letters = text.iter().enumerate().filter(|(_, byte)| is_weighty(**byte));
     letters.any(|(at, _)| is_begin(&text[..at]) && has_value(&text[at + 1..])) || may_be_probe_text(text)
 }
+
+/// Codes after which a text can begin, other than those that end with a sign: a line break, and lines over, under and through letters.
+const BEGINNING_CODES: [&[u8]; 13] =
+    [b"\\P", b"\\L", b"\\l", b"\\O", b"\\o", b"\\K", b"\\k", b"%%u", b"%%U", b"%%o", b"%%O", b"%%k", b"%%K"];
 
 /// Maximum length in bytes of a text that is taken for that of a probe. Longer ones are remarks.
 const MAX_PROBE_TEXT: usize = 24;
@@ -60,23 +67,39 @@ fn may_be_probe_text(text: &[u8]) -> bool {
     text.len() <= MAX_PROBE_TEXT && words.peek().is_some() && words.all(is_parameter)
 }
 
-/// Returns a text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, spaces before
-/// values, and commas between parameters.
+/// Returns a text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, spaces and
+/// colons before values, signs between or around parameters, units, and marks at the end.
 fn without_mistakes(text: &str) -> String {
     let mut meant = String::with_capacity(text.len());
     let mut rest = text.chars().peekable();
     let mut is_begin = true;
     while let Some(character) = rest.next() {
         let is_lone_letter = is_begin && character.is_ascii_alphabetic();
-        let is_separator = matches!(character, ',' | ';')
+        let is_between = matches!(character, ',' | ';' | '/')
             && rest.clone().find(|next| *next != ' ').is_some_and(char::is_alphabetic);
+        let is_around = matches!(character, '(' | ')' | '[' | ']' | '"' | '\'');
+        let is_separator = is_between || is_around || is_special_space(character);
         is_begin = is_separator || character.is_whitespace();
         meant.push(if is_separator { ' ' } else { character.to_ascii_uppercase() });
         if is_lone_letter {
-            while rest.next_if_eq(&' ').is_some() {}
+            while rest.next_if(|next| matches!(next, ' ' | ':') || is_special_space(*next)).is_some() {}
         }
     }
-    meant
+    let words = meant.split(' ').filter(|word| !matches!(*word, "MM" | "-"));
+    let numbers = words.map(|word| {
+        let word = word.trim_end_matches(['!', ',', ';', ':']);
+        word.strip_suffix("MM")
+            .filter(|number| number.ends_with(|last: char| last.is_ascii_digit()))
+            .unwrap_or(word)
+    });
+    numbers.collect::<Vec<_>>().join(" ")
+}
+
+/// Whether a text is meant as parameters that spoil a part if they are missing.
+fn is_parameter_text(text: &str) -> bool {
+    let mut texts = ParameterTexts::default();
+    let readings = [texts.push_drawn(text), texts.push_drawn(&without_mistakes(text))];
+    readings.into_iter().filter_map(|id| texts.get(id)).any(looks_like_parameters)
 }
 
 /// Path names, for comparison with the names of other layers.
@@ -118,6 +141,12 @@ impl NearNames {
         let longer = before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end])));
         longer.or_else(version).or_else(|| self.without_letters.get(&layer))
     }
+
+    /// Returns the path with the longest name with which the name of another layer begins.
+    fn beginning(&self, layer: &str) -> Option<&PathName> {
+        let layer = case_folded(layer);
+        layer.char_indices().rev().find_map(|(end, _)| self.by_folded.get(&layer[..end]))
+    }
 }
 
 /// Normalizes a name for comparison: only letters, digits and tildes, in upper case, with look-alikes replaced by plain characters and digits.
@@ -145,12 +174,29 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
             layers.membership(number).is_none() && !layer.hidden && !language.is_keep_out(&layer.name)
         })
         .collect();
-    let near_layers: Vec<Option<NearLayer<'_>>> = drawing
+    let mut near_layers: Vec<Option<NearLayer<'_>>> = drawing
         .layers
         .iter()
         .zip(&is_other)
         .map(|(layer, is_other)| is_other.then(|| NearLayer::of(&layer.name, &names, language)).flatten())
         .collect();
+    // On a layer that begins with a path's name, elements with a parameter text are those of the path, whatever follows the name.
+    let mut has_elements = vec![false; drawing.layers.len()];
+    for entity in &drawing.entities {
+        has_elements[entity.layer as usize] |= AnyText::of(&entity.geometry).is_none();
+    }
+    for entity in &drawing.entities {
+        let layer = entity.layer as usize;
+        if is_other[layer]
+            && has_elements[layer]
+            && near_layers[layer].is_none()
+            && let Some(text) = AnyText::of(&entity.geometry)
+            && let Some(path) = names.beginning(&drawing.layers[layer].name)
+            && is_parameter_text(text.string())
+        {
+            near_layers[layer] = Some(NearLayer::Path(path));
+        }
+    }
     let budget = SearchBudget::new(MAX_EXAMINED_CANDIDATES);
     let probes = if paths.is_empty() { Vec::new() } else { probe_circles(drawing, language) };
     let mut on_near_layers: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
@@ -277,7 +323,10 @@ fn stray_text(
     let [drawn, meant] =
         [texts.push_drawn(text.string()), texts.push_drawn(&without_mistakes(text.string()))];
     let (drawn, meant) = (texts.get(drawn)?, texts.get(meant)?);
-    let read = [drawn, meant].into_iter().find(|read| looks_like_parameters(*read))?;
+    let is_read = |read: &ParameterText<'_>| {
+        looks_like_parameters(*read) || may_be_probe_text(read.as_str().as_bytes())
+    };
+    let read = [drawn, meant].into_iter().find(is_read)?;
     let circle = text.circle();
     let (path, (layer, candidate)) = paths.iter().find_map(|path| {
         let taker =
@@ -343,12 +392,18 @@ pub(super) fn looks_like_parameters(text: ParameterText<'_>) -> bool {
 impl PathCollector<'_> {
     /// Whether a text would have an effect that spoils a part if it is missing, on an element without a text.
     fn would_apply(&self, text: ParameterText<'_>, candidate: &Candidate) -> bool {
-        let Owner::Element(element) = candidate.owner else { return false };
-        let element = &self.elements[element];
-        let class = element.class(self.tool());
+        let (class, text_of_owner, essential) = match candidate.owner {
+            Owner::Element(element) => {
+                let element = &self.elements[element];
+                (element.class(self.tool()), element.text, ESSENTIAL_LETTERS)
+            }
+            // The height of a probe corrects all others.
+            Owner::Probe(probe) => (ElementClass::Probe, self.probes[probe].text, Letters::ALL),
+            Owner::Start | Owner::Faulty => return false,
+        };
         let mut letters = text.pieces().iter().filter_map(|piece| piece.letter);
-        let has_effect = |letter| ESSENTIAL_LETTERS.contains(letter) && class.use_of(letter).counts();
-        element.text.is_none() && letters.any(has_effect)
+        let has_effect = |letter| essential.contains(letter) && class.use_of(letter).counts();
+        text_of_owner.is_none() && letters.any(has_effect)
     }
 
     /// The cutter's diameter, if the start text gives it.

@@ -44,12 +44,59 @@ fn a_parameter_text_over_an_element_on_another_layer_has_no_effect() {
     for string in ["B1 D1.5", "B1 C1", "B1 S20", "B1 T2", "I0.5 U12"] {
         assert_eq!(strays(&text("Notes", string, "20,0")), ["PB119"], "{string}");
     }
-    for mistyped in ["b2", "B 2", "B 0,5", "b  0.5", "B1,F100", "b1, f 100", "B1;F100", "n1 b2"] {
+    for mistyped in [
+        "b2",
+        "B 2",
+        "B 0,5",
+        "b  0.5",
+        "B1,F100",
+        "b1, f 100",
+        "B1;F100",
+        "n1 b2",
+        "B1mm",
+        "B 1 mm",
+        "B1mm F100",
+        "B:1",
+        "B1/F100",
+        "B1 (F100)",
+        "(B1)",
+        "'B1'",
+        "B1\u{a0}F100",
+        "B1 - F100",
+        "B1 F100!",
+        "%%uB1",
+        "%%OB1%%O",
+    ] {
         assert_eq!(strays(&text("Notes", mistyped, "20,0")), ["PB119"], "{mistyped}");
     }
     for string in [
-        "R5", "M6", "Maßstab", "B", "Bohrung", "N1", "B2 x", "B2 >1", "D1", "P3", "B2x4", "T5", "Qgroove",
-        "S20", "D1 T2", "b", "B 2 mm", "B, 2", "ab 2", "b2 tief", "F", "n 3", "d 5",
+        "R5",
+        "M6",
+        "Maßstab",
+        "B",
+        "Bohrung",
+        "N1",
+        "B2 x",
+        "B2 >1",
+        "D1",
+        "P3",
+        "B2x4",
+        "T5",
+        "Qgroove",
+        "S20",
+        "D1 T2",
+        "b",
+        "B 2 m",
+        "B2 (tief)",
+        "(B)",
+        "1mm",
+        "B1 - 2",
+        "B, 2",
+        "ab 2",
+        "b2 tief",
+        "F",
+        "n 3",
+        "d 5",
     ] {
         assert_eq!(strays(&text("Notes", string, "20,0")), [""; 0], "{string}");
     }
@@ -87,6 +134,9 @@ fn texts_of_several_lines_count_as_well() {
     let mtext = |string: &str| format!("layer Notes\nmtext 20,0 \"{string}\" height 2 align middle centre");
     assert_eq!(strays(&mtext("B2")), ["PB119"]);
     assert_eq!(strays(&mtext("Deckel")), [""; 0]);
+    for string in ["\\LB1\\l", "{\\LB1}", "\\OB1\\o", "{\\C1;B1}"] {
+        assert_eq!(strays(&mtext(string)), ["PB119"], "{string}");
+    }
 }
 
 #[test]
@@ -172,6 +222,38 @@ fn a_probe_with_a_text_on_another_layer_is_told() {
     );
 }
 
+#[test]
+fn the_text_of_a_probe_on_another_layer_has_no_effect() {
+    let probe = |own: &str, string: &str, at: &str| {
+        let path = format!("mill 0,0 40,0\nend 40,0\nprobe 20,40{own}");
+        strays_with(&path, &text("Notes", string, at))
+    };
+    for string in ["T1.5", "LA T1.5", "H1", "LA"] {
+        assert_eq!(probe("", string, "20,43"), ["PB119"], "{string}");
+    }
+    assert_eq!(probe("", "T1.5", "20,46"), [""; 0], "the text is beside the circle");
+    assert_eq!(probe(" \"T2\"", "T1.5", "20,43"), [""; 0], "the probe has its text");
+    assert_eq!(probe("", "probe", "20,43"), [""; 0]);
+    assert_eq!(probe("", "F100", "20,43"), [""; 0], "a probe knows no F");
+}
+
+#[test]
+fn a_layer_that_begins_with_a_path_s_name_and_holds_parameters_is_named() {
+    let hole = |layer: &str, string: &str| {
+        strays(&format!("layer \"{layer}\"\ncircle 20,40 d 3\ntext 20,40 \"{string}\" height 2"))
+    };
+    for layer in ["1234.1P holes", "1234.1P_BAK", "1234.1PABC", "1234.1P Bohrungen"] {
+        assert_eq!(hole(layer, "B1"), ["PB120"], "{layer}");
+        assert_eq!(hole(layer, "M6"), [""; 0], "{layer}");
+    }
+    for layer in ["1235.1P holes", "holes", "Notes 1234.1P"] {
+        assert_eq!(hole(layer, "B1"), [""; 0], "{layer}");
+    }
+    // Without an element, the texts of such a layer are those of others.
+    assert_eq!(strays(&text("1234.1P notes", "B1", "20,0")), ["PB119"]);
+    assert_eq!(strays(&text("1234.1P notes", "B1", "20,40")), [""; 0]);
+}
+
 /// The preliminary test of undecoded bytes must not miss these texts.
 #[test]
 fn the_first_look_at_bytes_is_certain() {
@@ -193,6 +275,10 @@ fn the_first_look_at_bytes_is_certain() {
         "T2.5",
         "L1 T=d H.5",
         "LABCDEFGHIJKLMNOPQRSTUVW",
+        "%%uB1",
+        "\\LB1\\l",
+        "{\\OB1}",
+        "B:1",
     ] {
         assert!(may_be_stray_text(text.as_bytes()), "{text}");
     }
