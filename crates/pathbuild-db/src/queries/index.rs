@@ -226,7 +226,9 @@ impl FileIndex {
         paths.extend(raw.paths.into_iter().map(path));
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
         let mut diagnostics = raw.diagnostics;
-        let DrawnParts { parts, mut problems, .. } = parts.unwrap_or_default();
+        let mut parts = parts.unwrap_or_default();
+        parts.judge_open_outlines(&cuts);
+        let DrawnParts { parts, mut problems, .. } = parts;
         lower_to_warnings(db, &mut problems);
         diagnostics.append(&mut problems);
         cuts.sort_unstable_by(|one, other| one.name.cmp(&other.name));

@@ -143,7 +143,9 @@ pub(super) fn doubtful_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic
     };
     let language = Settings::get(db).language(db);
     let reading = Reading { compatible: false, ..Settings::get(db).reading(db).clone() };
-    let drawn = read_parts(&read_layers_as(db, file, &reading, &|layer| language.is_part(layer)), language);
+    let mut drawn =
+        read_parts(&read_layers_as(db, file, &reading, &|layer| language.is_part(layer)), language);
+    drawn.judge_open_outlines(file_parts(db, file).map_or(&[], |found| &found.cuts));
     let problem = |message, (part, ring): &(usize, usize)| {
         let place = drawn.places.get(*part)?.get(*ring)?.clone();
         let mut problem = Diagnostic { place, ..Diagnostic::new(message) };

@@ -96,6 +96,64 @@ fn an_open_outline_beside_a_closed_one_leaves_that_alone() {
     assert!(found.len() == 1 && found[0].starts_with("PB220"), "{found:?}");
 }
 
+/// One side of the second outline is missing. Whether the rest is an outline shows in the cuts beside it.
+#[test]
+fn an_open_outline_that_is_cut_lacks_a_piece() {
+    let sides = ["100,20 100,0", "100,0 140,0", "140,0 140,20", "140,20 100,20"];
+    let found = |missing: usize, path: &str| {
+        let lines = sides.iter().enumerate().filter(|(side, _)| *side != missing);
+        let lines: Vec<String> = lines.map(|(_, line)| format!("line {line}")).collect();
+        let first = beside(&format!("line 0,1 40,1\n{SIDES}"));
+        let mut found = messages(&format!(
+            "{first}{}\nlayer 1235.1P\nstart 99,-1 \"T2 O2 I1 B0 S5\"\n{path}",
+            lines.join("\n")
+        ));
+        // The file's name does not include the second path.
+        found.retain(|found| !found.starts_with("PB521"));
+        found
+    };
+    let around = |aside: f64| {
+        let [left, right, low, high] = [100.0 - aside, 140.0 + aside, -aside, 20.0 + aside];
+        format!(
+            "sweep 99,-1 {left},{low}\nmill {left},{low} {right},{low}\nmill to {right},{high}\nmill to {left},{high}\nmill to {left},{}\nend {left},{}",
+            low + 1.0,
+            low + 1.0
+        )
+    };
+    for missing in 0..4 {
+        for aside in [1.05, 1.7] {
+            let found = found(missing, &around(aside));
+            assert!(
+                found.len() == 1 && found[0].starts_with("PB219 the outline of the part has a gap"),
+                "{missing} {aside}: {found:?}"
+            );
+        }
+        // Nearer to the line, or farther away, than a cut beside the edge of a part.
+        for aside in [0.2, 1.8] {
+            assert_eq!(found(missing, &around(aside)), [""; 0], "{missing} {aside}");
+        }
+    }
+    // A cut beside one side only.
+    assert_eq!(found(3, "mill 99,-1 99,21\nend 99,21"), [""; 0]);
+}
+
+/// The arc that closes a lug is missing, so that the line across the gap runs through its hole.
+#[test]
+fn the_hole_of_a_lug_without_its_arc_is_no_part() {
+    let lug = "line 10,19 30,19\nline 30,19 30,1\nline 30,1 10,1\ncircle 10,10 d 5";
+    let path = "layer 1234.1P\nstart 31,0 \"T2 O2 I1 B0 S5\"\nmill 31,0 31,20\nmill to 10,20\nmill arc centre 10,10 r 10 from 90 to 270\nmill to 31,0\nsweep 31,0 10,10\nmill circle 10,10 d 5\nend 10,10\n";
+    let found = messages(&format!("{path}layer Part\n{lug}\n"));
+    assert!(
+        found.len() == 1
+            && found[0].starts_with("PB219")
+            && found[0].contains("(10, 19)")
+            && found[0].contains("(10, 1)"),
+        "{found:?}"
+    );
+    let whole = messages(&format!("{path}layer Part\n{lug}\narc centre 10,10 r 9 from 90 to 270\n"));
+    assert!(whole.iter().all(|found| found.starts_with("PB217")), "{whole:?}");
+}
+
 /// The ends of two sides of a rectangle are too long and cross each other.
 #[test]
 fn overlong_ends_are_a_crossing_and_no_gap() {

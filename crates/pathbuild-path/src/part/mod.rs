@@ -12,6 +12,7 @@ mod intervals;
 mod leftover;
 mod loose;
 mod neighbours;
+mod open;
 mod prepared;
 mod waste;
 
@@ -23,6 +24,7 @@ use crate::names::{LayerPattern, PathName};
 
 pub(crate) use boxes::{BoxIndex, square};
 pub(crate) use intervals::{Stretch, add_stretches_within, at as at_along, join_stretches};
+pub(crate) use open::OpenOutline;
 
 pub use bars::LostBar;
 pub use check::{PartFindings, check_parts};
@@ -82,18 +84,25 @@ pub struct DrawnParts {
     pub parts: Vec<Part>,
     /// For each part, the places of its rings in the file.
     pub places: Vec<Vec<Place>>,
+    /// The open outlines that are findings only if paths cut along them; see [`DrawnParts::judge_open_outlines`].
+    pub(crate) open: Vec<OpenOutline>,
     /// Findings about outlines (PB219), with their positions in the file.
     pub problems: Vec<Diagnostic>,
 }
 
 impl Part {
-    /// Whether the part may belong to a path. If the pattern captures no name, it may belong to any path; otherwise, to paths with the captured
-    /// name, possibly followed by letters.
+    /// Whether the part may belong to a path.
     pub(crate) fn may_belong_to(&self, path: &PathName) -> bool {
-        let Some(name) = &self.paths else { return true };
-        let path = path.canonical();
-        path.strip_prefix(name.as_str()).is_some_and(|rest| rest.chars().all(char::is_alphabetic))
+        may_belong_to(self.paths.as_ref(), path)
     }
+}
+
+/// Whether an outline may belong to a path. If the pattern captures no name, it may belong to any path; otherwise, to paths with the captured name,
+/// possibly followed by letters.
+fn may_belong_to(captured: Option<&SmolStr>, path: &PathName) -> bool {
+    let Some(name) = captured else { return true };
+    let path = path.canonical();
+    path.strip_prefix(name.as_str()).is_some_and(|rest| rest.chars().all(char::is_alphabetic))
 }
 
 /// A finished part as placed in a program.

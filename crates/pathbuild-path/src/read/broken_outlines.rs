@@ -46,6 +46,8 @@ struct EnclosedArea(Outline);
 pub(super) struct SortedOutlines {
     pub(super) rings: Vec<NumberedCurves>,
     pub(super) broken: Vec<BrokenOutline>,
+    /// Open chains that begin at no ring: outlines with a large gap, or lines that belong to no outline.
+    pub(super) open: Vec<NumberedCurves>,
     /// The boxes of the broken outlines.
     boxes: BoxIndex,
     /// The ends of chains that cross themselves.
@@ -93,12 +95,16 @@ impl SortedOutlines {
                 None => others.push(chain),
             }
         }
-        broken.extend(overshooting(&others));
+        let overshooting = overshooting(&others);
+        let mut open = if overshooting.is_empty() { others } else { Vec::new() };
+        let hanging: BTreeSet<usize> = hanging.iter().flatten().map(|(number, _)| *number).collect();
+        open.retain(|chain| !chain.iter().any(|(number, _)| hanging.contains(number)));
+        broken.extend(overshooting);
         let mut is_kept = is_left_out.into_iter().map(|is_left_out| !is_left_out);
         rings.retain(|_| is_kept.next().unwrap_or(true));
         let boxes = BoxIndex::new(broken.iter().map(|broken| broken.border.0.extent()));
         let overlong = broken.iter().filter_map(|broken| broken.overlong).collect();
-        Self { rings, broken, boxes, overlong }
+        Self { rings, broken, open, boxes, overlong }
     }
 
     /// Whether a broken outline encloses a ring, which is then not the outer edge of a part.
@@ -154,15 +160,14 @@ impl BrokenOutline {
 
     fn with_gap(chain: &NumberedCurves, rims: &OutermostRings) -> Option<Self> {
         let own = curves_of(chain);
-        let (first, last) = (chain.first()?, chain.last()?);
-        let (start, end) = (first.1.start(), last.1.end());
-        let gap = (start - end).norm();
-        let border = EnclosedArea::new(&[&own[..], &[Curve::Line(Line { start: end, end: start })]].concat());
+        let (curve, at, other) = ends_of_chain(chain)?;
+        let gap = (at - other).norm();
+        let closing = Line { start: own.last()?.end(), end: own.first()?.start() };
+        let border = EnclosedArea::new(&[&own[..], &[Curve::Line(closing)]].concat());
         if gap > NEAR_MISS_DISTANCE && gap > MAX_RELATIVE_GAP * length(&own) && !rims.has_any_inside(&border)
         {
             return None;
         }
-        let (curve, at, other) = if first.0 < last.0 { (first.0, start, end) } else { (last.0, end, start) };
         let problem = (gap > NEAR_MISS_DISTANCE).then(|| gap_problem(at, other));
         Some(Self { curve, at, problem, overlong: None, border })
     }
@@ -338,6 +343,13 @@ impl<'c> OpenSide<'c> {
         let both = self.chain.iter().chain(other.into_iter().flat_map(|other| other.chain));
         Some(OpenHalf { ring: self.ring, outline, curves: both.map(|(number, _)| *number).collect() })
     }
+}
+
+/// Returns the number of the first drawn curve at one of a chain's ends, that end, and the other end.
+pub(super) fn ends_of_chain(chain: &NumberedCurves) -> Option<(usize, Xy, Xy)> {
+    let (first, last) = (chain.first()?, chain.last()?);
+    let (start, end) = (first.1.start(), last.1.end());
+    Some(if first.0 < last.0 { (first.0, start, end) } else { (last.0, end, start) })
 }
 
 /// Returns PB219 for two ends that should meet.

@@ -11,8 +11,8 @@ use crate::geometry::{Arc, Curve};
 use crate::language::Language;
 use crate::line_type::{LineType, LineTypes};
 use crate::names::LayerPattern;
-use crate::part::{DrawnParts, Part, PartRing};
-use crate::read::broken_outlines::{SortedOutlines, gap_problem};
+use crate::part::{DrawnParts, OpenOutline, Part, PartRing};
+use crate::read::broken_outlines::{SortedOutlines, ends_of_chain, gap_problem};
 use crate::read::entities::{AnyText, at_entity, begin, curve, xy};
 use crate::read::outline_graph::Graph;
 use crate::read::rings::{JOIN_DISTANCE, curves_of, nesting};
@@ -38,6 +38,12 @@ pub fn parts(drawing: &Drawing, language: &Language) -> DrawnParts {
             let place = |problem| at_entity(drawing, curves[broken.curve].entity, broken.at, problem);
             found.problems.extend(problem.map(place));
         }
+        let open = outlines.open.iter().filter(|_| !outlines.rings.is_empty());
+        found.open.extend(open.filter_map(|chain| {
+            let (curve, at, other) = ends_of_chain(chain)?;
+            let problem = at_entity(drawing, curves[curve].entity, at, gap_problem(at, other));
+            Some(OpenOutline { paths: paths.clone(), curves: curves_of(chain), problem })
+        }));
         layers.add_parts(paths.as_ref(), curves, &outlines, &mut found);
     }
     found.problems.extend(layers.without_rings(&found));
