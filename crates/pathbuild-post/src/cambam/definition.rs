@@ -259,7 +259,9 @@ impl<'a> CbppReader<'a> {
     }
 
     fn notice_repetition(&mut self, name: &str, line: u32) {
-        if !self.seen.insert(name.to_owned()) {
+        // Two names of one setting.
+        let setting = if name == "AxisOfSpin" { "AxisOfRotation" } else { name };
+        if !self.seen.insert(setting.to_owned()) {
             self.report(Diagnostic::new(&posts::POST_REPEATED_ELEMENT).quoting("element", name), line);
         }
     }

@@ -79,6 +79,13 @@ fn a_repeated_element_is_a_warning_and_the_last_one_holds() {
         ["4: PB752 <G0> occurs again; the last one applies (keep only one of them)"]
     );
     assert_eq!(lines(&text, &job(vec![]))[0], "G000 Z5.0");
+    // Both names of one setting.
+    let axes = |second: &str| {
+        let text = bare(&format!("<AxisOfSpin>X</AxisOfSpin>\n{second}"));
+        texts(&output(&text, &job(vec![]), &PostOptions::default()).unwrap().warnings)
+    };
+    assert!(axes("<AxisOfRotation>Y</AxisOfRotation>")[0].contains("PB752 <AxisOfRotation> occurs again"));
+    assert_eq!(axes("<RotaryAxis>A</RotaryAxis>"), [""; 0]);
 }
 
 #[test]

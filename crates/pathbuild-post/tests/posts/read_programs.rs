@@ -618,7 +618,7 @@ fn a_cut_from_or_to_an_unknown_place_is_an_error() {
 #[test]
 fn a_program_that_names_no_tool_is_written_without_a_change() {
     let text = "G21 G90 G17\nS1000 M3\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nG1 X10\nG0 Z5\nM5\nM30";
-    for post in ["grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin"] {
+    for post in ["grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin", "din"] {
         let lines =
             posted(text, Dialect::LinuxCnc, post).unwrap_or_else(|errors| panic!("{post}: {errors:?}"));
         let is_change = |line: &&String| line.contains("T0") || line.contains("M6") || line.contains("H0");
