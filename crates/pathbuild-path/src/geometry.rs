@@ -3,7 +3,7 @@
 use nalgebra::{Point2, UnitComplex, Vector2};
 use pathbuild_motion::is_full_turn;
 
-use crate::approx::coincide;
+use crate::approx::{coincide, grid_square};
 
 /// A point in the plane, in mm.
 pub type Xy = Point2<f64>;
@@ -49,6 +49,9 @@ pub struct Placement {
     turn: UnitComplex<f64>,
     shift: Vector2<f64>,
 }
+
+/// See [`Curve::place_key`].
+pub(crate) type PlaceKey = [[i64; 2]; 3];
 
 impl Curve {
     /// Returns the start point.
@@ -98,11 +101,10 @@ impl Curve {
         }
     }
 
-    /// Whether two curves lie on each other, drawn in the same or in opposite directions.
-    pub(crate) fn is_copy_of(&self, other: &Self) -> bool {
-        let has_ends_of =
-            |other: &Self| coincide(self.start(), other.start()) && coincide(self.end(), other.end());
-        (has_ends_of(other) || has_ends_of(&other.reversed())) && coincide(self.middle(), other.middle())
+    /// Returns a key that is equal for curves that lie on each other: both ends, in order of their coordinates, and the point halfway.
+    pub(crate) fn place_key(&self) -> PlaceKey {
+        let (one, other) = (grid_square(self.start()), grid_square(self.end()));
+        [one.min(other), one.max(other), grid_square(self.middle())]
     }
 
     /// Returns the area in mm² between a point and the curve, positive if the curve runs counterclockwise around the point. The sum over a closed

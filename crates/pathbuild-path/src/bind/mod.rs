@@ -4,6 +4,7 @@
 mod cuts;
 mod uncut_runs;
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
@@ -17,7 +18,7 @@ use crate::approx::{above, is_negligible};
 use crate::bind::uncut_runs::{SupportSegment, uncut_runs};
 use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape, diagnostic_point};
-use crate::geometry::{Curve, Line};
+use crate::geometry::{Curve, Line, PlaceKey};
 use crate::language::{Language, PathTool};
 use crate::letter::{ElementClass, Letter, LetterUse, Letters};
 use crate::path::{
@@ -71,6 +72,8 @@ struct Binder<'a> {
     problems: Vec<Diagnostic>,
     /// For each text, the indices of the diagnostics about it in `problems`.
     by_text: HashMap<TextId, Vec<usize>>,
+    /// The texts of subpaths that name a path. Built for the first subpath without a text.
+    named_subpaths: OnceCell<BTreeMap<PlaceKey, TextId>>,
     /// Keys of the messages that doubt values of the path itself: each is reported only once.
     doubted_at_start: Vec<&'static str>,
     /// Whether any segment with support bars has a gap between them.
@@ -130,6 +133,7 @@ impl<'a> Binder<'a> {
             helices: Vec::new(),
             problems: Vec::new(),
             by_text: HashMap::new(),
+            named_subpaths: OnceCell::new(),
             doubted_at_start: Vec::new(),
             has_gap: false,
             gapless: None,
@@ -510,11 +514,19 @@ impl Binder<'_> {
         if element.text.is_some() {
             return None;
         }
-        let subpaths = self.raw.drawn.elements.iter().filter(|other| other.role == Role::Subpath);
-        let copies =
-            subpaths.filter(|other| matches!(&other.shape, Shape::Curve(other) if other.is_copy_of(curve)));
-        let mut texts = copies.filter_map(|copy| self.raw.drawn.text(copy.text));
-        texts.find(|text| text.letters.contains(Letter::Embed)).map(|text| text.as_str().replace('\n', " "))
+        let drawn = &self.raw.drawn;
+        let named_subpaths = self.named_subpaths.get_or_init(|| {
+            let subpaths = drawn.elements.iter().filter(|other| other.role == Role::Subpath);
+            let named = subpaths.filter_map(|other| match (other.shape, drawn.text(other.text)) {
+                (Shape::Curve(curve), Some(text)) if text.letters.contains(Letter::Embed) => {
+                    Some((curve.place_key(), other.text?))
+                }
+                _ => None,
+            });
+            named.collect()
+        });
+        let text = drawn.text(named_subpaths.get(&curve.place_key()).copied());
+        text.map(|text| text.as_str().replace('\n', " "))
     }
 
     /// Returns N of an element, or else the default order.

@@ -361,7 +361,7 @@ fn are_copies_of_subpath(owners: [Owner; 2], elements: &[Element]) -> bool {
         Owner::Element(_) | Owner::Start | Owner::Probe(_) | Owner::Faulty => None,
     };
     let [Some(one), Some(other)] = owners.map(curve) else { return false };
-    one.is_copy_of(&other)
+    one.place_key() == other.place_key()
 }
 
 /// Whether an element does not accept one of the letters of a text (PB202).

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Text, Value, words};
 use crate::approx::{coincide, grid_square};
 use crate::chain::Item;
 use crate::element::{Element, diagnostic_point};
-use crate::geometry::{Curve, Xy};
+use crate::geometry::{Curve, PlaceKey, Xy};
 use crate::path::{Path, SegmentKind, SubpathName};
 use crate::walk::{MAX_SKIPPED_GAP, OpenEnds, Walker};
 
@@ -364,9 +364,9 @@ pub(super) struct Curves<'a> {
     known: Vec<(CurveKey, usize)>,
 }
 
-/// A key that is equal for curves that lie on each other: the kind of segment, both ends in order of their coordinates, and the midpoint.
+/// A key that is equal for segments of the same kind that lie on each other.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct CurveKey(u8, [[i64; 2]; 3]);
+struct CurveKey(u8, PlaceKey);
 
 impl<'a> Curves<'a> {
     /// Collects the milled curves, sweeps and subpaths among these segments.
@@ -449,7 +449,6 @@ impl CurveKey {
             SegmentKind::Hole(_) | SegmentKind::Helix(_) => return None,
         };
         let curve = path.curve(segment)?;
-        let (one, other) = (grid_square(curve.start()), grid_square(curve.end()));
-        Some(Self(kind, [one.min(other), one.max(other), grid_square(curve.middle())]))
+        Some(Self(kind, curve.place_key()))
     }
 }
