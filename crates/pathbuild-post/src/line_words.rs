@@ -15,7 +15,7 @@ pub(crate) struct LineWords {
     pub(crate) foreign: Option<String>,
     /// Whether the line begins with `/`, possibly after its number, so that a switch at the machine (block delete) can skip it.
     pub(crate) is_optional: bool,
-    /// Whether the line begins with `%`.
+    /// Whether the line begins with `%`, possibly after its number.
     pub(crate) is_percent: bool,
     /// The first sign of a parameter or an expression: `#` or `[`.
     pub(crate) formula: Option<char>,
@@ -30,8 +30,7 @@ pub(crate) struct CommentMarks {
 
 pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
     let mut found = LineWords::default();
-    let line = line.trim();
-    let mut rest = line;
+    let mut rest = line.trim();
     while let Some(first) = rest.chars().next() {
         rest = if let Some(after) = after_comment(rest, marks) {
             after
@@ -39,8 +38,9 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
             found.words.push(word);
             after
         } else {
-            found.is_optional |= first == '/' && found.words.iter().all(|word| word.letter == 'N');
-            found.is_percent |= first == '%' && rest.len() == line.len();
+            let is_first = found.foreign.is_none() && found.words.iter().all(|word| word.letter == 'N');
+            found.is_optional |= first == '/' && is_first;
+            found.is_percent |= first == '%' && is_first;
             found.formula = found.formula.or(Some(first).filter(|sign| matches!(sign, '#' | '[')));
             if found.foreign.is_none() && !matches!(first, '%' | '/' | ':' | ' ' | '\t') {
                 found.foreign = rest.split([' ', '\t']).next().map(str::to_owned);
@@ -132,6 +132,8 @@ mod tests {
     fn words_need_no_blanks_and_may_have_them() {
         assert_eq!(read("G1X-1.5y 2 Z.5"), ("G1 X-1.5 Y2 Z0.5".into(), None));
         assert_eq!(read("%"), (String::new(), None));
+        assert!(words("N10 %1234.1P", &CommentMarks::default()).is_percent);
+        assert!(!words("FOO %1234.1P", &CommentMarks::default()).is_percent);
     }
 
     #[test]

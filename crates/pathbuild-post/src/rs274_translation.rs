@@ -132,8 +132,8 @@ impl Rs274Translation {
         }
     }
 
-    /// Translates a line with this text and these words. `motion` is the number of the G word that a word of the definition's own in this line stands for. If
-    /// `is_mirrored`, one axis of the plane is reversed, so the direction of arcs is reversed too.
+    /// Translates a line with this text and these words. `motion` is the number of the G word that a word of the definition's own in this line stands
+    /// for. If `is_mirrored`, one axis of the plane is reversed, so the direction of arcs is reversed too.
     pub(crate) fn line(&mut self, text: &str, line: &LineWords, motion: Option<u32>, is_mirrored: bool) {
         if self.enter_blank_definition(line) {
             return self.end_line();

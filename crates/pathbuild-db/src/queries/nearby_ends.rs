@@ -50,8 +50,8 @@ impl<'a> LayerEnds<'a> {
         Self { read, all: OnceCell::new(), markers: OnceCell::new() }
     }
 
-    /// Adds a note about the element on another layer that was probably meant: an end or a turn marker to PB401 to PB404, a circle to PB101 and PB102,
-    /// an element to PB107, a text to PB207.
+    /// Adds a note about the element on another layer that was probably meant: an end or a turn marker to PB401 to PB404, a circle to PB101 and
+    /// PB102, an element to PB107, a text to PB207.
     pub(super) fn with_hint(
         &self,
         path: &PathName,
