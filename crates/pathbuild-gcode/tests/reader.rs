@@ -106,8 +106,8 @@ fn comments_are_kept() {
 fn comments_of_other_dialects_are_errors_or_warnings() {
     assert_eq!(reading_faults(Rs274, b"G0 X1 ; no\n"), ["1 unknown-character"]);
     assert_eq!(
-        reading_faults(Xpertmill, b"G0 X1 ; no\nG0 X2 (no)\n"),
-        ["1 doubtful-spelling", "2 doubtful-spelling"]
+        reading_faults(Xpertmill, b"G0 X1 ; no\nG0 X2 (no)\nG0 X3 ! no\n"),
+        ["1 doubtful-spelling", "2 doubtful-spelling", "3 doubtful-spelling"]
     );
     assert_eq!(reading_faults(Grbl, b"G0 X1 // no\n"), ["1 unknown-character"]);
 }

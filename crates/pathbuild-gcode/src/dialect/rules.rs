@@ -422,7 +422,7 @@ pub(super) static XPERTMILL: Rules = Rules {
         nested_comments: true,
         semicolon_comments: NotationSupport::Doubtful,
         slash_comments: NotationSupport::Usual,
-        bang_comments: NotationSupport::Usual,
+        bang_comments: NotationSupport::Doubtful,
         blanks: Blanks::Separate,
         percent: Percent::Start,
         slash: Slash::Unknown,
