@@ -1,5 +1,7 @@
 //! The machine executes the number before a formula, and both must agree. (book: language/probes, program/reading)
 
+use regex::Regex;
+
 use super::{PLATE, PROBES, drawing, measure, succeed, write};
 use crate::support::{Place, Run};
 
@@ -174,6 +176,22 @@ fn probes_without_formulas_are_an_error_without_the_drawing_too() {
     std::fs::remove_file(place.path().join("a.dxf")).unwrap();
     let run = place.run("adjust a_Clean.gcode --max-correction 1");
     assert!(run.status == Some(1) && run.stderr.contains("error[PB609]"), "{run}");
+}
+
+#[test]
+fn a_height_without_its_formula_is_an_error_without_the_drawing_too() {
+    let place = adjusted("");
+    std::fs::remove_file(place.path().join("a.dxf")).unwrap();
+    succeed(&place.run("adjust a_Clean.gcode --max-correction 1"));
+    let good = place.read("a_Clean.gcode");
+    let line = good.lines().find(|line| line.starts_with("G01") && line.contains("(=")).unwrap();
+    let without_number = Regex::new(r"Z[-.0-9]+\(=").unwrap().replace(line, "Z(=").into_owned();
+    for other in [without_formulas(line), without_number] {
+        assert_ne!(other, line);
+        write(&place, "a_Clean.gcode", &good.replace(line, &other));
+        let run = place.run("adjust a_Clean.gcode --max-correction 1");
+        assert!(run.status == Some(1) && run.stderr.contains("error[PB7"), "{run}");
+    }
 }
 
 /// The four nearest probes correct a height; a fifth one that is never among them is measured in vain.

@@ -4,8 +4,10 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::catch_bugs;
 use pathbuild_db::system::{FileKind, WriteOutcome, join};
 use pathbuild_diagnostic::messages::probes;
-use pathbuild_diagnostic::{Diagnostic, with_decimal_separator};
+use pathbuild_diagnostic::{Code, Diagnostic, with_decimal_separator};
 use pathbuild_gcode::adjust::{AdjustedProgram, Inputs, Source, adjust};
+use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::interpret::{Options, interpret_each};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::read::quote;
@@ -64,6 +66,18 @@ struct Adjustment<'a> {
     errors: Vec<Diagnostic>,
     warnings: Vec<Diagnostic>,
     has_failed: bool,
+}
+
+/// Returns the errors that show that formulas of a program were removed or changed.
+fn edited_heights(job: &Job, adjusted: &AdjustedProgram) -> Vec<Diagnostic> {
+    let read = interpret_each(&adjusted.program, Dialect::Native, &Options::default(), &mut |_| {});
+    let is_of_heights = |problem: &Diagnostic| {
+        matches!(problem.code(), Code::UncheckedFormula | Code::InvalidWord) && problem.is_error()
+    };
+    let of_heights = read.into_iter().filter(is_of_heights);
+    let mut wrong: Vec<Diagnostic> = of_heights.map(|problem| problem.in_file(&job.clean)).collect();
+    quote(wrong.iter_mut(), &adjusted.program);
+    [adjusted.unused.clone(), wrong].concat()
 }
 
 /// The files of a program that is adjusted.
@@ -192,8 +206,11 @@ impl<'a> Adjustment<'a> {
             log: self.log.zip(log.as_deref()).map(|(file, bytes)| source(file, bytes)),
             max_correction: self.max_correction,
         })?;
-        if !is_as_emitted && !adjusted.unused.is_empty() {
-            return Err(adjusted.unused);
+        if !is_as_emitted {
+            let edited = edited_heights(job, &adjusted);
+            if !edited.is_empty() {
+                return Err(edited);
+            }
         }
         let written = self.context.system.write(&job.milling, &adjusted.program);
         let written = written.map_err(|reason| vec![write_error(&job.milling, reason)])?;
