@@ -180,23 +180,7 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
         .zip(&is_other)
         .map(|(layer, is_other)| is_other.then(|| NearLayer::of(&layer.name, &names, language)).flatten())
         .collect();
-    // On a layer that begins with a path's name, elements with a parameter text are those of the path, whatever follows the name.
-    let mut has_elements = vec![false; drawing.layers.len()];
-    for entity in &drawing.entities {
-        has_elements[entity.layer as usize] |= AnyText::of(&entity.geometry).is_none();
-    }
-    for entity in &drawing.entities {
-        let layer = entity.layer as usize;
-        if is_other[layer]
-            && has_elements[layer]
-            && near_layers[layer].is_none()
-            && let Some(text) = AnyText::of(&entity.geometry)
-            && let Some(path) = names.beginning(&drawing.layers[layer].name)
-            && is_parameter_text(text.string())
-        {
-            near_layers[layer] = Some(NearLayer::Path(path));
-        }
-    }
+    add_layers_with_texts(drawing, &names, &is_other, &mut near_layers);
     let budget = SearchBudget::new(MAX_EXAMINED_CANDIDATES);
     let probes = if paths.is_empty() { Vec::new() } else { probe_circles(drawing, language) };
     let mut on_near_layers: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
@@ -261,6 +245,34 @@ pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
 
 /// Length in characters below which a name resembles too many others.
 const MIN_NAME_CHARACTERS: usize = 4;
+
+/// Adds the layers that begin with a path's name and hold elements with a parameter text: they are those of the path, whatever follows the name.
+fn add_layers_with_texts<'n>(
+    drawing: &Drawing,
+    names: &'n NearNames,
+    is_other: &[bool],
+    near_layers: &mut [Option<NearLayer<'n>>],
+) {
+    let layers = drawing.layers.iter().zip(is_other).zip(&*near_layers);
+    let beginnings: Vec<Option<&PathName>> = layers
+        .map(|((layer, is_other), near)| names.beginning(&layer.name).filter(|_| *is_other && near.is_none()))
+        .collect();
+    if beginnings.iter().all(Option::is_none) {
+        return;
+    }
+    let mut has_elements = vec![false; beginnings.len()];
+    for entity in &drawing.entities {
+        has_elements[entity.layer as usize] |= AnyText::of(&entity.geometry).is_none();
+    }
+    for entity in &drawing.entities {
+        let layer = entity.layer as usize;
+        if let Some(path) = beginnings[layer].filter(|_| has_elements[layer] && near_layers[layer].is_none())
+            && AnyText::of(&entity.geometry).is_some_and(|text| is_parameter_text(text.string()))
+        {
+            near_layers[layer] = Some(NearLayer::Path(path));
+        }
+    }
+}
 
 /// Returns the names that may have been meant by a layer's name: without a tilde and the text after it, without up to two characters or a word for
 /// another version at the end, with the ending of a plural or a number, and with two neighbouring characters swapped. Look-alikes are replaced by
