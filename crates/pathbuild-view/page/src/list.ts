@@ -18,6 +18,8 @@ export class List {
   /** Index of the selected row; -1 if no row is selected. */
   private at = -1;
   private isCompact = false;
+  /** Elements of the rendered rows. */
+  private elements = new Map<string, HTMLElement>();
 
   constructor(
     private host: HTMLElement,
@@ -58,22 +60,32 @@ export class List {
     this.items.style.height = `${this.rows.length * height}px`;
     const first = Math.max(0, Math.floor(this.host.scrollTop / height) - 4);
     const last = Math.min(this.rows.length, first + Math.ceil(this.host.clientHeight / height) + 9);
-    const made: HTMLElement[] = [];
-    for (let index = first; index < last; index++) {
-      const item = this.isCompact ? compact(this.rows[index]) : wide(this.rows[index]);
-      item.className = "item";
-      item.id = `item-${index}`;
-      item.setAttribute("role", "option");
-      item.setAttribute("aria-posinset", String(index + 1));
-      item.setAttribute("aria-setsize", String(this.rows.length));
-      item.setAttribute("aria-selected", String(index === this.at));
-      item.dataset.index = String(index);
-      item.style.top = `${index * height}px`;
-      made.push(item);
-    }
-    this.items.replaceChildren(...made);
+    const shown = this.rows.slice(first, last);
+    // A press on a row that is replaced before the release opens nothing, so rows that remain keep their elements.
+    const elements = new Map(shown.map((row) => [key(row), this.elements.get(key(row)) ?? document.createElement("div")]));
+    for (const [row, element] of this.elements) if (!elements.has(row)) element.remove();
+    this.elements = elements;
+    let next = this.items.firstElementChild;
+    shown.forEach((row, offset) => {
+      const item = elements.get(key(row))!;
+      this.fill(item, first + offset);
+      if (item === next) next = item.nextElementSibling;
+      else this.items.insertBefore(item, next);
+    });
     if (this.at >= 0) this.host.setAttribute("aria-activedescendant", `item-${this.at}`);
     else this.host.removeAttribute("aria-activedescendant");
+  }
+
+  private fill(item: HTMLElement, index: number): void {
+    item.replaceChildren(...(this.isCompact ? compact(this.rows[index]) : wide(this.rows[index])));
+    item.className = "item";
+    item.id = `item-${index}`;
+    item.setAttribute("role", "option");
+    item.setAttribute("aria-posinset", String(index + 1));
+    item.setAttribute("aria-setsize", String(this.rows.length));
+    item.setAttribute("aria-selected", String(index === this.at));
+    item.dataset.index = String(index);
+    item.style.top = `${index * this.height()}px`;
   }
 
   private height(): number {
@@ -149,6 +161,10 @@ function size(row: LibraryRow): string {
   return row.size ? `${number(row.size[0], 1)} x ${number(row.size[1], 1)}` : "-";
 }
 
+function key(row: LibraryRow): string {
+  return JSON.stringify([row.file, row.path]);
+}
+
 function name(row: LibraryRow): string {
   return row.path ?? say("wholeDrawing", lang);
 }
@@ -162,19 +178,15 @@ function state(row: LibraryRow): HTMLElement {
   return part(own + warnings, `state ${row.state}`);
 }
 
-function wide(row: LibraryRow): HTMLElement {
-  const item = document.createElement("div");
+function wide(row: LibraryRow): HTMLElement[] {
   const figures = [number(row.thickness, 3), number(row.tool, 3), size(row), number(row.length, 0), number(row.minutes, 0)];
-  item.append(part(name(row), "name"), part(row.file, "file"), part(row.material ?? "-"), ...figures.map((figure) => part(figure)), state(row));
-  return item;
+  return [part(name(row), "name"), part(row.file, "file"), part(row.material ?? "-"), ...figures.map((figure) => part(figure)), state(row)];
 }
 
-function compact(row: LibraryRow): HTMLElement {
-  const item = document.createElement("div");
+function compact(row: LibraryRow): HTMLElement[] {
   const top = document.createElement("div");
   top.className = "top";
   top.append(part(name(row), "name"), state(row));
   const known = [row.file, row.material, row.size && size(row), row.minutes === null || row.minutes === undefined ? null : `${number(row.minutes, 0)} min`];
-  item.append(top, part(known.filter((it) => it).join(" · "), "file"));
-  return item;
+  return [top, part(known.filter((it) => it).join(" · "), "file")];
 }
