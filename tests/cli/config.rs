@@ -470,6 +470,10 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
             "`library` belongs at the top of the file",
             "`library` gehört an den Anfang",
         ),
+        // Tables with names of the user's own know no other keys.
+        ("[line-types]\npart = 'part'\n", "`part` belongs at the top", "`part` gehört an den Anfang"),
+        ("[severity]\nlang = 'de'\n", "`lang` belongs at the top", "`lang` gehört an den Anfang"),
+        ("[tool]\nunits = 'mm'\n", "`units` belongs at the top", "`units` gehört an den Anfang"),
         ("[post]\ndebounce = \"1 s\"\n", "`debounce` belongs in [watch]", "`debounce` gehört in [watch]"),
         (
             "acelerations = [1, 1, 1]\n",
@@ -492,6 +496,9 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
         says(text, "en", english);
         says(text, "de", german);
     }
+    // A line type of this name can be written in capitals.
+    let run = Place::new().file("pathbuild.toml", "[line-types]\nPART = 'CENTER'\n").run("config show");
+    assert_eq!(run.status, Some(0), "{run}");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Text, TextFault, Value, nearest};
 use serde_json::{Map, Value as Json};
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeString, DeTable, DeValue};
 
 use super::origin::{Origin, SourcedValue};
 
@@ -146,6 +146,20 @@ impl<'a> TomlReader<'a> {
             self.report(self.fault(&messages::TOO_MANY_PATTERNS, span).with("what", word).with("most", most));
         }
         beyond == 0
+    }
+
+    /// Reports a key of a table with user-defined keys that belongs before all tables: in a file that ends with such a table, it was appended.
+    /// Returns whether it is such a key.
+    pub(super) fn report_key_of_top(&mut self, name: &Spanned<DeString<'_>>) -> bool {
+        let home = self.key_index.as_ref().and_then(|index| index.find(name.get_ref()));
+        let is_of_top = home.is_some_and(|home| home.is_exact && home.header.is_none());
+        if is_of_top {
+            self.read_within(name.get_ref(), |reader| {
+                let fault = reader.fault(&messages::KEY_OF_TOP, name.span());
+                reader.report(fault.quoting("near", &**name.get_ref()));
+            });
+        }
+        is_of_top
     }
 
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {

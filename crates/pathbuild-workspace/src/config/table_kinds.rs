@@ -22,7 +22,7 @@ use pathbuild_post::PostMacro;
 
 pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueType {
     read: |value, reader| {
-        let entries = entries(value, reader)?;
+        let entries = own_entries(value, reader)?;
         let mut known: Vec<(String, &str)> = Vec::new();
         for (name, _) in &entries {
             let folded = name.get_ref().trim().to_uppercase();
@@ -42,7 +42,7 @@ pub(in crate::config) const LINE_TYPES: ValueType<Vec<LineTypeAlias>> = ValueTyp
 
 pub(in crate::config) const SEVERITY: ValueType<Vec<(Code, Level)>> = ValueType {
     read: |value, reader| {
-        let entries = entries(value, reader)?;
+        let entries = own_entries(value, reader)?;
         Some(entries.into_iter().filter_map(|entry| severity(entry, reader)).collect())
     },
     show: |levels| inline(shown_levels(levels)),
@@ -112,7 +112,7 @@ const UNCHECKED: ValueType<bool> = ValueType {
 pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
     read: |value, reader| {
         let mut tools: Vec<Tool> = Vec::new();
-        for entry in entries(value, reader)? {
+        for entry in own_entries(value, reader)? {
             tools.extend(reader.read_within(entry.0.get_ref(), |reader| {
                 let tool = tool(entry, reader)?;
                 report_shared_number(&tool, entry, &tools, reader);
@@ -201,6 +201,16 @@ fn entries<'v, 't>(
         Some(table) => Some(table.iter().collect()),
         None => reader.expected(&messages::TABLE, value),
     }
+}
+
+/// Returns the entries of a table, and reports those that belong before all tables.
+fn own_entries<'v, 't>(
+    value: &'v Spanned<DeValue<'t>>,
+    reader: &mut TomlReader<'_>,
+) -> Option<Vec<Entry<'v, 't>>> {
+    let mut entries = entries(value, reader)?;
+    entries.retain(|(name, _)| !reader.report_key_of_top(name));
+    Some(entries)
 }
 
 fn alias((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<LineTypeAlias> {
