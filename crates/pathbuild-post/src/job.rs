@@ -98,6 +98,11 @@ impl Job {
         surfaces.reduce(f64::min).filter(|_| !self.has_no_surface)
     }
 
+    /// Whether the program must switch the spindle on for an operation.
+    pub(super) fn starts_spindle(&self) -> bool {
+        self.operations.iter().any(|operation| operation.spindle.is_some_and(Turning::is_on))
+    }
+
     /// Sets a feed in mm/min for cuts without one. Programs for XpertMILL's layers, for example, contain no feeds.
     pub fn set_missing_feeds(&mut self, feed: f64) {
         for operation in &mut self.operations {

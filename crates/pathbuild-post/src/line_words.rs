@@ -19,6 +19,8 @@ pub(crate) struct LineWords {
     pub(crate) is_percent: bool,
     /// The first sign of a parameter or an expression: `#` or `[`.
     pub(crate) formula: Option<char>,
+    /// The names in front of `=`, as in `Z=-5` or `RNDM=5`, without their numbers.
+    pub(crate) assigned: Vec<String>,
 }
 
 /// The marks that begin and end a comment. If the end mark is empty, comments extend to the end of the line.
@@ -30,7 +32,8 @@ pub(crate) struct CommentMarks {
 
 pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
     let mut found = LineWords::default();
-    let mut rest = line.trim();
+    let line = line.trim();
+    let mut rest = line;
     while let Some(first) = rest.chars().next() {
         rest = if let Some(after) = after_comment(rest, marks) {
             after
@@ -41,6 +44,8 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
             let is_first = found.foreign.is_none() && found.words.iter().all(|word| word.letter == 'N');
             found.is_optional |= first == '/' && is_first;
             found.is_percent |= first == '%' && is_first;
+            let name = if first == '=' { name_at_end(&line[..line.len() - rest.len()]) } else { "" };
+            found.assigned.extend((!name.is_empty()).then(|| name.to_owned()));
             found.formula = found.formula.or(Some(first).filter(|sign| matches!(sign, '#' | '[')));
             if found.foreign.is_none() && !matches!(first, '%' | '/' | ':' | ' ' | '\t') {
                 found.foreign = rest.split([' ', '\t']).next().map(str::to_owned);
@@ -51,6 +56,13 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
         };
     }
     found
+}
+
+/// Returns the letters of the name at the end of a text, as `Z` of `G0 Z` and `R` of `R10 `. A number such as GRBL's `$32` is no name.
+fn name_at_end(text: &str) -> &str {
+    let text = text.trim_end().trim_end_matches(|c: char| c.is_ascii_digit());
+    let start = text.trim_end_matches(|c: char| c.is_ascii_alphabetic() || c == '_').len();
+    &text[start..]
 }
 
 impl CommentMarks {
@@ -148,5 +160,13 @@ mod tests {
         assert_eq!(read("G0 TOUCHOFF-POINT X1"), ("G0 X1".into(), foreign("TOUCHOFF-POINT")));
         assert_eq!(read("<HEADER>"), (String::new(), foreign("<HEADER>")));
         assert_eq!(read("G1 X#1"), ("G1".into(), foreign("X#1")));
+    }
+
+    #[test]
+    fn assigned_names_have_no_numbers() {
+        let assigned = |line: &str| words(line, &CommentMarks::default()).assigned;
+        assert_eq!(assigned("G0 Z=-5 M1=3"), ["Z", "M"]);
+        assert_eq!(assigned("R10 = 5"), ["R"]);
+        assert_eq!(assigned("$32=0 (Z=5)"), [""; 0]);
     }
 }

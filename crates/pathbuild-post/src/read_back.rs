@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use pathbuild_diagnostic::messages::{gcode, posts};
-use pathbuild_diagnostic::{Diagnostic, Note, Severity, TextFault, Value};
+use pathbuild_diagnostic::{Diagnostic, Message, Note, Severity, TextFault, Value};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options, code_name};
 use pathbuild_gcode::verify::{
@@ -17,6 +17,7 @@ use pathbuild_motion::{
 
 use crate::findings::LineOrigin;
 use crate::job::{Entry, Job, JobStep, Operation};
+use crate::line_words::{CommentMarks, Word, words};
 use crate::rs274_translation::{Doubt, TranslatedText};
 use crate::target::Target;
 use crate::traverse::{self, MatchedCut};
@@ -59,17 +60,19 @@ pub(super) fn check(
         return if tolerance.is_some() { Err(problems) } else { Ok(Vec::new()) };
     }
     if tolerance.is_some() && target.is_some() {
-        problems.extend(length_without_point(&read.problems));
+        problems.extend(first_of(&read.problems, &gcode::NO_DECIMAL_POINT));
         if !problems.is_empty() {
             return Err(problems);
         }
     }
     problems = if tolerance.is_some() { ambiguous::errors(&read.problems, text) } else { Vec::new() };
     if tolerance.is_some() {
+        problems.extend(first_of(&read.problems, &gcode::NO_MOTION));
         problems.extend(skippable_line(text, &read.steps));
     }
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, expected);
-    if target.is_none() && (tolerance.is_none() || !is_started(&read.steps)) {
+    let is_started = is_started(&read.steps) || !is_manual && job.starts_spindle();
+    if target.is_none() && (tolerance.is_none() || !is_started) {
         // The text's words may mean something other than the spindle, or the operator switches the spindle and the final M5 is only for safety.
         broken.retain(|problem| !is_rule_of_spindle(problem));
     }
@@ -136,17 +139,13 @@ pub(super) fn check(
     if problems.is_empty() { Ok(doubts) } else { Err(problems) }
 }
 
-/// Returns the finding about the first length without a decimal point, which the control may read as thousandths. Further ones are not reported.
-fn length_without_point(problems: &[Diagnostic]) -> Option<Diagnostic> {
-    problems
-        .iter()
-        .find(|problem| problem.message == &gcode::NO_DECIMAL_POINT)
-        .cloned()
-        .map(as_finding_of_post)
+/// Returns the first of the problems with this message as a finding about the post. Further ones are not reported.
+fn first_of(problems: &[Diagnostic], message: &'static Message) -> Option<Diagnostic> {
+    problems.iter().find(|problem| problem.message == message).cloned().map(as_finding_of_post)
 }
 
 /// Returns a finding about the first line that a switch at the machine (block delete) can skip although it moves, changes the tool, its
-/// length, or offsets, or switches the spindle.
+/// length, or offsets, switches the spindle, or states a mode or a feed for the lines that follow.
 fn skippable_line(text: &[u8], steps: &[Step]) -> Option<Diagnostic> {
     let is_needed = |action: &Action| match action {
         Action::Move(_) | Action::SelectTool(_) | Action::ChangeTool(_) | Action::Spindle(_) => true,
@@ -155,9 +154,8 @@ fn skippable_line(text: &[u8], steps: &[Step]) -> Option<Diagnostic> {
     };
     let mut needed = steps.iter().filter(|step| is_needed(&step.action)).map(|step| step.line).peekable();
     for (number, line) in (1_u32..).zip(text.split(|byte| *byte == b'\n')) {
-        let is_optional = begins_with_slash(line);
         while needed.next_if(|needed| *needed < number).is_some() {}
-        if is_optional && needed.peek() == Some(&number) {
+        if begins_with_slash(line) && (needed.peek() == Some(&number) || states_mode(line)) {
             return Some(Diagnostic::new(&posts::LINE_SKIPPABLE).at_line(number, None));
         }
     }
@@ -175,6 +173,14 @@ fn begins_with_slash(line: &[u8]) -> bool {
         _ => line,
     };
     after_number.starts_with(b"/") && !after_number.starts_with(b"//")
+}
+
+/// Whether a line has an F, or a G word other than G4.
+fn states_mode(line: &[u8]) -> bool {
+    let words = words(&String::from_utf8_lossy(line), &CommentMarks::default()).words;
+    let is_dwell = |word: &Word| word.letter == 'G' && word.number == 4.0;
+    let has_mode = words.iter().any(|word| word.letter == 'G' && !is_dwell(word));
+    has_mode || words.iter().any(|word| word.letter == 'F') && !words.iter().any(is_dwell)
 }
 
 /// Permitted deviation of dwells in seconds: half a millisecond and a margin for rounding.

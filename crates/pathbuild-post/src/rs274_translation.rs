@@ -109,9 +109,16 @@ pub enum Doubt {
 
 const MAX_DOUBTFUL_WORDS: usize = 20;
 
-/// The statements of Siemens controls that move, turn, scale or mirror the coordinate system.
-const FRAME_STATEMENTS: [&str; 11] =
-    ["TRANS", "ATRANS", "ROT", "AROT", "ROTS", "AROTS", "SCALE", "ASCALE", "MIRROR", "AMIRROR", "CYCLE800"];
+/// The statements of Siemens controls that move, turn, scale or mirror the coordinate system, repeat a cycle at each position that follows, or
+/// jump.
+const DANGEROUS_STATEMENTS: [&str; 18] = [
+    "TRANS", "ATRANS", "ROT", "AROT", "ROTS", "AROTS", "SCALE", "ASCALE", "MIRROR", "AMIRROR", "CYCLE800",
+    "PRESETON", "MCALL", "GOTO", "GOTOF", "GOTOB", "GOTOC", "GOTOS",
+];
+
+/// The names to which Siemens controls assign the tool, its edge and length, the spindle and switches of the machine. Any other assignment
+/// moves an axis, rounds corners or sets a parameter.
+const HARMLESS_ASSIGNMENTS: [&str; 6] = ["T", "D", "H", "S", "SPOS", "M"];
 
 impl Rs274Translation {
     /// Creates an empty translation. The units are those of the definition until a line changes them; the centres of arcs are distances from
@@ -151,6 +158,10 @@ impl Rs274Translation {
         if line.words.iter().filter(codes).any(|word| tenths(word) == 40) {
             let time = line.words.iter().find(|word| matches!(word.letter, 'P' | 'X' | 'U' | 'F' | 'S'));
             self.dwells.extend(time.map(|time| (self.line, time.number)));
+            // Only Siemens controls take them for a time. On others, F is the feed of the cuts that follow.
+            if let Some(time) = time.filter(|time| matches!(time.letter, 'F' | 'S')) {
+                self.report(format!("G4 {}", time.letter), Doubt::Unknown);
+            }
         } else {
             if let Some(motion) = motion {
                 self.code(i64::from(motion) * 10, is_mirrored);
@@ -180,10 +191,15 @@ impl Rs274Translation {
     fn report_dangerous(&mut self, line: &LineWords, has_own_motion: bool) {
         if let Some(text) = &line.foreign {
             let name = text.split(['(', '=']).next().unwrap_or_default();
-            let is_frame = FRAME_STATEMENTS.iter().any(|frame| frame.eq_ignore_ascii_case(name));
-            if is_frame || moves(line) && !has_own_motion && line.formula.is_none() {
+            let is_dangerous = DANGEROUS_STATEMENTS.iter().any(|known| known.eq_ignore_ascii_case(name));
+            if is_dangerous || moves(line) && !has_own_motion && line.formula.is_none() {
                 self.report(name.to_owned(), Doubt::Dangerous);
             }
+        }
+        let is_harmless =
+            |name: &str| HARMLESS_ASSIGNMENTS.iter().any(|known| known.eq_ignore_ascii_case(name));
+        if let Some(name) = line.assigned.iter().find(|name| !is_harmless(name)) {
+            self.report(format!("{name}="), Doubt::Dangerous);
         }
         if let Some(sign) = line.formula {
             self.report(sign.to_string(), Doubt::Dangerous);

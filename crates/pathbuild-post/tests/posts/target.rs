@@ -291,7 +291,7 @@ fn literal_lengths_have_a_point_where_the_control_may_need_it() {
 fn lines_that_a_switch_can_skip_must_not_be_needed() {
     let written = |dialect: &str, elements: &str| {
         let text = format!(
-            "<PostFile>G21 G90 G17 G94\n{{$mops}}\nM30</PostFile><MOP>/M1\n{{$blocks}}</MOP>{elements}{dialect}"
+            "<PostFile>G21 G90 G17 G94\n{{$mops}}\nM30</PostFile><MOP>/M1\n/M8\n/G4 P1.0\n{{$blocks}}</MOP>{elements}{dialect}"
         );
         let steps = vec![feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)];
         read(&definition(&text)).unwrap().write(&job(steps), &PostOptions::default())
@@ -303,6 +303,10 @@ fn lines_that_a_switch_can_skip_must_not_be_needed() {
             "<Rapid>/{$g0} {$_x} {$_y} {$_z}</Rapid>",
             "<FeedMove>/{$g1} {$_f} {$_x} {$_y} {$_z}</FeedMove>",
             "<MOP>/ M3 S100\n{$blocks}</MOP><PostFile>{$mops}\nM5\nM30</PostFile>",
+            "<FeedMove>/{$g1}\n{$_f} {$_x} {$_y} {$_z}</FeedMove>",
+            "<FeedMove>/{$_f}\n{$g1} {$_x} {$_y} {$_z}</FeedMove>",
+            "<MOP>G18\n/G17\n{$blocks}</MOP>",
+            "<MOP>G91\nN10 /G90\n{$blocks}</MOP>",
             "<AddLineNumbers>true</AddLineNumbers><FeedMove>/{$g1} {$_f} {$_x} {$_y} {$_z}</FeedMove>",
         ] {
             let errors = texts(&written(&dialect, elements).expect_err(elements));
@@ -450,11 +454,23 @@ fn without_a_dialect_words_and_spindle_are_followed_too() {
         "AMIRROR X0",
         "CYCLE800(1)",
         "G0 Z5 RL",
+        "G0 Z=-5",
+        "G0 Z = IC(-15)",
+        "M1=3 X1=AC(5)",
+        "RNDM=5",
+        "R10=5",
+        "PRESETON(Z,5)",
+        "MCALL CYCLE81(5,0,1,-5)",
+        "GOTOF END",
+        "G80\nZ-5",
+        "G80\nX5 Y5 Z9",
     ] {
         let message = refused(&format!("M3 S1000\n{line}"));
         assert!(message.starts_with("PB767"), "{line}: {message}");
     }
-    for line in ["MSG(\"ROT\")", "TRANSFER", "G0 RL", "WAIT 5"] {
+    for line in
+        ["MSG(\"ROT\")", "TRANSFER", "G0 RL", "WAIT 5", "T=\"MILL\"", "SPOS=0 M1=3", "$32=0", "G80\nG0 Z9"]
+    {
         assert!(written(&format!("M3 S1000\n{line}"), &default).is_ok(), "{line}");
     }
     for line in [
@@ -467,9 +483,14 @@ fn without_a_dialect_words_and_spindle_are_followed_too() {
     for line in ["G80 G0", "G21 G71", "G90 G90", "M7 M8", "M9 M5\nM3", "G54"] {
         assert!(written(&format!("M3 S1000\n{line}"), &default).is_ok(), "{line}");
     }
-    for (words, code) in
-        [("", "PB767"), ("S1000", "PB767"), ("M4 S1000", "PB767"), ("M3", "PB745"), ("M3 S1000\nM5", "PB745")]
-    {
+    for (words, code) in [
+        ("", "PB767"),
+        ("S1000", "PB767"),
+        ("M4 S1000", "PB767"),
+        ("M3", "PB745"),
+        ("M3 S1000\nM5", "PB745"),
+        ("M5 S1000", "PB745"),
+    ] {
         let message = refused(words);
         assert!(message.contains(code), "{words}: {message}");
     }
@@ -563,5 +584,12 @@ fn dwells_of_texts_without_a_dialect_are_compared() {
     for dwell in ["G4 P5", "G4 P50", "G4 X0.6", "G4 F499"] {
         let errors = texts(&written(dwell, 0.5).expect_err(dwell));
         assert!(errors[0].contains("PB767 line 6 "), "{errors:?}");
+    }
+    // On most controls, F beside G4 is the feed of the cuts that follow.
+    for (dwell, word) in [("G4 F0.5", "G4 F"), ("G4 S500", "G4 S"), ("G4 P0.5", ""), ("G4 X0.5", "")] {
+        let warnings = texts(&written(dwell, 0.5).expect(dwell).warnings);
+        let is_told =
+            warnings.iter().any(|text| text.contains(&format!("PB752 the output contains {word},")));
+        assert_eq!(is_told, !word.is_empty(), "{dwell}: {warnings:?}");
     }
 }
