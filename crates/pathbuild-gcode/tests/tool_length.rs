@@ -58,6 +58,20 @@ fn a_rapid_move_that_states_z_has_the_length_of_its_tool() {
     assert_eq!(first("G0 X0 Y0\nG0 Z5"), NOTHING, "a program without lengths");
 }
 
+/// The length of the next tool must not apply before M6 inserts it, nor that of a third one after it.
+#[test]
+fn a_rapid_move_with_the_length_of_another_tool_is_reported() {
+    let change = |words: &str| found(&format!("T1 M6\nG43 H1\ncut\n{words}\ncut"));
+    assert_eq!(change("G0 Z5\nT2 M6\nG43 H2 G0 Z5"), NOTHING);
+    assert_eq!(change("G0 Z5\nG43 H2\nG0 X5\nT2 M6\nG0 Z5"), NOTHING, "no Z before the change");
+    assert_eq!(change("G43 H2 G0 Z5\nG0 Z9\nT2 M6"), [6], "once");
+    assert_eq!(change("T2 M6\nG43 H7\nG0 X0\nG0 Z1\nG43 H2 G0 Z1"), [9]);
+    assert_eq!(change("T2 M6\nG43 H1 G0 Z1\nG43 H12 G0 Z1"), [7, 8], "H1 is that of T1");
+    // H is numbered independently of T.
+    assert_eq!(found("T1 M6\nG43 H11 G0 Z5\ncut\nT2 M6\nG43 H12 G0 Z5\ncut"), [3, 7]);
+    assert_eq!(found("T1 M6\nG43 H11 G0 Z5\nG0 Z9\nM30"), NOTHING);
+}
+
 #[test]
 fn a_selected_tool_is_inserted_before_it_cuts() {
     assert_eq!(found("T1 M6\ncut\nT2\nG0 Z5\ncut"), [5]);

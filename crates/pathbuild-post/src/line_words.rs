@@ -21,6 +21,8 @@ pub(crate) struct LineWords {
     pub(crate) formula: Option<char>,
     /// The names in front of `=`, as in `Z=-5` or `RNDM=5`, without their numbers.
     pub(crate) assigned: Vec<String>,
+    /// Whether a comment that begins with `(` has no `)`.
+    pub(crate) is_comment_open: bool,
 }
 
 /// The marks that begin and end a comment. If the end mark is empty, comments extend to the end of the line.
@@ -36,6 +38,7 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
     let mut rest = line;
     while let Some(first) = rest.chars().next() {
         rest = if let Some(after) = after_comment(rest, marks) {
+            found.is_comment_open |= first == '(' && !rest.contains(')');
             after
         } else if let Some((word, after)) = word(rest) {
             found.words.push(word);

@@ -8,8 +8,8 @@ use pathbuild_diagnostic::{Diagnostic, Message, Note, Severity, TextFault, Value
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options, code_name};
 use pathbuild_gcode::verify::{
-    BentRapidRules, CornerRules, Cutter, Machine, MachineRules, Rules, Stock, StockSpan, Tolerance,
-    coarse_arc_finding,
+    BentRapidRules, CornerRules, Cutter, LengthRules, Machine, MachineRules, Rules, Stock, StockSpan,
+    Tolerance, coarse_arc_finding,
 };
 use pathbuild_motion::{
     Action, Axes, Change, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, WorkSystem,
@@ -68,6 +68,10 @@ pub(super) fn check(
     problems = if tolerance.is_some() { ambiguous::errors(&read.problems, text) } else { Vec::new() };
     if tolerance.is_some() {
         problems.extend(first_of(&read.problems, &gcode::NO_MOTION));
+        if target.is_none() {
+            // Some controls run these lines.
+            problems.extend(first_of(&read.problems, &gcode::AFTER_END));
+        }
         problems.extend(skippable_line(text, &read.steps));
     }
     let (mut broken, mut doubts) = broken_rules(&read.steps, job, expected);
@@ -106,6 +110,7 @@ pub(super) fn check(
                 };
                 problems
                     .extend(tools.into_iter().filter(|problem| !is_told(problem)).map(as_finding_of_post));
+                problems.extend(rapids_with_other_length(&read.steps, reader));
                 problems
                     .extend(target.iter().flat_map(|target| bent_rapids(&read.steps, job, &cuts, target)));
             }
@@ -125,6 +130,8 @@ pub(super) fn check(
         }
         if target.is_none() {
             doubts.extend(unused_words(&read.problems));
+            let is_low = |problem: &&Diagnostic| problem.message == &gcode::LOW_MACHINE_HEIGHT;
+            doubts.extend(read.problems.iter().filter(is_low).cloned());
         }
         doubts.extend(translated.and_then(disputed_words_warning));
         doubts.extend(translated.iter().flat_map(|translated| translated.warnings.iter().cloned()));
@@ -199,6 +206,14 @@ fn bent_rapids(steps: &[Step], job: &Job, cuts: &[MatchedCut], target: &Target) 
         bent.severity = Severity::Error;
     }
     found
+}
+
+/// Returns errors about rapid moves with the length of another tool than the one in the spindle. Lengths of cuts are compared with the job.
+fn rapids_with_other_length(steps: &[Step], reader: Dialect) -> impl Iterator<Item = Diagnostic> {
+    let mut rules = LengthRules::new(reader, None);
+    steps.iter().for_each(|step| rules.step(step));
+    let found = rules.finish().into_iter();
+    found.filter(|problem| problem.message == &gcode::RAPID_WITH_OTHER_LENGTH).map(as_finding_of_post)
 }
 
 /// Returns the stock by line of a text with these cuts; `None` if a cutter or the surface is unknown.

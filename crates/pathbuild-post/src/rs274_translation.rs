@@ -149,7 +149,7 @@ impl Rs274Translation {
         let is_motion = |word: &Word| matches!(tenths(word), 0..=30 | 310 | 382..=385 | 730 | 810..=890);
         let motion = motion.filter(|_| !line.words.iter().filter(codes).any(is_motion));
         self.report_unreadable(text, line);
-        self.report_dangerous(line, motion.is_some());
+        self.report_dangerous(text, line, motion.is_some());
         self.modes.line(self.line, line, motion);
         if line.is_optional {
             self.text.push('/');
@@ -186,11 +186,11 @@ impl Rs274Translation {
         self.end_line();
     }
 
-    /// Reports constructs that may change where the tool goes, or which lines are run, and that cannot be recognised by a G or M word alone. In
-    /// a line with the definition's own word for a motion, that word is no G-code.
-    fn report_dangerous(&mut self, line: &LineWords, has_own_motion: bool) {
-        if let Some(text) = &line.foreign {
-            let name = text.split(['(', '=']).next().unwrap_or_default();
+    /// Reports constructs that may change where the tool goes, or which lines are run, and that cannot be recognised by a G or M word alone. Some
+    /// controls end a line at a CR and run the rest, even in a comment. In a line with the definition's own word for a motion, that word is no G-code.
+    fn report_dangerous(&mut self, text: &str, line: &LineWords, has_own_motion: bool) {
+        if let Some(foreign) = &line.foreign {
+            let name = foreign.split(['(', '=']).next().unwrap_or_default();
             let is_dangerous = DANGEROUS_STATEMENTS.iter().any(|known| known.eq_ignore_ascii_case(name));
             if is_dangerous || moves(line) && !has_own_motion && line.formula.is_none() {
                 self.report(name.to_owned(), Doubt::Dangerous);
@@ -200,6 +200,12 @@ impl Rs274Translation {
             |name: &str| HARMLESS_ASSIGNMENTS.iter().any(|known| known.eq_ignore_ascii_case(name));
         if let Some(name) = line.assigned.iter().find(|name| !is_harmless(name)) {
             self.report(format!("{name}="), Doubt::Dangerous);
+        }
+        if text.trim_end_matches('\r').contains('\r') {
+            self.report("CR".to_owned(), Doubt::Dangerous);
+        }
+        if line.is_comment_open {
+            self.report("(".to_owned(), Doubt::Unknown);
         }
         if let Some(sign) = line.formula {
             self.report(sign.to_string(), Doubt::Dangerous);

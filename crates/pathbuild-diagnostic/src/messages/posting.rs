@@ -99,6 +99,13 @@ messages! {
         help_en: "keep the width of the drawing within the circumference, 2 x pi x T",
         help_de: "die Breite der Zeichnung innerhalb des Umfangs halten, 2 x Pi x T",
     }
+    /// An axis that the definition writes with the opposite sign.
+    AXIS_REVERSED: DoubtfulPost {
+        en: "the post writes {axis} with the opposite sign: the output is a mirror image, right only for a machine whose {axis} axis counts the other way",
+        de: "der Postprozessor schreibt {axis} mit umgekehrtem Vorzeichen: die Ausgabe ist gespiegelt und nur für eine Maschine richtig, deren {axis}-Achse andersherum zählt",
+        help_en: "replace the minus in the post's macros, such as {$-z}, by nothing or by _, unless the machine is such a one",
+        help_de: "das Minus in den Makros des Postprozessors, etwa {$-z}, weglassen oder durch _ ersetzen, außer bei einer solchen Maschine",
+    }
     /// A word for an axis that is replaced by an angle.
     REPLACED_AXIS_WRITTEN: PostDiffers {
         en: "the post writes \"{line}\" although {angle} replaces {axis}: the machine would move both axes",

@@ -659,6 +659,13 @@ messages! {
         help_en: "set the length before or in the first line with Z, such as `G43 H{tool} Z5`",
         help_de: "die Länge vor oder in der ersten Zeile mit Z setzen, etwa `G43 H{tool} Z5`",
     }
+    /// A rapid move that states Z with the H of another tool than the one in the spindle.
+    RAPID_WITH_OTHER_LENGTH: WrongToolLength {
+        en: "for the Z of this rapid move, the length H{entry} applies, but T{tool} is in the spindle: only the controller knows how high the tip is",
+        de: "für das Z dieses Eilgangs gilt die Länge H{entry}, in der Spindel ist aber T{tool}: nur die Steuerung weiß, wie hoch die Spitze ist",
+        help_en: "write H{tool}, or set the length of the next tool only after M6",
+        help_de: "H{tool} schreiben oder die Länge des nächsten Werkzeugs erst nach M6 setzen",
+    }
     /// A cut with the length of another tool of the program: `G43 H2` for T1 where T2 exists as well.
     LENGTH_OF_OTHER_TOOL: WrongToolLength {
         en: "T{tool} cuts with the length H{entry}, which is that of T{entry} in this program",

@@ -26,6 +26,8 @@ pub struct LengthRules<'c> {
     /// The line and the tool of the first cut with a known tool before any length was applied.
     bare: Option<(u32, u32)>,
     of_entries: Vec<OtherEntry>,
+    /// The rapid moves that state Z with the length in an H whose number is not that of the tool.
+    rapids_of_entries: Vec<OtherEntry>,
     tools_with_own_length: BTreeSet<u32>,
     /// The line and the tool of the first rapid move that states Z with a known tool before any length was applied.
     bare_rapid: Option<(u32, u32)>,
@@ -41,10 +43,10 @@ pub struct LengthRules<'c> {
     problems: Problems,
 }
 
-/// A tool that has cut with the length in an H whose number is not that of the tool.
+/// A tool that has cut, or made a rapid move, with the length in an H whose number is not that of the tool.
 #[derive(Clone, Copy, Debug)]
 struct OtherEntry {
-    /// The line that set the length.
+    /// The line that set the length, or that of the rapid move.
     line: u32,
     tool: u32,
     entry: u32,
@@ -70,6 +72,7 @@ impl<'c> LengthRules<'c> {
             bare: None,
             bare_rapid: None,
             of_entries: Vec::new(),
+            rapids_of_entries: Vec::new(),
             tools_with_own_length: BTreeSet::new(),
             is_judged: false,
             is_rapid_judged: false,
@@ -161,6 +164,9 @@ impl<'c> LengthRules<'c> {
                     ..d.with("set", set)
                 });
             }
+            (LengthFit::OfEntry(entry), Some(tool), _) => {
+                add_once(&mut self.rapids_of_entries, OtherEntry { line, tool, entry });
+            }
             (LengthFit::Off | LengthFit::Unstated, Some(tool), None) => {
                 self.bare_rapid.get_or_insert((line, tool));
             }
@@ -199,10 +205,7 @@ impl<'c> LengthRules<'c> {
                 self.bare.get_or_insert((line, tool));
             }
             (LengthFit::OfEntry(entry), Some(tool), _) => {
-                let is_known = self.of_entries.iter().any(|other| (other.tool, other.entry) == (tool, entry));
-                if !is_known {
-                    self.of_entries.push(OtherEntry { line: set, tool, entry });
-                }
+                add_once(&mut self.of_entries, OtherEntry { line: set, tool, entry });
             }
             (LengthFit::Fits, Some(tool), _) => _ = self.tools_with_own_length.insert(tool),
             _ => {}
@@ -225,6 +228,17 @@ impl<'c> LengthRules<'c> {
                 Diagnostic { severity: Severity::Warning, ..d }
             });
         }
+        for OtherEntry { line, tool, entry } in std::mem::take(&mut self.rapids_of_entries) {
+            // Some shops number H independently of T, but then neither the tool cuts with its own H, nor another tool with this one.
+            let is_wrong = [tool, entry].iter().any(|number| self.tools_with_own_length.contains(number));
+            let is_reported = self.of_entries.iter().any(|cut| (cut.tool, cut.entry) == (tool, entry));
+            if is_wrong && !is_reported {
+                self.problems.add_at_line(&say::RAPID_WITH_OTHER_LENGTH, line, |d| {
+                    let d = d.with("tool", u64::from(tool)).with("entry", u64::from(entry));
+                    Diagnostic { severity: Severity::Warning, ..d }
+                });
+            }
+        }
         for OtherEntry { line, tool, entry } in std::mem::take(&mut self.of_entries) {
             // Some shops number H independently of T, but then no other tool cuts with this H.
             let is_taken = self.tools_with_own_length.contains(&entry);
@@ -239,6 +253,13 @@ impl<'c> LengthRules<'c> {
             });
         }
         self.problems.into_diagnostics()
+    }
+}
+
+/// Adds an entry unless there is one with the same tool and H.
+fn add_once(entries: &mut Vec<OtherEntry>, new: OtherEntry) {
+    if !entries.iter().any(|known| (known.tool, known.entry) == (new.tool, new.entry)) {
+        entries.push(new);
     }
 }
 

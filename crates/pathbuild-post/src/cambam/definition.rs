@@ -99,7 +99,7 @@ impl Definition {
 
     /// Whether the output axes differ from those of the drawing: wrapped around a cylinder, or with reversed sign.
     pub(crate) fn has_own_axes(&self) -> bool {
-        let is_turned = |what: &Macro| matches!(what, Macro::Register(_, Form::Reversed));
+        let is_turned = |what: &Macro| matches!(what, Macro::Register(register, Form::Reversed) if Register::AXES.contains(register));
         self.options.rotary.wrap
             || self.templates().flat_map(Template::macros).any(|(what, _)| is_turned(what))
     }

@@ -107,6 +107,11 @@ impl<'a> Writer<'a> {
         if let Some([least, most]) = self.angles.filter(|[least, most]| most - least > FULL_TURN) {
             self.warn(Diagnostic::new(&posts::WRAPPED_TWICE).with("degrees", most - least));
         }
+        for (axis, _) in
+            Register::AXES.into_iter().zip(self.turned).filter(|(_, turned)| *turned == Some(true))
+        {
+            self.warn(Diagnostic::new(&posts::AXIS_REVERSED).quoting("axis", axis.letter().to_string()));
+        }
         let Self { lines, shadow, origins, warnings, .. } = self;
         let text = lines.finish().into_bytes();
         Ok(EngineOutput {
@@ -371,7 +376,8 @@ impl<'a> Writer<'a> {
     }
 
     /// Converts a word back to the axis and sign that it had in the program before the template wrapped or reversed it. A definition must reverse an
-    /// axis in every line or in none, otherwise the machine would move to both sides.
+    /// axis, with the centres of arcs along it, in every line or in none, otherwise the machine would move to both sides. No machine has feeds,
+    /// dwells or pecks of the opposite sign.
     fn program_word(&mut self, word: Word, line: &Line) -> Word {
         let Some(register) = Register::of(word.letter) else { return word };
         let rotary = self.plan.definition.options.rotary;
@@ -380,9 +386,13 @@ impl<'a> Writer<'a> {
             return Word { letter: Register::AXES[1 - rotary.along].letter(), number: across };
         }
         let is_turned = line.turned.contains(&register);
-        let is_turned = match Register::AXES.iter().position(|axis| *axis == register) {
-            Some(axis) => *self.turned[axis].get_or_insert(is_turned),
-            None => is_turned,
+        let is_turned = match register {
+            Register::X | Register::I => *self.turned[0].get_or_insert(is_turned),
+            Register::Y | Register::J => *self.turned[1].get_or_insert(is_turned),
+            Register::Z | Register::K => *self.turned[2].get_or_insert(is_turned),
+            // In a cycle, R is a height.
+            Register::R => is_turned && self.turned[2] == Some(true),
+            _ => false,
         };
         Word { number: if is_turned { -word.number } else { word.number }, ..word }
     }

@@ -82,8 +82,10 @@ fn a_reversed_axis_has_one_sign() {
     for (axis, sign) in [("x", "X-"), ("y", "Y-"), ("z", "Z")] {
         let options = PostOptions::default();
         let written = read(&round(axis)).unwrap().write(&job, &options);
-        let text =
-            String::from_utf8(written.unwrap_or_else(|it| panic!("{axis}: {:?}", texts(&it))).text).unwrap();
+        let output = written.unwrap_or_else(|it| panic!("{axis}: {:?}", texts(&it)));
+        let reversed = format!("PB752 the post writes {} with the opposite sign", axis.to_uppercase());
+        assert!(texts(&output.warnings).iter().any(|text| text.starts_with(&reversed)), "{axis}");
+        let text = String::from_utf8(output.text).unwrap();
         let letter = &sign[..1];
         let words: Vec<&str> = text.split_whitespace().filter(|word| word.starts_with(letter)).collect();
         let wrong = |word: &&&str| match axis {
@@ -94,6 +96,39 @@ fn a_reversed_axis_has_one_sign() {
     }
     let mixed = bare("<Rapid>{$g0} {$_x} {$_y} {$-z}</Rapid>");
     assert!(read(&mixed).unwrap().write(&job, &PostOptions::default()).is_err(), "to both sides of 0");
+}
+
+/// Feeds have one sign on every machine, and the centres of arcs that of their axis.
+#[test]
+fn only_axes_may_be_reversed() {
+    let [from, to] = [[0.0, 0.0, -1.0], [4.0, 0.0, -1.0]];
+    let steps = vec![
+        feed(0.0, 0.0, -1.0),
+        support::arc(true, from, [2.0, 0.0], to, Some(100.0)),
+        rapid(4.0, 0.0, 5.0),
+    ];
+    let written = |x: &str, i: &str, f: &str, dialect: &str| {
+        let arc = |code: &str| format!("{{${code}}} {{${x}}} {{$y}} {{$z}} {{${i}}} {{$j}} {{${f}}}");
+        let [cw, ccw] = if x == "-x" { ["g3", "g2"] } else { ["g2", "g3"] }.map(arc);
+        let text = format!(
+            "<PostFile>G21 G90 G17 G94\nG91.1\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP>{dialect}
+            <Rapid>{{$g0}} {{${x}}} {{$y}} {{$z}}</Rapid><FeedMove>{{$g1}} {{${x}}} {{$y}} {{$z}} {{${f}}}</FeedMove>
+            <ArcCW>{cw}</ArcCW><ArcCCW>{ccw}</ArcCCW>"
+        );
+        read(&support::definition(&text)).unwrap().write(&job(steps.clone()), &PostOptions::default())
+    };
+    for dialect in ["", "<Dialect>linuxcnc</Dialect>"] {
+        for (x, i, f, is_right) in [
+            ("x", "i", "f", true),
+            ("-x", "-i", "f", true),
+            ("x", "-i", "f", false),
+            ("-x", "i", "f", false),
+            ("x", "i", "-f", false),
+        ] {
+            let found = written(x, i, f, dialect);
+            assert_eq!(found.is_ok(), is_right, "{x} {i} {f} {dialect}: {:?}", found.err());
+        }
+    }
 }
 
 #[test]

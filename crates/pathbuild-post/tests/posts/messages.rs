@@ -179,6 +179,30 @@ fn a_line_that_is_no_gcode_is_a_warning_in_both_languages() {
     }
 }
 
+/// Some controls end a line at a CR and run what follows, even in a comment. Without `)`, a comment may end anywhere.
+#[test]
+fn a_comment_ends_in_its_line() {
+    let written = |comment: &str| {
+        let toml = DIN.replace("'G17 G21 G90'", &format!("'G17 G21 G90 {comment}'"));
+        match read_toml(&toml).write(&milled(), &PostOptions::default()) {
+            Ok(output) => texts(&output.warnings),
+            Err(errors) => texts(&errors),
+        }
+    };
+    for (comment, finding) in [
+        (r"(x)", ""),
+        (r"(x)\\\~0D", ""),
+        (r"(x\\\~0DG0 Z-5)", "PB767 line 1 "),
+        (r"(x)\\\~0DM0", "PB767 line 1 "),
+        ("; x", ""),
+        ("(x", "PB752 the output contains (,"),
+    ] {
+        let found = written(comment);
+        let is_right = if finding.is_empty() { found.is_empty() } else { found[0].contains(finding) };
+        assert!(is_right, "{comment}: {found:?}");
+    }
+}
+
 #[test]
 fn a_word_that_sets_a_zero_is_a_warning_in_both_languages() {
     for (line, word) in [("G10 L2 P1 X5", "G10"), ("G10 L20 P2 X5", "G10"), ("G92 X5 Y0 Z0\nG92.1", "G92")] {

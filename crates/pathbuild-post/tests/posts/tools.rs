@@ -85,6 +85,18 @@ fn each_cut_has_the_length_of_its_tool() {
 }
 
 #[test]
+fn each_rapid_move_that_states_z_has_the_length_of_its_tool() {
+    let other = "for the Z of this rapid move, the length H2 applies, but T1 is in the spindle";
+    let before = "G43 H{$tool.index} G0 Z5.0\nM5\nT{$tool.index} M6";
+    let found = changed("M5\nT{$tool.index} M6\nG43 H{$tool.index}", before);
+    assert!(found.len() == 1 && found[0].starts_with(other), "{found:?}");
+    let later = "T{$tool.index} M6\nG43 H7 G0 Z5.0\nG43 H{$tool.index}";
+    assert_eq!(changed("T{$tool.index} M6\nG43 H{$tool.index}", later).len(), 2, "once for each tool");
+    let without_z = "G43 H{$tool.index}\nM5\nT{$tool.index} M6";
+    assert_eq!(changed("M5\nT{$tool.index} M6\nG43 H{$tool.index}", without_z), FINE);
+}
+
+#[test]
 fn each_cut_has_the_speed_of_its_tool() {
     let other = |found| [format!("the spindle speed is {found} here, but 3000 in the program")];
     assert_eq!(changed("{$s}", "S9000"), other("9000"));

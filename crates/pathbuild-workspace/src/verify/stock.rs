@@ -17,8 +17,12 @@ use crate::config::types::Tool;
 use crate::program::Program;
 
 /// The findings about rapid moves at heights that only the controller knows.
-static RAPIDS_OF_WRONG_LENGTH: [&Message; 3] =
-    [&say::RAPID_WITH_OLD_LENGTH, &say::RAPID_WITHOUT_LENGTH, &say::RAPID_BEFORE_LENGTH];
+static RAPIDS_OF_WRONG_LENGTH: [&Message; 4] = [
+    &say::RAPID_WITH_OLD_LENGTH,
+    &say::RAPID_WITHOUT_LENGTH,
+    &say::RAPID_BEFORE_LENGTH,
+    &say::RAPID_WITH_OTHER_LENGTH,
+];
 
 /// All sources for the cutters of a program and for the height of its material.
 pub(super) struct Sources<'s> {
