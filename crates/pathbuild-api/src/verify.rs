@@ -46,7 +46,8 @@ impl VerifyOptions {
         self
     }
 
-    /// Sets the dialect of the programs, such as `grbl`. Without it, the dialect is guessed.
+    /// Sets the dialect of the programs, such as `grbl`. Without it, the dialect of the [`post`](Self::post) applies if it names one; otherwise the
+    /// dialect is guessed.
     pub fn dialect(mut self, dialect: impl Into<String>) -> Self {
         self.dialect = Some(dialect.into());
         self

@@ -389,7 +389,8 @@ pub(crate) fn distance(a: Tip, b: Tip) -> f64 {
 
 // Determines the order in which Z-probes are measured. (book: language/probes)
 
-/// Relative difference below which distances in the tree are not reliable, so that they are compared exactly.
+/// Relative tolerance for the order of the R-tree, which rounding may change: probes this close to the nearest one are compared by their own
+/// distances, and the first of equal ones is taken.
 const ROUNDING: f64 = 1e-12;
 
 /// Starts at (0, 0) and repeatedly visits the nearest remaining probe; the first of these if there are several. Returns the indices of the probes.

@@ -1,4 +1,4 @@
-//! Writes PDF documents. Each page is a tree of usvg. Lines and letters stay vectors, and texts are searchable, in one embedded font.
+//! Writes PDF documents from trees of usvg, one for each page. Lines and letters stay vectors; texts are searchable and share one embedded font.
 
 use std::collections::BTreeMap;
 use std::io::Write;

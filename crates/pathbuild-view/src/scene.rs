@@ -648,7 +648,7 @@ impl SceneMove {
         Self { kind: MoveKind::of(&way), length: way.length(), way, element: None, line }
     }
 
-    /// Whether both ends are known in the plane.
+    /// Whether both ends are known in the plane, and the program does not name the target (G28, G30, G53).
     pub fn is_placed(&self) -> bool {
         self.way.from.known.and(self.way.to.known).has(Axes::XY) && self.way.named.is_none()
     }

@@ -74,8 +74,8 @@ pub struct PathPlace {
     pub position: Option<Position>,
 }
 
-/// Reads the paths of an indexed drawing again, with all their elements. Empty if it cannot be read or panics, which the index reports. Lines
-/// and handles differ after any edit, so comparing results is pointless. Few are kept.
+/// Reads the paths of an indexed drawing again, with all their elements. Empty if the drawing cannot be read or reading it panics, which the
+/// index reports. Results are not compared, because lines and handles differ after any edit; only those used last are kept, which bounds memory.
 #[salsa::tracked(no_eq, lru = 256)]
 pub fn raw_file(db: &dyn Db, file: SourceFile) -> FileContents {
     let settings = Settings::get(db);

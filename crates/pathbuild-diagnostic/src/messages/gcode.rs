@@ -362,7 +362,7 @@ messages! {
         en: "common builds of {dialect} ignore {word}",
         de: "gängige Varianten von {dialect} übergehen {word}",
         help_en: "write the program without it; if the machine's firmware was built with it, accept this warning with `--accept`",
-        help_de: "das Programm ohne dieses Wort schreiben; ist die Firmware der Maschine damit übersetzt, die Warnung mit `--accept` hinnehmen",
+        help_de: "das Programm ohne dieses Wort schreiben; kann die Firmware der Maschine es, die Warnung mit `--accept` hinnehmen",
     }
     /// A word for an axis that is not interpreted.
     AXIS_NOT_FOLLOWED: WordNotFollowed {

@@ -133,8 +133,8 @@ messages! {
     }
     /// A program that no path would write now, in a file with a name that `emit` does not give to it.
     STALE_COPY: StaleOutput {
-        en: "{name} contains a program that no path would write now, under a name that emit does not give to it",
-        de: "{name} enthält ein Programm, das kein Pfad jetzt noch schreiben würde, unter einem Namen, den emit ihm nicht gibt",
+        en: "{name} contains an outdated program, which no path writes any more; emit would not give it this name, so it may be a copy",
+        de: "{name} enthält ein veraltetes Programm, das kein Pfad mehr schreibt; emit gäbe ihm nicht diesen Namen, es kann also eine Kopie sein",
         help_en: "check that it is no longer needed, and delete it yourself: emit --remove-stale keeps files that may be copies",
         help_de: "prüfen, ob es noch gebraucht wird, und es selbst löschen: emit --remove-stale lässt Dateien stehen, die Kopien sein können",
     }

@@ -162,8 +162,8 @@ messages! {
     }
     /// Note: two values that differ by so little that programs give the same number for both.
     EQUAL_IN_PROGRAM: ParameterOutOfRange {
-        en: "programs have three decimals, in which the two heights are equal",
-        de: "Programme haben drei Nachkommastellen, und darin sind beide Höhen gleich",
+        en: "programs have three decimals: rounded to these, the two heights are equal",
+        de: "Programme haben drei Nachkommastellen: darauf gerundet sind beide Höhen gleich",
     }
     /// Like [`NOT_ABOVE`], for a letter that has no effect here.
     UNUSED_NOT_ABOVE: ParameterOutOfRange {

@@ -340,7 +340,7 @@ messages! {
         help_en: "rename or remove one of them",
         help_de: "einen davon umbenennen oder entfernen",
     }
-    /// A subpath segment with another length than the distance from the start to the end of the embedded path.
+    /// A subpath segment whose length differs from the distance between the start and the end of the embedded path.
     SIZE_DIFFERS: SubpathSizeDiffers {
         en: "the segment is {segment} mm long, but path {name} is {path} mm from start to end",
         de: "das Segment ist {segment} mm lang, Pfad {name} aber {path} mm von Anfang bis Ende",
@@ -398,7 +398,7 @@ messages! {
     }
     /// Note: one of two texts that differ has an accent as a character of its own, so that they may look the same.
     COMBINED_LETTERS: SubpathParameterDiffers {
-        en: "one of them has a letter and its accent as two characters, which look like one: type the text anew there",
+        en: "in one of the texts, a letter and its accent are two characters that look like one: type that text again",
         de: "in einem der Texte besteht ein Buchstabe aus zwei Zeichen, etwa a und ¨, die wie eines aussehen: dort den Text neu eintippen",
     }
     /// An embedding that the parameter E or the option --restrict forbids.

@@ -383,7 +383,7 @@ messages! {
     /// A function of a term with a wrong number of arguments.
     TERM_ARGUMENTS: InvalidControlText {
         en: "{text}, line {line}, column {column}: {name} has the wrong number of arguments",
-        de: "{text}, Zeile {line}, Spalte {column}: {name} hat die falsche Zahl von Argumenten",
+        de: "{text}, Zeile {line}, Spalte {column}: {name} hat die falsche Anzahl von Argumenten",
     }
     /// Two signs before a term, as in `--5`.
     TERM_TWO_SIGNS: DoubtfulControlText {

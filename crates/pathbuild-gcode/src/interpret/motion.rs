@@ -71,7 +71,7 @@ impl Interpreter<'_> {
             self.report(block, &say::NOT_FOLLOWED, span, |d| d.quoting("word", codes::name('G', code)));
             Motion::Unfollowed
         };
-        let (motion, code) = self.beside_cycles(motion, code);
+        let (motion, code) = self.resolve_motion(motion, code);
         if motion != self.state.motion {
             let goes_on = matches!((self.state.motion, motion), (Motion::Cycle(_), Motion::Cycle(_)));
             self.begin_cycle(goes_on);
@@ -83,7 +83,7 @@ impl Interpreter<'_> {
 
     /// Returns the motion that a word puts into effect. Where cycles are a modal group of their own, G80 restores the motion that was in effect
     /// before the cycle.
-    fn beside_cycles(&mut self, motion: Motion, code: u16) -> (Motion, u16) {
+    fn resolve_motion(&mut self, motion: Motion, code: u16) -> (Motion, u16) {
         let present = (self.state.motion, self.state.motion_code);
         let is_in_cycle = matches!(present.0, Motion::Cycle(_));
         if matches!(motion, Motion::Cycle(_)) && !is_in_cycle {

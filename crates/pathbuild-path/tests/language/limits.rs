@@ -146,7 +146,7 @@ fn heights_that_are_equal_in_a_program_are_named() {
         let notes = compiled.found.iter().flat_map(|found| &found.notes);
         notes.map(|note| note.text(Lang::En)).collect::<Vec<_>>()
     };
-    let equal = ["programs have three decimals, in which the two heights are equal"];
+    let equal = ["programs have three decimals: rounded to these, the two heights are equal"];
     assert_eq!(notes("T5 O3 I1 B0 S5.0004"), equal);
     assert_eq!(notes("T5 O3 I1 B4.9996"), equal);
     assert_eq!(notes("T5 O3 I1 B0 S5"), [""; 0]);

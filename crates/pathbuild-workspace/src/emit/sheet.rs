@@ -36,7 +36,7 @@ pub(super) fn bytes(
 /// Renders a setup sheet in a file format.
 ///
 /// # Errors
-/// If it cannot be rendered: because of a bug, or because the program has no pictures.
+/// Only for PDF: if pathbuild was built without the feature `pictures`, or because of a bug.
 pub fn sheet_bytes(sheet: &Sheet, format: SheetFormat, lang: Lang) -> Result<Vec<u8>, Value> {
     match format {
         SheetFormat::No => Ok(Vec::new()),

@@ -235,7 +235,7 @@ impl<'w> Verifier<'w> {
     }
 }
 
-/// A collector of facts about the steps of a program as they are written, with corrected heights.
+/// A collector of facts about the steps of a program at the heights in its file, which may include corrections by probes.
 struct AsWrittenSteps<'m> {
     header: HeaderReader,
     stated: StatedStatistics,
@@ -243,7 +243,7 @@ struct AsWrittenSteps<'m> {
     has_probed: bool,
 }
 
-/// Findings about the steps of a program as they are written, with corrected heights.
+/// Findings about the steps of a program at the heights in its file.
 struct AsWrittenFindings {
     statistics: Vec<Diagnostic>,
     limits: Vec<Diagnostic>,

@@ -93,8 +93,8 @@ pub(crate) fn run(
     })
 }
 
-/// Listener that prints the first check as `check` does, then one line per changed file. It forwards all events to the page, which is the
-/// unit value if none is served.
+/// Listener that prints the first check as `check` does, and for each later batch the new and the fixed findings and one line per changed file.
+/// It forwards to the page the events that the page uses; without a page, `page` is `()`, which ignores them.
 struct WatchPrinter<'a> {
     context: &'a Context,
     page: Box<dyn Listener + 'a>,

@@ -338,7 +338,8 @@ fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
     }
     let sweep = course.sweep() * (share - rest.begin);
     let sagitta = course.radius() * (1.0 - libm::cos(sweep / 2.0));
-    // The ends of a chord are rounded. The longer the chord, the farther rounding may move it away from the arc.
+    // The ends of a chord are rounded. An error e of the chord c changes the sagitta s = c^2 / 8r by ce / 4r, for the longest chord allowed
+    // e * sqrt(s / 2r).
     let rounding = POSITION_TOLERANCE * libm::sqrt(CHORD_TOLERANCE / (2.0 * course.radius()));
     if sweep < std::f64::consts::PI && sagitta <= CHORD_TOLERANCE + rounding {
         Ok(share)

@@ -10,7 +10,7 @@ use crate::svg::frame::widen;
 pub(super) const PAPER: Point = [210.0, 297.0];
 
 /// Units of a page's SVG per mm of paper. A letter size of 10 units is 9.4 pt.
-pub(super) const UNITS: f64 = 3.0;
+pub(super) const UNITS_PER_MM: f64 = 3.0;
 
 /// The data of a setup sheet. Lengths are in mm.
 #[derive(Clone, Debug)]

@@ -3,14 +3,14 @@
 use pathbuild_diagnostic::Lang;
 
 use super::blocks;
-use super::data::{PAPER, Sheet, UNITS};
+use super::data::{PAPER, Sheet, UNITS_PER_MM};
 use super::flow::{Block, Column, Item, LETTER_SIZE, MAX_PICTURE_HEIGHT, lay_out};
 use super::picture::{self, PlacedPicture};
 use crate::scene::Point;
 use crate::svg::canvas::{Anchor, Canvas, INK_COLOUR, TEXT_COLOUR, svg_number, text_width, wrap_text};
 
 /// Size of a page and its margins, in units.
-pub(super) const SIZE: Point = [PAPER[0] * UNITS, PAPER[1] * UNITS];
+pub(super) const SIZE: Point = [PAPER[0] * UNITS_PER_MM, PAPER[1] * UNITS_PER_MM];
 pub(super) const LEFT_EDGE: f64 = 39.0;
 pub(super) const RIGHT_EDGE: f64 = SIZE[0] - 33.0;
 const TOP_MARGIN: f64 = 36.0;
@@ -137,7 +137,7 @@ fn draw_footer(canvas: &mut Canvas, sheet: &Sheet, lang: Lang, number: usize, co
     let text = format!("{} · {page}", sheet.hashes);
     canvas.text([LEFT_EDGE, FOOTER_TOP + 8.0], 9.0, Anchor::Start, &format!("fill=\"{TEXT_COLOUR}\""), &text);
     let ruler = lang.choose("50 mm, when printed at 100 %", "50 mm, wenn mit 100 % gedruckt");
-    let end = RIGHT_EDGE - 50.0 * UNITS;
+    let end = RIGHT_EDGE - 50.0 * UNITS_PER_MM;
     let y = FOOTER_TOP + 4.0;
     canvas.path(
         &format!(

@@ -11,7 +11,7 @@ use crate::svg::frame::{Frame, OccupiedSpace, PageTransform, VisibleParts};
 use crate::svg::stock::{MilledStock, has_stock};
 use crate::svg::{drawing, legend, moves, symbols};
 
-use super::data::{Corners, Sheet, UNITS, removed_box, shown_box};
+use super::data::{Corners, Sheet, UNITS_PER_MM, removed_box, shown_box};
 use super::flow::{Column, MAX_PICTURE_HEIGHT};
 
 /// Margins around the drawing in units. Dimensions are to the left and below, and their last numbers extend to the right.
@@ -114,7 +114,7 @@ fn max_scale([low, high]: Corners, area: Column) -> f64 {
         area.width - LEFT_MARGIN - RIGHT_MARGIN,
         area.bottom - area.top - TOP_MARGIN - BOTTOM_MARGIN - LEGEND_HEIGHT,
     ];
-    (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1])) / UNITS
+    (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1])) / UNITS_PER_MM
 }
 
 /// Returns the scale at which the corners fill the part of the area that a true-size inset on the right leaves free.
@@ -124,13 +124,13 @@ fn max_scale_beside_inset(corners: Corners, area: Column) -> f64 {
 }
 
 fn inset_width([low, high]: Corners) -> f64 {
-    ((high[0] - low[0]) * UNITS).max(40.0) + 30.0
+    ((high[0] - low[0]) * UNITS_PER_MM).max(40.0) + 30.0
 }
 
 impl PlacedPicture {
     fn new(area: Column, corners: Corners, scale: Scale, has_inset: bool) -> Self {
         let [low, high] = corners;
-        let height = TOP_MARGIN + (high[1] - low[1]) * scale.0 * UNITS + BOTTOM_MARGIN + LEGEND_HEIGHT;
+        let height = TOP_MARGIN + (high[1] - low[1]) * scale.0 * UNITS_PER_MM + BOTTOM_MARGIN + LEGEND_HEIGHT;
         Self { area, corners, scale, has_inset, height, is_stock: false, turned: None }
     }
 
@@ -146,10 +146,11 @@ impl PlacedPicture {
     fn frame(&self) -> Frame {
         let Self { area, corners: [low, high], scale, .. } = *self;
         let inset = if self.has_inset { inset_width(self.corners) } else { 0.0 };
-        let spare = area.width - inset - LEFT_MARGIN - RIGHT_MARGIN - (high[0] - low[0]) * scale.0 * UNITS;
+        let spare =
+            area.width - inset - LEFT_MARGIN - RIGHT_MARGIN - (high[0] - low[0]) * scale.0 * UNITS_PER_MM;
         Frame::at_scale(
             [low, high],
-            scale.0 * UNITS,
+            scale.0 * UNITS_PER_MM,
             [area.left + LEFT_MARGIN + spare / 2.0, area.top + TOP_MARGIN],
         )
     }
@@ -240,7 +241,7 @@ impl PlacedPicture {
     fn inset(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
         let [low, high] = removed_box(sheet).unwrap_or(self.corners);
         let left = self.area.left + self.area.width - inset_width(self.corners) + 20.0;
-        let frame = Frame::at_scale([low, high], UNITS, [left, self.area.top + TOP_MARGIN]);
+        let frame = Frame::at_scale([low, high], UNITS_PER_MM, [left, self.area.top + TOP_MARGIN]);
         let depths = Depths::of(&sheet.scene);
         let shown =
             VisibleParts { rapids: false, order: false, arrows: false, texts: false, stock: false, lang };
@@ -248,7 +249,7 @@ impl PlacedPicture {
         for path in &sheet.scene.paths {
             moves::draw(canvas, path, &frame.of_path(path), &depths, shown);
         }
-        let y = self.area.top + TOP_MARGIN + (high[1] - low[1]) * UNITS + 14.0;
+        let y = self.area.top + TOP_MARGIN + (high[1] - low[1]) * UNITS_PER_MM + 14.0;
         canvas.text([left, y], 10.0, Anchor::Start, &format!("fill=\"{TEXT_COLOUR}\""), "1:1");
         canvas.close();
     }
