@@ -142,6 +142,12 @@ words! {
     CUT: "cut", "Schnitt";
     /// Name of a move with G38.2 or G31.
     PROBING_MOVE: "probing move", "Antastbewegung";
+    /// Unit of a drawing.
+    INCHES: "inches", "Zoll";
+    /// Unit of a drawing.
+    CENTIMETRES: "centimetres", "Zentimetern";
+    /// Unit of a drawing.
+    METRES: "metres", "Metern";
     /// Source of a value: the element's own text.
     OWN_TEXT: "own text", "eigener Text";
     /// Source of a value: the text of the chain's first segment.

@@ -40,6 +40,8 @@ pub(crate) struct Collector<'d> {
     pub(crate) drawn: usize,
     /// Lines of broken entities and contradictory records, with the layers on which they were reported.
     faulty: HashSet<(u32, u32)>,
+    /// The faults about entities that are too far from the origin, by layer.
+    far: BTreeMap<u32, CountedNote>,
     groups: u32,
     has_ignored: bool,
     limits: Limits,
@@ -59,7 +61,7 @@ enum LayerNote {
 }
 
 struct CountedNote {
-    /// Index into [`Drawing::diagnostics`].
+    /// Index into [`Drawing::diagnostics`], or into [`Drawing::faults`].
     index: usize,
     /// Number of entities that the note is about.
     count: usize,
@@ -123,6 +125,7 @@ impl<'d> Collector<'d> {
             last: None,
             drawn: 0,
             faulty: HashSet::new(),
+            far: BTreeMap::new(),
             groups: 0,
             has_ignored: false,
             limits,
@@ -244,6 +247,15 @@ impl<'d> Collector<'d> {
         };
         if self.faulty.insert((line, layer)) {
             self.count()?;
+            // A drawing far from the origin has this fault everywhere.
+            if let EntityError::TooLarge = trouble {
+                let index = self.drawing.faults.len();
+                let far = self.far.entry(layer).or_insert(CountedNote { index, count: 0 });
+                far.count += 1;
+                if far.count > 1 {
+                    return Ok(());
+                }
+            }
             let diagnostic = self.located(diagnostic, placed, layer);
             self.drawing.faults.push(Fault { layer, diagnostic });
         }
@@ -326,6 +338,9 @@ impl<'d> Collector<'d> {
     pub(crate) fn count_noted(&mut self) {
         for note in std::mem::take(&mut self.noted).into_values() {
             self.drawing.diagnostics[note.index].arguments.push(("count", note.count.into()));
+        }
+        for far in std::mem::take(&mut self.far).into_values() {
+            self.drawing.faults[far.index].diagnostic.arguments.push(("count", far.count.into()));
         }
     }
 

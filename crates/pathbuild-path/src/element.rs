@@ -206,6 +206,35 @@ pub(crate) fn has_diameter_of(radius: f64, other: f64) -> bool {
     at_least(DIAMETER_TOLERANCE, 2.0 * (radius - other).abs())
 }
 
+/// Units in which drawings are made by mistake, each with its length in mm.
+const OTHER_UNITS: [(&Text, f64); 3] =
+    [(&words::INCHES, 25.4), (&words::CENTIMETRES, 10.0), (&words::METRES, 1000.0)];
+
+/// Share by which a marker that is drawn in another unit may differ from the exact diameter, because files may give few decimals.
+const UNIT_TOLERANCE: f64 = 0.01;
+
+/// A PHANTOM circle that would be a marker if the drawing's lengths were in another unit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MarkerInOtherUnit {
+    /// The name of the unit.
+    pub(crate) unit: &'static Text,
+    /// The length of the unit in mm.
+    pub(crate) factor: f64,
+    /// The radius of the marker in mm.
+    pub(crate) radius: f64,
+}
+
+impl MarkerInOtherUnit {
+    /// Returns the marker that a circle of this radius would be in another unit.
+    pub(crate) fn of_radius(drawn: f64) -> Option<Self> {
+        OTHER_UNITS.into_iter().find_map(|(unit, factor)| {
+            let markers = [START_RADIUS, TURN_RADIUS, END_RADIUS, PROBE_RADIUS];
+            let is_drawn = |radius: &f64| (drawn * factor / radius - 1.0).abs() < UNIT_TOLERANCE;
+            Some(Self { unit, factor, radius: markers.into_iter().find(is_drawn)? })
+        })
+    }
+}
+
 /// Returns the class of a circle. One with the cutter's diameter is drilled, whatever its line type.
 fn circle_class(cut: Cut, radius: f64, tool: Option<f64>) -> ElementClass {
     let Some(tool) = tool else { return ElementClass::UnknownCircle };

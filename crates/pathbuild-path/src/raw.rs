@@ -192,6 +192,8 @@ pub(crate) struct DrawingFaults {
     pub(crate) other_ends: Vec<Xy>,
     /// Circles without a meaning: the walk may turn or end there.
     pub(crate) unclear_circles: Vec<Xy>,
+    /// Whether the lengths are probably in another unit, so that they cannot be compared with those of texts.
+    pub(crate) is_in_other_unit: bool,
     /// Lines and arcs of unknown line types: the path runs along them in an unknown way.
     pub(crate) unclear_curves: Vec<Element>,
     /// Variables with an erroneous definition.

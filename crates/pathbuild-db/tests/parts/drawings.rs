@@ -31,6 +31,33 @@ fn a_plate_without_bars_is_loose_unless_something_else_holds_it() {
     assert_eq!(held.codes(&[("1234.1P.dxf", &drawing)]), [""; 0]);
 }
 
+/// Without an outline around them, the circles of holes are taken for outlines of parts.
+#[test]
+fn a_hole_without_an_outline_around_it_is_named() {
+    let said = |hole: &str, outline: &str| {
+        let drawing = format!(
+            "{START}sweep -5,-5 11,13\nmill {hole}\nsweep 11,13 50,-5\nend 50,-5\nlayer Part\n{outline}"
+        );
+        let found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
+        let gouges = found.into_iter().filter(|found| found.code().to_string() == "PB213");
+        gouges.map(|found| found.text(Lang::En)).collect::<Vec<_>>()
+    };
+    let missing =
+        "the circle of this hole is taken for the outline of a part: layer Part has no outline around it";
+    for hole in ["circle 11,13 d 2", "circle 11,13 d 5"] {
+        assert_eq!(said(hole, hole), [missing], "{hole}");
+        assert_eq!(
+            said(hole, &format!("{hole}\npolyline HIDDEN 1,1 41,1 41,26 1,26 closed")),
+            [missing],
+            "{hole}"
+        );
+        assert_eq!(said(hole, &format!("{hole}\npolyline 1,1 41,1 41,26 1,26 closed")), [""; 0], "{hole}");
+        // A disc that is a little larger is a part.
+        let [found] = &said(hole, "circle 11,13 d 5.1")[..] else { panic!("{hole}") };
+        assert!(!found.contains("taken for the outline"), "{found}");
+    }
+}
+
 /// A contour 0.5 mm too far outside leaves material all round. Without bars, the part is still loose.
 #[test]
 fn a_contour_too_far_outside_leaves_material_all_round() {

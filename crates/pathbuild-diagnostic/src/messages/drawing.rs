@@ -30,8 +30,8 @@ messages! {
     }
     /// Note: a text with O and T that belongs to another element, or to none.
     START_TEXT_ELSEWHERE: MissingPathParameters {
-        en: "the text \"{text}\" at {point} has O and T, but does not lie on the start marker: move it there",
-        de: "der Text \"{text}\" bei {point} hat O und T, liegt aber nicht auf der Anfangsmarke: dorthin schieben",
+        en: "the text \"{text}\" has O and T, but belongs to another element or to none, because its middle is at {point}: move it so that its middle lies on the start marker; written in several lines or smaller, it takes less room",
+        de: "der Text \"{text}\" hat O und T, gehört aber zu einem anderen Element oder zu keinem, weil seine Mitte bei {point} liegt: so verschieben, dass seine Mitte auf der Anfangsmarke liegt; mehrzeilig oder kleiner geschrieben braucht er weniger Platz",
     }
     /// Note: a text with a path's name on another layer.
     NAME_ON_OTHER_LAYER: MissingSubpathName {
@@ -107,6 +107,13 @@ messages! {
         de: "ein {line_type}-Kreis mit {diameter} mm Durchmesser hat keine Bedeutung",
         help_en: "correct the diameter; PHANTOM: 1 mm start, 1.5 mm turn marker, 2 mm end, 6 mm Z-probe; DASHDOT and DOT: 6 mm",
         help_de: "den Durchmesser berichtigen; PHANTOM: 1 mm Anfang, 1,5 mm Wendemarke, 2 mm Ende, 6 mm Z-Probe; DASHDOT und DOT: 6 mm",
+    }
+    /// A PHANTOM circle that would be a marker in another unit.
+    SPECIAL_CIRCLE_IN_OTHER_UNIT: UnknownSpecialCircle {
+        en: "a {line_type} circle with a diameter of {diameter} mm has no meaning; times {factor}, it would be {meant} mm: is the drawing in {unit}?",
+        de: "ein {line_type}-Kreis mit {diameter} mm Durchmesser hat keine Bedeutung; mal {factor} wären es {meant} mm: ist die Zeichnung in {unit}?",
+        help_en: "scale all of the drawing by {factor} in the CAD program (setting its unit to millimetres changes no length); if only this circle is wrong, correct its diameter",
+        help_de: "die ganze Zeichnung im CAD mit {factor} skalieren (ihre Einheit auf Millimeter zu stellen ändert keine Länge); ist nur dieser Kreis falsch, seinen Durchmesser berichtigen",
     }
     /// A line type without a meaning.
     UNKNOWN_LINE_TYPE: UnknownLineType {
@@ -263,8 +270,8 @@ messages! {
     TEXT_ON_OTHER_LAYER: TextOnOtherLayer {
         en: "the text \"{text}\" has no effect: layer {layer} belongs to no path",
         de: "der Text \"{text}\" hat keine Wirkung: Layer {layer} gehört zu keinem Pfad",
-        help_en: "move it to layer {path_layer}, where it would belong to {element} at {point}; if it is a remark, move it off the element",
-        help_de: "auf Layer {path_layer} legen, wo {element} bei {point} zu ihm gehören würde; ist er eine Bemerkung, vom Element wegschieben",
+        help_en: "move it over {element} at {point}, on layer {path_layer}; if it is a remark, move it away from the element",
+        help_de: "über das Element ({element} bei {point}) auf Layer {path_layer} legen; ist er eine Bemerkung, vom Element wegschieben",
     }
     /// A Z-probe on a layer without a path.
     PROBE_ON_OTHER_LAYER: TextOnOtherLayer {
@@ -588,10 +595,10 @@ messages! {
     }
     /// A coordinate or length that is too large, or a length of zero.
     TOO_LARGE: InvalidDxf {
-        en: "{entity} lies or reaches more than 1,000,000 mm from the origin, or its size is 0",
-        de: "{entity} liegt mehr als 1.000.000 mm vom Nullpunkt entfernt, reicht so weit oder hat die Größe 0",
-        help_en: "draw near the origin, at true size: move the entity or its block, or delete the entity",
-        help_de: "nahe am Nullpunkt und in wahrer Größe zeichnen: das Element oder seinen Block verschieben, oder das Element löschen",
+        en: "{entity} lies or reaches more than 1,000,000 mm from the origin, or its size is 0; elements of this layer with such a problem: {count}",
+        de: "{entity} liegt mehr als 1.000.000 mm vom Nullpunkt entfernt, reicht so weit oder hat die Größe 0; Elemente dieses Layers mit einem solchen Problem: {count}",
+        help_en: "draw near the origin, at true size: move the whole drawing if it lies there (world coordinates), otherwise the entity or its block, or delete the entity",
+        help_de: "nahe am Nullpunkt und in wahrer Größe zeichnen: die ganze Zeichnung verschieben, wenn sie dort liegt (Weltkoordinaten), sonst das Element oder seinen Block, oder das Element löschen",
     }
     /// An extrusion direction other than (0,0,1) and (0,0,-1).
     TILTED: OffPlane {

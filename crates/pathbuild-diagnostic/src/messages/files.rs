@@ -80,8 +80,8 @@ messages! {
     WRONG_UNITS: WrongUnits {
         en: "the drawing's units are {unit}, not millimetres ($INSUNITS is {number})",
         de: "die Einheit der Zeichnung ist {unit}, nicht Millimeter ($INSUNITS ist {number})",
-        help_en: "set the drawing's units to millimetres, or set `units` in pathbuild.toml: \"drawing\" converts, \"mm\" ignores the header",
-        help_de: "die Einheit in der Zeichnung auf Millimeter stellen oder `units` in pathbuild.toml setzen: \"drawing\" rechnet um, \"mm\" beachtet den Kopf nicht",
+        help_en: "scale the drawing to millimetres in the CAD program and set its units (the latter alone changes no length), or set `units` in pathbuild.toml: \"drawing\" converts, \"mm\" ignores the header",
+        help_de: "die Zeichnung im CAD auf Millimeter skalieren und ihre Einheit umstellen (das Umstellen allein ändert keine Länge) oder `units` in pathbuild.toml setzen: \"drawing\" rechnet um, \"mm\" beachtet den Kopf nicht",
     }
     /// A bug in pathbuild.
     INTERNAL: InternalError {

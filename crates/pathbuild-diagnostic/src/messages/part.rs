@@ -22,6 +22,13 @@ messages! {
         help_en: "move the hole, or draw its circle on the layer of the part as well",
         help_de: "das Bohrloch versetzen oder seinen Kreis auch auf dem Layer des Teils zeichnen",
     }
+    /// A hole or helical circle that takes away a whole part, because its circle is taken for the part's outline.
+    GOUGED_BY_ITS_HOLE: GougedPart {
+        en: "the circle of this hole is taken for the outline of a part: layer {layer} has no outline around it",
+        de: "der Kreis dieses Lochs wird für den Umriss eines Teils gehalten: auf Layer {layer} liegt kein Umriss um ihn herum",
+        help_en: "draw the outline of the part around the hole on layer {layer}, closed and with line type CONTINUOUS: other line types do not count",
+        help_de: "den Umriss des Teils um das Loch herum auf Layer {layer} zeichnen, geschlossen und mit Linientyp CONTINUOUS: andere Linientypen zählen nicht",
+    }
     /// A cut into the part of another path of the project.
     GOUGED_NEIGHBOUR: GougedNeighbour {
         en: "the cutter, O{tool}, goes {depth} mm into the part of path {other} at {point}; that part lies at {place} in the program",
@@ -61,8 +68,8 @@ messages! {
     LOOSE_PART: LoosePart {
         en: "the part whose outline begins at {point} is cut out all round, and no support bar holds it",
         de: "das Teil, dessen Umriss bei {point} beginnt, wird rundum ausgefräst, und kein Stützsteg hält es",
-        help_en: "draw some segments of its outline with support bars (BORDER), or set part-held = \"otherwise\" if tape or vacuum holds it",
-        help_de: "einige Segmente seines Umrisses mit Stützstegen (BORDER) zeichnen oder part-held = \"otherwise\" setzen, wenn Klebeband oder Vakuum es hält",
+        help_en: "draw some segments of its outline with support bars (BORDER) of a sufficient length (P), or set part-held = \"otherwise\" if tape or vacuum holds it",
+        help_de: "einige Segmente seines Umrisses mit Stützstegen (BORDER) ausreichender Länge (P) zeichnen oder part-held = \"otherwise\" setzen, wenn Klebeband oder Vakuum es hält",
     }
     /// A part that is held after the cuts of its own path, but loose after the cuts of another path of its drawing.
     SEVERED_PART: LoosePart {
@@ -126,6 +133,13 @@ messages! {
         de: "{entity} auf einem Layer mit einem Teil war nicht lesbar; der Umriss ist daher vielleicht unvollständig",
         help_en: "draw the outline with lines, arcs, circles or closed polylines; ellipses and splines are read if `approximate-curves` is set in pathbuild.toml, blocks if the file contains them and they have the same scale in x and y",
         help_de: "den Umriss mit Linien, Bögen, Kreisen oder geschlossenen Polylinien zeichnen; Ellipsen und Splines werden gelesen, wenn `approximate-curves` in pathbuild.toml gesetzt ist, Blöcke, wenn die Datei sie enthält und sie in x und y denselben Maßstab haben",
+    }
+    /// A faulty element on a layer with parts. Its problem is a note.
+    OUTLINE_FAULTY: DoubtfulOutline {
+        en: "this {entity} on a layer with a part has an error, so the outline may be incomplete",
+        de: "{entity} auf einem Layer mit einem Teil hat einen Fehler; der Umriss ist daher vielleicht unvollständig",
+        help_en: "correct what the note says, or draw the element again",
+        help_de: "berichtigen, was der Hinweis nennt, oder das Element neu zeichnen",
     }
     /// An outline of a part that no path cuts.
     OUTLINE_NOT_CUT: OutlineNotCut {

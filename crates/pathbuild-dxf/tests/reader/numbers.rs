@@ -94,8 +94,19 @@ fn coordinates_and_lengths_are_at_most_a_kilometre() {
         assert_eq!(is_sound(&format!("0 TEXT\n8 A\n10 0\n20 0\n40 {length}\n1 x")), is_within, "{length}");
         assert_eq!(is_sound(&format!("0 MTEXT\n8 A\n10 0\n20 0\n40 {length}\n1 x")), is_within, "{length}");
     }
-    let fault = "PB002 5 A: CIRCLE lies or reaches more than 1,000,000 mm from the origin, or its size is 0";
-    assert_eq!(faults(&read_all(entities("0 CIRCLE\n8 A\n10 1e7\n20 0\n40 1"))), [fault]);
+    let fault = |layer: &str, line: u32, kind: &str, count: u32| {
+        format!(
+            "PB002 {line} {layer}: {kind} lies or reaches more than 1,000,000 mm from the origin, or its size is 0; \
+             elements of this layer with such a problem: {count}"
+        )
+    };
+    let circle = |layer: &str| format!("0 CIRCLE\n8 {layer}\n10 1e7\n20 0\n40 1\n");
+    assert_eq!(faults(&read_all(entities(circle("A").trim_end()))), [fault("A", 5, "CIRCLE", 1)]);
+    // A drawing far away is one finding for each layer.
+    let drawn = ["0 LINE\n8 A\n10 1e7\n20 0\n11 0\n21 0\n".to_owned(), circle("B"), circle("A"), circle("A")]
+        .concat();
+    let expected = [fault("A", 5, "LINE", 3), fault("B", 17, "CIRCLE", 1)];
+    assert_eq!(faults(&read_all(entities(drawn.trim_end()))), expected);
 }
 
 #[test]

@@ -665,6 +665,9 @@ impl Binder<'_> {
     /// Reports support segments that are nowhere cut through. Short edges of rounded corners are between longer sides with gaps, so single ones are
     /// only doubtful if no segment of the path has a gap.
     fn report_missing_gaps(&mut self) {
+        if self.raw.faults.is_in_other_unit {
+            return;
+        }
         let elements = &self.raw.drawn.elements;
         let segments = self.segments.iter().filter_map(|segment| {
             let element = &elements[segment.element as usize];

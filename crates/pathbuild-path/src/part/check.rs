@@ -15,7 +15,7 @@ use super::leftover::{Beside, LeftMaterial, Leftover, LeftoverSearch, Leftovers,
 use super::prepared::{PreparedPart, Side};
 use super::{Part, PartRing, PartSettings};
 use crate::element::diagnostic_point;
-use crate::geometry::Curve;
+use crate::geometry::{Curve, Xy};
 use crate::keep_out::widened_box;
 
 /// The result of checking a drawing's parts.
@@ -233,7 +233,26 @@ impl<'s> PartCheck<'s> {
         let gouges = gouges(self.part, self.judged.iter());
         gouges.into_iter().map(|((path, element), gouge)| {
             let path_cuts = self.cuts.paths[path];
-            (path, path_cuts.at_element(element, gouge_problem(&gouge, path_cuts.radius)))
+            let mut problem = gouge_problem(&gouge, path_cuts.radius);
+            let circle = path_cuts.elements[element as usize].circle;
+            let centre = circle.or_else(|| (gouge.length == 0.0).then_some(gouge.at));
+            let is_rim = |centre: Xy| {
+                let radius = (gouge.at - centre).norm() + path_cuts.radius;
+                self.has_rim_within(centre, radius + self.settings.tolerance)
+            };
+            if centre.is_some_and(is_rim) {
+                problem =
+                    Diagnostic::new(&messages::GOUGED_BY_ITS_HOLE).quoting("layer", &*self.part.part.layer);
+            }
+            (path, path_cuts.at_element(element, problem))
+        })
+    }
+
+    /// Whether the outermost ring of the part lies within a circle.
+    fn has_rim_within(&self, centre: Xy, radius: f64) -> bool {
+        let mut curves = self.part.part.rings[0].curves.iter();
+        curves.all(|curve| {
+            [curve.start(), curve.middle()].iter().all(|point| (point - centre).norm() <= radius)
         })
     }
 

@@ -83,7 +83,7 @@ impl<'d> Texts<'d> {
                 path.diagnostics.push(problem);
                 let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
                 if let Some(read) = texts.first() {
-                    path.note_start_text(read, text.anchor());
+                    path.note_start_text(read, text);
                 }
                 let letters = texts.first().map(ParameterText::possible_letters);
                 path.faults.stray_letters = path.faults.stray_letters.and(letters.unwrap_or_default());
@@ -148,7 +148,7 @@ impl<'d> LayerTexts<'d> {
                 layer.give_text(id, owners.clone(), path);
                 let is_start = |owner: &Candidate| matches!(owner.owner, Owner::Start);
                 if !layer.candidates[owners].iter().any(is_start) {
-                    path.note_given_start_text(id, text.anchor());
+                    path.note_given_start_text(id, text);
                 }
             }
             has_owner

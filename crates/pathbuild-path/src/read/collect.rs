@@ -10,8 +10,8 @@ use smol_str::SmolStr;
 
 use crate::approx::near;
 use crate::element::{
-    CircleMeaning, Cut, END_RADIUS, Element, IntendedMarker, Marker, Origin, PROBE_RADIUS, Role,
-    START_RADIUS, Shape, Source, TURN_RADIUS, circle_meaning, curve_role, has_diameter_of,
+    CircleMeaning, Cut, END_RADIUS, Element, IntendedMarker, Marker, MarkerInOtherUnit, Origin, PROBE_RADIUS,
+    Role, START_RADIUS, Shape, Source, TURN_RADIUS, circle_meaning, curve_role, has_diameter_of,
 };
 use crate::geometry::{Curve, Line, Xy};
 use crate::language::Language;
@@ -20,8 +20,8 @@ use crate::line_type::{LineType, LineTypes};
 use crate::names::{PathName, PathPattern};
 use crate::raw::{DrawingFaults, DrawnElements, Position, RawPath, SourceMap};
 use crate::read::candidates::{Candidate, Owner};
-use crate::read::entities::{plane_arc, xy};
-use crate::read::parameters::{PathCheck, StartHints, Starts};
+use crate::read::entities::{FoundText, plane_arc, xy};
+use crate::read::parameters::{PathCheck, StartHints, StartText, Starts};
 use crate::read::texts::Texts;
 use crate::text::{ParameterText, ParameterTexts, TextId};
 
@@ -180,7 +180,7 @@ impl PathCollector<'_> {
             diagnostics: self.diagnostics,
         };
         raw.faults.other_ends.extend(ends.map(|end| end.at));
-        raw.faults.path_text.clone_from(&self.hints.text);
+        raw.faults.path_text = self.hints.text.as_ref().map(|text| (text.string.clone(), text.anchor));
         let mut checked = PathCheck { raw: &mut raw, hints: self.hints };
         checked.check_leftovers();
         if !self.has_broken_circle {
@@ -221,18 +221,19 @@ impl PathCollector<'_> {
     }
 
     /// Notes a text that is probably the path's own but does not belong to the start marker.
-    pub(super) fn note_start_text(&mut self, text: ParameterText<'_>, at: Xy) {
+    pub(super) fn note_start_text(&mut self, text: ParameterText<'_>, drawn: &FoundText<'_>) {
         let has = |letter| text.letters.contains(letter);
         if self.hints.text.is_none() && has(Letter::O) && has(Letter::T) && !has(Letter::Embed) {
-            self.hints.text = Some((text.as_str().into(), at));
+            let (anchor, middle) = (drawn.anchor(), drawn.circle().centre);
+            self.hints.text = Some(StartText { string: text.as_str().into(), anchor, middle });
         }
     }
 
     /// Notes a text of an element that is probably the path's own.
-    pub(super) fn note_given_start_text(&mut self, text: TextId, at: Xy) {
+    pub(super) fn note_given_start_text(&mut self, text: TextId, drawn: &FoundText<'_>) {
         let given = take(&mut self.given);
         if let Some(text) = given.get(text) {
-            self.note_start_text(text, at);
+            self.note_start_text(text, drawn);
         }
         self.given = given;
     }
@@ -279,8 +280,10 @@ impl PathCollector<'_> {
     fn add_fault(&mut self, diagnostic: &Diagnostic) {
         self.has_elements = true;
         self.faults.has_broken_entity = true;
-        self.has_broken_circle |=
+        let is_circle =
             matches!(diagnostic.place.entity, Some(EntityKind::Circle | EntityKind::Other) | None);
+        // The finding about elements far from the origin names only the first one.
+        self.has_broken_circle |= is_circle || diagnostic.message == &messages::TOO_LARGE;
         self.add_located(diagnostic);
     }
 }
@@ -435,11 +438,21 @@ impl<'d> PathCollector<'d> {
             }
             CircleMeaning::UnknownLineType => self.add_unknown(found, shape),
             CircleMeaning::UnknownDiameter => {
-                let diagnostic = Diagnostic::new(&messages::UNKNOWN_SPECIAL_CIRCLE)
+                let is_phantom = line_type == LineType::Phantom;
+                let scaled = MarkerInOtherUnit::of_radius(radius).filter(|_| is_phantom);
+                let diagnostic = match scaled {
+                    None => Diagnostic::new(&messages::UNKNOWN_SPECIAL_CIRCLE),
+                    Some(scaled) => Diagnostic::new(&messages::SPECIAL_CIRCLE_IN_OTHER_UNIT)
+                        .with("unit", scaled.unit)
+                        .with("factor", scaled.factor)
+                        .with("meant", 2.0 * scaled.radius),
+                };
+                let diagnostic = diagnostic
                     .quoting("line_type", &*found.entity.line_type)
                     .with("diameter", exact_length(2.0 * radius));
                 self.report(self.origin(found.source, centre).at(diagnostic));
-                let is_phantom = line_type == LineType::Phantom;
+                self.faults.is_in_other_unit |= scaled.is_some();
+                let radius = scaled.map_or(radius, |scaled| scaled.radius);
                 let meant =
                     if is_phantom { IntendedMarker::of_radius(radius) } else { IntendedMarker::Other };
                 self.add_unclear(found, shape, meant);

@@ -28,15 +28,31 @@ pub(super) struct Start {
     pub(super) origin: Origin,
 }
 
+/// A text with O and T that does not belong to the start marker.
+pub(super) struct StartText {
+    pub(super) string: SmolStr,
+    pub(super) anchor: Xy,
+    /// The centre of the text's circle, which decides to which element it belongs.
+    pub(super) middle: Xy,
+}
+
 /// Hints about where the text of a path's start was drawn, if not on its start marker.
 #[derive(Default)]
 pub(super) struct StartHints {
-    /// A text with O and T that does not belong to the start marker, and its position.
-    pub(super) text: Option<(SmolStr, Xy)>,
+    /// A text with O and T that does not belong to the start marker.
+    pub(super) text: Option<StartText>,
     /// Position of an end marker with a text that gives O and T, if the start marker of the path has no such text.
     pub(super) swapped: Option<Point>,
     /// Position of a circle like a start marker, but without its text, in a path that has a start and no end.
     pub(super) meant_as_end: Option<Point>,
+}
+
+impl StartText {
+    /// Returns the arguments of a note about the text, with one of its points.
+    fn arguments(&self, point: Xy) -> Vec<(&'static str, Value)> {
+        let text = Value::quoted(self.string.replace('\n', " "));
+        vec![("text", text), ("point", diagnostic_point(point).into())]
+    }
 }
 
 impl PathCheck<'_> {
@@ -79,13 +95,9 @@ impl PathCheck<'_> {
             StartHints { swapped: Some(end), .. } => {
                 problem.note(&drawing::SWAPPED_MARKERS, vec![("point", (*end).into())])
             }
-            StartHints { text: Some((text, at)), .. } => problem.note(
-                &drawing::START_TEXT_ELSEWHERE,
-                vec![
-                    ("text", Value::quoted(text.replace('\n', " "))),
-                    ("point", diagnostic_point(*at).into()),
-                ],
-            ),
+            StartHints { text: Some(text), .. } => {
+                problem.note(&drawing::START_TEXT_ELSEWHERE, text.arguments(text.middle))
+            }
             StartHints { .. } => problem,
         }
     }
@@ -337,9 +349,7 @@ impl PathCheck<'_> {
                 .quoting("name", self.raw.name.as_str())
                 .quoting("layer", self.raw.layer())
         };
-        let text = self.hints.text.as_ref().map(|(text, at)| {
-            vec![("text", Value::quoted(text.replace('\n', " "))), ("point", diagnostic_point(*at).into())]
-        });
+        let text = self.hints.text.as_ref().map(|text| text.arguments(text.anchor));
         let start = self.raw.start.is_none().then(|| {
             let start = missing(&drawing::MISSING_START);
             match text {

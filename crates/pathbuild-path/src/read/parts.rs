@@ -103,21 +103,28 @@ impl<'d> OutlineLayers<'d> {
 
     /// Returns PB219 for curves that may be part of an outline and could not be read.
     fn unreadable(&self) -> impl Iterator<Item = Diagnostic> {
-        let left_out =
-            self.language.left_out(self.drawing).map(|left_out| (left_out.layer, &left_out.diagnostic));
-        let faults = self.drawing.faults.iter().map(|fault| (fault.layer, &fault.diagnostic));
-        let on_layer = left_out.chain(faults).filter(|(layer, _)| self.layers[*layer as usize]);
-        on_layer.map(|(_, cause)| {
+        let is_read = |layer: u32| self.layers[layer as usize];
+        let problem = |message, cause: &Diagnostic| {
             let entity = cause.place.entity.map_or("?", |entity| entity.name());
-            let problem = Diagnostic::new(&messages::OUTLINE_UNREADABLE).quoting("entity", entity);
+            let problem = Diagnostic::new(message).quoting("entity", entity);
             Diagnostic { place: cause.place.clone(), ..problem }
-        })
+        };
+        let left_out = self.language.left_out(self.drawing).filter(move |left_out| is_read(left_out.layer));
+        let left_out =
+            left_out.map(move |left_out| problem(&messages::OUTLINE_UNREADABLE, &left_out.diagnostic));
+        let faults = self.drawing.faults.iter().filter(move |fault| is_read(fault.layer));
+        left_out.chain(faults.map(move |fault| {
+            let cause = &fault.diagnostic;
+            problem(&messages::OUTLINE_FAULTY, cause).note(cause.message, cause.arguments.clone())
+        }))
     }
 
     /// Returns PB219 for layers of which no curve belongs to a closed ring, and about which nothing else is reported.
     fn without_rings(&self, found: &DrawnParts) -> Vec<Diagnostic> {
-        let reported =
-            found.problems.iter().filter(|problem| problem.message != &messages::OUTLINE_UNREADABLE);
+        let is_unread = |problem: &&Diagnostic| {
+            [&messages::OUTLINE_UNREADABLE, &messages::OUTLINE_FAULTY].contains(&problem.message)
+        };
+        let reported = found.problems.iter().filter(|problem| !is_unread(problem));
         let places = found.places.iter().flatten().chain(reported.map(|problem| &problem.place));
         let closed: Vec<&str> = places.filter_map(|place| place.layer.as_deref()).collect();
         let layers = self.drawing.layers.iter().zip(&self.layers).enumerate();

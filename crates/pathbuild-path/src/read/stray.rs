@@ -340,11 +340,19 @@ fn stray_text(
     };
     let read = [drawn, meant].into_iter().find(is_read)?;
     let circle = text.circle();
-    let (path, (layer, candidate)) = paths.iter().find_map(|path| {
-        let taker =
-            path.texts.free_candidates(&circle, budget).find(|(_, taker)| path.would_apply(read, taker))?;
-        Some((path, taker))
-    })?;
+    let over = paths.iter().find_map(|path| {
+        let mut takers = path.texts.free_candidates(&circle, budget);
+        Some((path, takers.find(|(_, taker)| path.would_apply(read, taker))?))
+    });
+    let beside = || {
+        paths.iter().find_map(|path| {
+            let mut missed = path.texts.candidates_beside(&circle, circle.radius, budget);
+            let is_taker =
+                |taker: &Candidate| matches!(taker.owner, Owner::Element(_)) && path.would_apply(read, taker);
+            Some((path, missed.find(|(_, taker)| is_taker(taker))?))
+        })
+    };
+    let (path, (layer, candidate)) = over.or_else(beside)?;
     let problem = Diagnostic::new(&messages::TEXT_ON_OTHER_LAYER)
         .quoting("text", drawn.as_str().replace('\n', " "))
         .quoting("layer", &*drawing.layers[drawing.entities[entity].layer as usize].name)

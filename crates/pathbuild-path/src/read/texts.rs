@@ -10,7 +10,9 @@ use smol_str::SmolStr;
 use crate::element::{Marker, Origin, Shape, Source};
 use crate::geometry::Xy;
 use crate::letter::Letter;
-use crate::read::candidates::{AssignedCandidate, Candidate, CandidateIndex, Owner, SearchBudget, find};
+use crate::read::candidates::{
+    AssignedCandidate, Candidate, CandidateIndex, Owner, SearchBudget, find, find_taken, nearest_miss,
+};
 use crate::read::entities::{AnyText, FoundText, TextCircle};
 use crate::text::{ParameterTexts, without_percent_codes};
 
@@ -152,6 +154,27 @@ impl<'d> Texts<'d> {
             Some((&*layer.name, &layer.candidates[found.candidate]))
         };
         self.layers.iter().take(MAX_SEARCHED_LAYERS).filter_map(taker)
+    }
+}
+
+impl<'d> Texts<'d> {
+    /// Returns the candidates without a text that a text with this circle, which overlaps none on their layer, misses by at most `reach` mm, each with
+    /// its layer name.
+    pub(super) fn candidates_beside<'t>(
+        &'t self,
+        circle: &'t TextCircle,
+        reach: f64,
+        budget: &'t SearchBudget,
+    ) -> impl Iterator<Item = (&'t str, &'t Candidate)> {
+        let missed = move |layer: &'t LayerTexts<'d>| {
+            let (candidates, boxes) = (&layer.candidates, &layer.boxes);
+            if find_taken(circle, candidates, boxes, budget).is_some() {
+                return None;
+            }
+            let miss = nearest_miss(circle, candidates, boxes, budget)?;
+            (miss.distance <= reach).then(|| (&*layer.name, &candidates[miss.candidate]))
+        };
+        self.layers.iter().take(MAX_SEARCHED_LAYERS).filter_map(missed)
     }
 }
 

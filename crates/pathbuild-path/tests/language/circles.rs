@@ -1,5 +1,6 @@
 //! Tests special circles, holes and helical circles, and elements outside the plane. (book: language/markers)
 
+use pathbuild_diagnostic::Lang;
 use pathbuild_path::SegmentKind;
 
 use crate::support::{compile, path, raw, read, wrong};
@@ -24,6 +25,35 @@ fn special_circles_are_told_apart_by_their_diameters() {
     for (diameter, what) in known {
         assert_eq!(special(diameter), what, "{diameter}");
     }
+}
+
+/// Markers of a drawing in another unit are still recognised, and nothing follows from its lengths.
+#[test]
+fn markers_in_another_unit_are_named() {
+    let said = |factor: f64| {
+        let [start, end, hole] = [1.0, 2.0, 2.0].map(|diameter| diameter / factor);
+        let [x, y] = [40.0, 20.0].map(|length| length / factor);
+        let compiled = compile(&format!(
+            "layer 1234.1P\ncircle PHANTOM 0,0 d {start}\ntext 0,0 \"T2 O2 I0.5 B0 D1 P4 U10\" height {start} align centre middle\n\
+             bars 0,0 {x},0 {x},{y}\ncircle {x},{y} d {hole}\ncircle PHANTOM {x},{y} d {end}"
+        ));
+        let texts = compiled.found.iter().map(|found| format!("{} {}", found.code(), found.text(Lang::En)));
+        texts.collect::<Vec<_>>()
+    };
+    for (factor, unit) in [(25.4, "inches"), (10.0, "centimetres"), (1000.0, "metres")] {
+        let found = said(factor);
+        assert_eq!(found.len(), 2, "{found:?}");
+        for (found, meant) in found.iter().zip(["1", "2"]) {
+            let expected = format!("times {factor}, it would be {meant} mm: is the drawing in {unit}?");
+            assert!(found.starts_with("PB105") && found.ends_with(&expected), "{found}");
+        }
+    }
+    let is_named = |diameter: &str| {
+        let raw = raw(&format!("layer 1234.1P\nmill 0,0 20,0\ncircle PHANTOM 50,50 d {diameter}"));
+        raw.diagnostics.iter().any(|found| found.text(Lang::En).contains("is the drawing in"))
+    };
+    assert!(is_named("0.0397") && !is_named("0.0398"), "1 % above 1 mm");
+    assert!(is_named("0.2362") && is_named("0.0591") && !is_named("0.5"));
 }
 
 /// As with holes, the tolerance is 0.001 mm: drawings in inches have rounded diameters.
@@ -61,7 +91,7 @@ fn a_path_has_one_start_and_one_end() {
 fn a_diameter_that_means_nothing_is_shown_with_its_digits() {
     let said = |diameter: &str| {
         let raw = raw(&format!("layer 1234.1P\nmill 0,0 20,0\ncircle PHANTOM 50,50 d {diameter}"));
-        raw.diagnostics.iter().map(|found| found.text(pathbuild_diagnostic::Lang::En)).next().unwrap()
+        raw.diagnostics.iter().map(|found| found.text(Lang::En)).next().unwrap()
     };
     assert_eq!(said("1.0011"), "a PHANTOM circle with a diameter of 1.0011 mm has no meaning");
     assert_eq!(said("1.25"), "a PHANTOM circle with a diameter of 1.25 mm has no meaning");

@@ -107,7 +107,11 @@ fn only_an_element_without_a_text_that_would_get_it_counts() {
     let note = |at: &str| strays(&text("Notes", "F50", at));
     assert_eq!(note("20,0"), ["PB119"]);
     assert_eq!(note("20,1.5"), ["PB119"]);
-    assert_eq!(note("20,3"), [""; 0], "it overlaps nothing");
+    // Its circle has a radius of 2.06 mm.
+    assert_eq!(note("20,4.1"), ["PB119"], "it misses the line by less than that");
+    assert_eq!(note("20,4.2"), [""; 0]);
+    assert_eq!(note("70,3"), [""; 0], "the mark beside it has its text");
+    assert_eq!(note("50,3"), [""; 0], "the sweep beside it knows no F");
     assert_eq!(note("50,0"), [""; 0], "a sweep knows no F");
     assert_eq!(note("70,0"), [""; 0], "the mark has its text");
 }

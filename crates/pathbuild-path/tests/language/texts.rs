@@ -1,5 +1,6 @@
 //! Tests the content of parameter texts. (book: language/parameter-texts)
 
+use pathbuild_diagnostic::{Code, Lang};
 use pathbuild_path::{ElementClass, Letter, ParameterTexts, parse_integer, parse_number};
 
 use crate::support::{codes, compile, path, raw, wrong};
@@ -126,15 +127,10 @@ fn a_letter_stands_once_in_a_text() {
 fn letters_are_upper_case_and_the_help_says_so() {
     let found = problems_of("b1", ElementClass::Mill);
     assert_eq!(codes(&found), ["PB202 b"]);
-    assert!(
-        found[0]
-            .help(pathbuild_diagnostic::Lang::En)
-            .unwrap()
-            .starts_with("write letters in upper case: \"B\";")
-    );
+    assert!(found[0].help(Lang::En).unwrap().starts_with("write letters in upper case: \"B\";"));
     let found = problems_of("X1", ElementClass::Mill);
     assert_eq!(
-        found[0].help(pathbuild_diagnostic::Lang::En).unwrap(),
+        found[0].help(Lang::En).unwrap(),
         "use one of B, F, I, N, Q, W; values follow their letter without a space"
     );
 }
@@ -203,6 +199,25 @@ fn what_is_no_number_is_reported_alone() {
 #[test]
 fn a_start_has_a_text() {
     assert_eq!(wrong("layer 1234.1P\nstart 0,0\nmill 0,0 40,0\nend 40,0"), ["PB207"]);
+}
+
+/// The middle of a text decides to which element it belongs, even if the text begins on the start marker.
+#[test]
+fn a_long_start_text_is_told_where_its_middle_is() {
+    let said = |at: &str, rest: &str| {
+        let start = "\"O2 T2 I0.5 F150 B-0.2 D1 P4 U10\" height 2.5 align left baseline";
+        let compiled = compile(&format!("layer 1234.1P\nstart 0,0\ntext {at} {start}\n{rest}"));
+        let found = compiled.found.iter().find(|found| found.code() == Code::MissingPathParameters);
+        found.expect("PB207").notes[0].text(Lang::En)
+    };
+    let hole = "sweep 0,0 35,10\ncircle 35,10 d 2\nend 35,10";
+    assert!(
+        said("0,0", hole).contains("its middle is at (23.25, 1.25): move it so that its middle lies on"),
+        "{}",
+        said("0,0", hole)
+    );
+    assert!(said("0,0", &hole.replace("d 2", "d 8")).contains("its middle is at (23.25, 1.25)"));
+    assert!(said("0,40", "mill 0,0 40,0\nend 40,0").contains("its middle is at (23.25, 41.25)"));
 }
 
 #[test]
