@@ -43,6 +43,13 @@ messages! {
         help_en: "shorten or split the line or arc at {point}, so that the two meet end to end",
         help_de: "die Linie oder den Bogen bei {point} kürzen oder teilen, damit beide sich mit ihren Enden treffen",
     }
+    /// The path breaks off in the middle of a segment that was not reached.
+    ENDS_ON_OTHER: NothingContinues {
+        en: "the path breaks off here, in the middle of {element}: it continues only at the ends of segments; segments not reached: {left}",
+        de: "hier bricht der Pfad ab, mitten auf einem anderen Segment ({element}): er geht nur an den Enden von Segmenten weiter; nicht erreichte Segmente: {left}",
+        help_en: "split that line or arc into two at {point}, or draw what leads here to one of its ends instead",
+        help_de: "diese Linie oder diesen Bogen bei {point} in zwei Teile trennen oder, was hierher führt, stattdessen zu einem ihrer Enden zeichnen",
+    }
     /// The path breaks off because it runs back along a segment that is drawn twice.
     DRAWN_TWICE: NothingContinues {
         en: "{element} at {point} is drawn twice: the path runs back along the second one and breaks off; segments not reached: {left}",
@@ -114,6 +121,13 @@ messages! {
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; {element} bei {point} liegt {distance} mm neben {end}, wo {other} endet",
         help_en: "move the one to the other with the object snap (`join-tolerance` closes a gap only where the path cannot continue otherwise), or remove what does not belong to the path",
         help_de: "das eine mit dem Objektfang auf das andere schieben (`join-tolerance` schließt eine Lücke nur, wo der Pfad nicht anders weitergeht) oder entfernen, was nicht zum Pfad gehört",
+    }
+    /// The path ends in the middle of a segment that was not reached.
+    UNREACHED_ENDS_ON_OTHER: UnreachedSegments {
+        en: "the path ends here, in the middle of {element}, which it does not follow: it continues only at the ends of segments; segments not reached: {left}",
+        de: "der Pfad endet hier mitten auf einem anderen Segment ({element}), dem er nicht folgt: er geht nur an den Enden von Segmenten weiter; nicht erreichte Segmente: {left}",
+        help_en: "split that line or arc into two at {point}",
+        help_de: "diese Linie oder diesen Bogen bei {point} in zwei Teile trennen",
     }
     /// A segment that is not reached because it is drawn twice.
     UNREACHED_TWICE: UnreachedSegments {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use pathbuild_diagnostic::messages::{drawing, paths as messages};
-use pathbuild_diagnostic::{Diagnostic, Text, Value, words};
+use pathbuild_diagnostic::{Diagnostic, Message, Text, Value, words};
 
 use crate::approx::{coincide, grid_square};
 use crate::chain::Item;
@@ -41,7 +41,8 @@ impl Walker<'_> {
             problem
         };
         let is_dead_end = self.passed_branch().is_some() && self.duplicate_segment().is_none();
-        if let Some(problem) = self.begins_on_another() {
+        let split = || self.ends_on_another(&messages::ENDS_ON_OTHER).filter(|_| !self.has_open_end_beside());
+        if let Some(problem) = self.begins_on_another().or_else(split) {
             report(problem)
         } else if let Some((at, distance)) = self.turn_marker_beside().filter(|_| is_dead_end) {
             let problem = Diagnostic::new(&messages::TURN_MARKER_BESIDE_TIP);
@@ -74,10 +75,22 @@ impl Walker<'_> {
         Some(self.path.origin(&self.path.segments[segment]).at(problem))
     }
 
+    /// Returns the problem that the path ends in the middle of a line or arc that was not reached. One that branches off at a point that the walk passed
+    /// may be followed back, and a subpath cannot be split.
+    fn ends_on_another(&self, message: &'static Message) -> Option<Diagnostic> {
+        let is_candidate = |segment: &usize| {
+            !matches!(self.path.segments[*segment].kind, SegmentKind::Subpath(_))
+                && !self.ends.of(*segment).iter().any(|end| self.is_passed(*end))
+        };
+        let segment = self.segment_through(self.at, self.unreached_segments().filter(is_candidate))?;
+        let problem = Diagnostic::new(message).with("element", self.word(segment));
+        Some(problem.with("point", diagnostic_point(self.at)))
+    }
+
     /// Returns the problem that the nearest segment that was not reached begins in the middle of a traversed one, unless that is a small gap.
     fn begins_on_another(&self) -> Option<Diagnostic> {
         let (segment, begin, distance) = self.nearest_end(self.at)?;
-        let other = self.segment_through(begin)?;
+        let other = self.segment_through(begin, self.traversed_segments())?;
         let is_near = distance <= MAX_SKIPPED_GAP;
         let problem = if !is_near {
             Diagnostic::new(&messages::BEGINS_ON_OTHER)
@@ -99,8 +112,8 @@ impl Walker<'_> {
     /// what lies near it may be the way that led there.
     fn traversed_end_beside(&self) -> Option<(usize, Xy)> {
         self.last.filter(|last| self.length(*last) > MAX_SKIPPED_GAP)?;
-        let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
-        let ends = traversed.flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));
+        let ends =
+            self.traversed_segments().flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));
         let distance = |(_, end): &(usize, Xy)| (end - self.at).norm();
         let beside = ends.filter(|end| distance(end) <= MAX_SKIPPED_GAP && !coincide(end.1, self.at));
         beside.reduce(|best, other| if distance(&other) < distance(&best) { other } else { best })
@@ -151,8 +164,7 @@ impl Walker<'_> {
 
     /// Returns the end of a remaining segment that is nearest to the traversed segments' ends, if only a small gap separates them.
     fn end_beside_traversed(&self) -> Option<EndBeside> {
-        let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
-        let passed = OpenEnds::new(traversed, &self.ends);
+        let passed = OpenEnds::new(self.traversed_segments(), &self.ends);
         let beside = self.unreached_segments().flat_map(|segment| {
             let [one, two] = self.ends.of(segment);
             // The tip of a short branch is near the point where it branches off.
@@ -196,10 +208,12 @@ impl Walker<'_> {
                 .with("other", self.word(other))
                 .with("end", diagnostic_point(beside))
                 .with("distance", distance)
+        } else if let Some(problem) = self.ends_on_another(&messages::UNREACHED_ENDS_ON_OTHER) {
+            problem
         } else if let Some(branch) = branch {
             about(&messages::UNREACHED_BRANCH, branch)
         } else if let Some((segment, point)) = remaining {
-            match self.segment_through(point).map(|other| self.word(other)) {
+            match self.segment_through(point, self.traversed_segments()).map(|other| self.word(other)) {
                 Some(other) if other == self.word(segment) => {
                     about(&messages::NO_END_THERE_ALIKE, (segment, point))
                 }
@@ -214,15 +228,14 @@ impl Walker<'_> {
         if is_told { problem } else { self.with_duplicate(problem) }
     }
 
-    /// Returns a traversed segment that passes through a point without ending there.
-    fn segment_through(&self, point: Xy) -> Option<usize> {
+    /// Returns the first of these segments that passes through a point without ending there.
+    fn segment_through(&self, point: Xy, mut segments: impl Iterator<Item = usize>) -> Option<usize> {
         let is_on = |curve: Curve| {
             let is_end =
                 [curve.start(), curve.end()].iter().any(|end| (end - point).norm() < ON_CURVE_TOLERANCE);
             !is_end && curve.distance_to(point) < ON_CURVE_TOLERANCE
         };
-        let mut traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
-        traversed.find(|segment| self.path.curve(&self.path.segments[*segment]).is_some_and(is_on))
+        segments.find(|segment| self.path.curve(&self.path.segments[*segment]).is_some_and(is_on))
     }
 
     pub(super) fn end_not_reached(&self, stopped_at: Xy) -> Diagnostic {
@@ -249,6 +262,10 @@ impl Walker<'_> {
             .with("end", diagnostic_point(self.path.end)))
     }
 
+    fn traversed_segments(&self) -> impl Iterator<Item = usize> {
+        (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment])
+    }
+
     pub(super) fn unreached_segments(&self) -> impl Iterator<Item = usize> {
         let open = self.is_traversed.iter().enumerate().filter(|(_, traversed)| !**traversed);
         open.map(|(segment, _)| segment)
@@ -262,14 +279,34 @@ impl Walker<'_> {
 
     /// Returns the nearest end of a remaining segment, with its distance.
     pub(super) fn nearest_end(&self, point: Xy) -> Option<(usize, Xy, f64)> {
+        self.nearest_end_where(point, |_| true)
+    }
+
+    fn nearest_end_where(&self, point: Xy, is_wanted: impl Fn(&Xy) -> bool) -> Option<(usize, Xy, f64)> {
         let ends =
             self.unreached_segments().flat_map(|segment| self.ends.of(segment).map(|end| (segment, end)));
+        let ends = ends.filter(|(_, end)| is_wanted(end));
         let distances = ends.map(|(segment, end)| (segment, end, (end - point).norm()));
         distances.reduce(|best, other| if other.2 < best.2 { other } else { best })
     }
 
+    /// Whether a segment that was not reached ends at a point alone: not at a corner, but perhaps at a hole.
+    fn is_open(&self, point: Xy) -> bool {
+        let is_line = |segment: usize| self.path.curve(&self.path.segments[segment]).is_some();
+        let mut found = Vec::new();
+        self.ends.find_near(point, |segment| !self.is_traversed[segment] && is_line(segment), &mut found);
+        found.iter().all(|segment| *segment == found[0])
+    }
+
+    /// Adds the end to which a missing segment probably leads: across a small gap the nearest one, otherwise rather an open end than a corner.
     fn with_nearest_end(&self, problem: Diagnostic, point: Xy) -> Diagnostic {
-        let Some((segment, end, distance)) = self.nearest_end(point) else { return problem };
+        let Some(nearest) = self.nearest_end(point) else { return problem };
+        let open = || self.nearest_end_where(point, |end| self.is_open(*end));
+        let nearest = Some(nearest)
+            .filter(|(.., distance)| *distance <= MAX_SKIPPED_GAP)
+            .or_else(open)
+            .unwrap_or(nearest);
+        let (segment, end, distance) = nearest;
         problem.note(
             &messages::NEAREST_END,
             vec![
@@ -282,8 +319,7 @@ impl Walker<'_> {
 
     /// Whether a segment coincides with a traversed one.
     fn is_drawn_twice(&self, segment: usize) -> bool {
-        let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
-        Curves::new(self.path, traversed).has_duplicate(segment)
+        Curves::new(self.path, self.traversed_segments()).has_duplicate(segment)
     }
 
     /// Returns the shorter of two segments of which one lies on part of the other: this one and any other. If both have a text, the user cuts that
@@ -316,9 +352,10 @@ impl Walker<'_> {
 
     /// Returns a segment that lies on a traversed one: either it was not reached, or the walk went along both.
     fn duplicate_segment(&self) -> Option<usize> {
-        let traversed = (0..self.is_traversed.len()).filter(|segment| self.is_traversed[*segment]);
-        let curves = Curves::new(self.path, traversed.clone());
-        self.unreached_segments().chain(traversed).find(|segment| curves.has_duplicate(*segment))
+        let curves = Curves::new(self.path, self.traversed_segments());
+        self.unreached_segments()
+            .chain(self.traversed_segments())
+            .find(|segment| curves.has_duplicate(*segment))
     }
 
     fn with_duplicate(&self, problem: Diagnostic) -> Diagnostic {

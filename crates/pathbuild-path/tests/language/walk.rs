@@ -67,6 +67,69 @@ fn nothing_continues_names_the_nearest_open_end() {
     assert_eq!(notes, ["the nearest open end is at (20.5, 0), 0.5 mm away (a milling segment)"]);
 }
 
+/// A corner of a closed outline is no open end, but holes and sweeps that meet are, and within 1 mm a corner is as well.
+#[test]
+fn open_ends_come_before_corners() {
+    let nearest = |corner: &str, inner: &str| {
+        let outline = format!("bars 50,40 {corner} 60,-9 50,40 \"P4 U10\"");
+        let (codes, notes) = found(&format!("{inner}\n{outline}\nend 50,40"));
+        assert_eq!(codes[0], "PB401");
+        notes[0].clone()
+    };
+    let inner = "circle 20,10 d 3\nsweep 20,10 50,40";
+    assert_eq!(
+        nearest("-2,-2", inner),
+        "the nearest open end is at (20, 10), 22.361 mm away (a drilled hole)"
+    );
+    assert_eq!(
+        nearest("-2,-2", "sweep 20,10 50,40"),
+        "the nearest open end is at (20, 10), 22.361 mm away (a sweep)"
+    );
+    let corner = nearest("-0.6,-0.6", inner);
+    assert!(corner.starts_with("the nearest open end is at (-0.6, -0.6), 0.849 mm away"), "{corner}");
+    // Without an open end, the nearest corner is named.
+    let corner = nearest("-2,-2", "line HIDDEN 0,0 -4,-2");
+    assert!(corner.starts_with("the nearest open end is at (-2, -2), 2 mm away"), "{corner}");
+}
+
+/// A path continues only at ends. It is told so where it meets a line in the middle.
+#[test]
+fn a_path_that_ends_in_the_middle_of_a_segment_must_split_it() {
+    let said = |end: &str, drawn: &str| {
+        let compiled = compile(&path("T5 O3 I1 B0 D2 P4 U10", &format!("{drawn}\nend {end}")));
+        let problem = compiled.found.iter().find(|found| found.is_error()).expect("an error");
+        format!("{} {}: {}", problem.code(), problem.text(Lang::En), problem.help(Lang::En).unwrap())
+    };
+    let outline = "line HIDDEN 0,0 20,20\nbars 20,10 20,30 40,30 40,10 20,10";
+    assert!(
+        said("20,30", outline)
+            .starts_with("PB401 the path breaks off here, in the middle of a segment with support bars")
+    );
+    assert!(said("20,30", outline).contains("split that line or arc into two at (20, 20)"));
+    let at_end = said("20,20", outline);
+    assert!(
+        at_end.starts_with("PB402 the path ends here, in the middle of a segment with support bars"),
+        "{at_end}"
+    );
+    // Within 1 mm of its end, the path has a gap.
+    let near =
+        |y: &str| said("20,30", &format!("line HIDDEN 0,0 20,{y}\nbars 20,10 20,30 40,30 40,10 20,10"));
+    assert!(near("28.99").contains("in the middle of"), "{}", near("28.99"));
+    assert!(near("29").contains("breaks off here; segments not reached"), "{}", near("29"));
+    // An arc, and a line that the path misses by more than can be seen.
+    let arc = "line HIDDEN 0,0 20,20\nmill arc centre 20,10 r 10 from 0 to 180";
+    assert!(said("10,10", arc).contains("in the middle of a milling segment"), "{}", said("10,10", arc));
+    let beside = "line HIDDEN 0,0 19.99,20\nbars 20,10 20,30 40,30 40,10 20,10";
+    assert!(
+        said("20,30", beside).contains("breaks off here; segments not reached"),
+        "{}",
+        said("20,30", beside)
+    );
+    // A subpath cannot be split.
+    let subpath = "line HIDDEN 0,0 20,20\nsubpath 20,10 20,30 \">1111.1P\"";
+    assert!(!said("20,30", subpath).contains("in the middle"), "{}", said("20,30", subpath));
+}
+
 #[test]
 fn a_duplicate_is_named() {
     let twice = "mill 0,0 20,0\nmill 20,0 40,0\nmill 20,0 0,0\nend 40,0";
