@@ -54,25 +54,31 @@ impl UncutRun<'_> {
     }
 }
 
+/// Length of a run beside segments with gaps from which the run is reported, as a multiple of P + U: two bars would have room, so it is no rounded
+/// corner.
+const MIN_PITCHES_BESIDE_GAPS: f64 = 2.0;
+
 /// Returns the runs of two or more connected segments that are together at least as long as P + U although none of them has a gap. Runs are sought
-/// among all segments, and again within polylines and approximated curves.
+/// among all segments, within polylines and approximated curves and, if long enough, among the segments without a gap.
 pub(super) fn uncut_runs<'a>(segments: &[SupportSegment<'a>]) -> Vec<UncutRun<'a>> {
     if segments.iter().all(SupportSegment::has_gap) {
         return Vec::new();
     }
-    let all = runs(segments, |_| None);
-    let is_compound = |run: &&Vec<usize>| segments[run[0]].compound_kind().is_some();
-    let compound = runs(segments, SupportSegment::compound_kind);
+    let is_compound = |run: &Vec<usize>| segments[run[0]].compound_kind().is_some();
+    let all = runs(segments, |_| ()).into_iter().map(|run| (run, 1.0));
+    let compound = runs(segments, SupportSegment::compound_kind).into_iter().filter(is_compound);
+    let beside_gaps = runs(segments, SupportSegment::has_gap).into_iter();
+    let beside_gaps = beside_gaps.map(|run| (run, MIN_PITCHES_BESIDE_GAPS));
     let mut found: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     let mut is_reported = vec![false; segments.len()];
-    for run in all.iter().chain(compound.iter().filter(is_compound)) {
+    for (run, least) in all.chain(compound.map(|run| (run, 1.0))).chain(beside_gaps) {
         let is_uncut = run.len() > 1 && !run.iter().any(|segment| segments[*segment].has_gap());
         let pitches: f64 = run.iter().map(|segment| segments[*segment].pitches()).sum();
-        if is_uncut && at_least(pitches, 1.0) && !is_reported[run[0]] {
-            for segment in run {
+        if is_uncut && at_least(pitches, least) && !is_reported[run[0]] {
+            for segment in &run {
                 is_reported[*segment] = true;
             }
-            found.insert(run[0], run.clone());
+            found.insert(run[0], run);
         }
     }
     let length = |run: &[usize]| run.iter().map(|segment| segments[*segment].curve.length()).sum();
@@ -83,9 +89,9 @@ pub(super) fn uncut_runs<'a>(segments: &[SupportSegment<'a>]) -> Vec<UncutRun<'a
 }
 
 /// Returns the groups of connected segments of the same kind, each as the segments' indices in ascending order.
-fn runs<'a>(
+fn runs<'a, K: Ord>(
     segments: &[SupportSegment<'a>],
-    kind: impl Fn(&SupportSegment<'a>) -> Option<EntityKind>,
+    kind: impl Fn(&SupportSegment<'a>) -> K,
 ) -> Vec<Vec<usize>> {
     let mut groups: Vec<usize> = (0..segments.len()).collect();
     let mut firsts = BTreeMap::new();

@@ -47,6 +47,15 @@ fn a_paths_values_are_greater_than_0() {
     assert_eq!(start(&format!("T{OUTSIDE} O3 I1 B-1")), ["PB203 T"]);
 }
 
+/// A T that the segment does not accept is not compared with the values of the path.
+#[test]
+fn a_thickness_on_a_segment_has_no_limits() {
+    for text in ["T1", "T0", "T9"] {
+        assert_eq!(on(&format!("mill 0,0 40,0 \"{text}\""), "T2 O2 I0.5 B0 D1"), ["PB202 T"], "{text}");
+    }
+    assert_eq!(on("mill 0,0 40,0 \"T1 B3\"", "T2 O2 I0.5 B0 D1"), ["PB202 T", "PB203 B"]);
+}
+
 /// The help contains a usual value for the letter.
 #[test]
 fn a_value_that_must_be_greater_than_0_has_an_example() {
@@ -102,8 +111,10 @@ fn an_elements_values_are_greater_than_0() {
     for (statement, letters) in table {
         for letter in letters.chars() {
             let with = |value: &str| on(&statement.replace('#', &format!("{letter}{value}")), parameters);
-            assert_eq!(with(inside(letter)), [""; 0], "{letter} {statement}");
-            assert_eq!(with(outside(letter)), [format!("PB203 {letter}")], "{letter} {statement}");
+            // Bars as short as that hold nothing.
+            let expected = if letter == 'P' { vec!["PB211"] } else { Vec::new() };
+            assert_eq!(with(inside(letter)), expected, "{letter} {statement}");
+            assert_eq!(with(outside(letter))[0], format!("PB203 {letter}"), "{letter} {statement}");
         }
     }
     // The smaller value is not positive. The larger one is, but may be too small for another rule.
@@ -269,6 +280,14 @@ fn a_run_of_short_support_segments_is_cut_through_somewhere() {
     assert_eq!(beside("bars 30,0 34,0\nbars 34,0 34,16\nsweep 34,16 34,6"), [""; 0]);
     assert_eq!(beside("bars polyline 30,0 34,0 34,4 34,8\nbars 34,8 34,18\nsweep 34,18 34,6"), ["PB408"]);
     assert_eq!(beside("bars 30,0 34,0 34,4 34,8\nbars 34,8 34,18\nsweep 34,18 34,6"), [""; 0]);
+    // A run as long as two bars with their distances is no corner, whatever comes before and after it.
+    let long = |last: f64| {
+        beside(&format!("bars 30,0 34,0 34,5 40,5 40,{last}\nbars 40,{last} 40,30\nsweep 40,30 34,6"))
+    };
+    assert_eq!(long(9.999), [""; 0]);
+    assert_eq!(long(10.0), ["PB408"]);
+    let round = "bars 30,0 34,0 38,1 41,4 42,8 41,12\nbars 41,12 41,30\nsweep 41,30 34,6";
+    assert_eq!(beside(round), ["PB408"]);
     // Ends that do not meet are two runs.
     assert_eq!(beside("bars 30,0 34,0\nsweep 34,0 34.01,0\nbars 34.01,0 34,6"), [""; 0]);
 }
