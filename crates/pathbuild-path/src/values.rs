@@ -11,6 +11,7 @@ use pathbuild_motion::{ChipLoad, check_cutting_length};
 use crate::language::DoubtThresholds;
 use crate::letter::{ElementClass, Letter, LetterUse, Letters};
 use crate::look_alikes;
+use crate::part::MAX_WEAK_BRIDGE;
 use crate::text::{
     LetterValue, ParameterText, ValueKind, equals_sign_mistake, is_special_space, is_variable_without_value,
     is_without_value, mistake_in_text, unit_mistake, with_visible_spaces,
@@ -148,6 +149,14 @@ impl<'t> Values<'t> {
     /// Returns the text value of a letter; `None` if it is absent or has a reported problem.
     pub(crate) fn text(&self, letter: Letter) -> Option<&str> {
         self.value(self.text.index(letter)?)
+    }
+
+    /// Returns T. One that is not positive counts as faulty: with the surface at Z0, no other height can be compared with it.
+    fn thickness(&self) -> GivenNumber {
+        match self.number(Letter::T) {
+            GivenNumber::Number(thickness) if !above(thickness, 0.0) => GivenNumber::Faulty,
+            thickness => thickness,
+        }
     }
 
     /// Whether the text may give the letter, but with an unknown value.
@@ -302,8 +311,11 @@ impl LimitCheck<'_> {
             let is_feed = matches!(letter, Letter::F | Letter::Z);
             let is_rounded_off = is_feed && value > 0.0 && value < MIN_FEED;
             if is_rounded_off || !above(value, 0.0) {
-                let message =
-                    if is_rounded_off { &messages::FEED_ROUNDED_OFF } else { &messages::NOT_POSITIVE };
+                let message = match letter {
+                    _ if is_rounded_off => &messages::FEED_ROUNDED_OFF,
+                    Letter::T => &messages::THICKNESS_NOT_POSITIVE,
+                    _ => &messages::NOT_POSITIVE,
+                };
                 let problem = Diagnostic::new(message)
                     .with("letter", letter.as_char())
                     .with("value", value)
@@ -315,10 +327,19 @@ impl LimitCheck<'_> {
 
     /// Checks that `upper` is greater than `lower`, if the element's own text gives either; otherwise the problem is reported at the path.
     fn check_above(&mut self, upper: Letter, lower: Letter, message: &'static Message) {
-        if !self.own.has(upper) && !self.own.has(lower) {
+        let is_own =
+            |letter| self.own.has(letter) && !matches!(self.class.use_of(letter), LetterUse::PathOnly);
+        if !is_own(upper) && !is_own(lower) {
             return;
         }
-        let value = |letter| -> GivenNumber { self.own.number(letter).or_value(self.path.number(letter)) };
+        let number = |values: &Values<'_>, letter| match letter {
+            Letter::T => values.thickness(),
+            _ => values.number(letter),
+        };
+        let value = |letter| -> GivenNumber {
+            let own = if is_own(letter) { number(self.own, letter) } else { GivenNumber::Absent };
+            own.or_value(number(self.path, letter))
+        };
         let (GivenNumber::Number(high), GivenNumber::Number(low)) = (value(upper), value(lower)) else {
             return;
         };
@@ -341,7 +362,7 @@ impl LimitCheck<'_> {
             .with("limit", limit_value);
         let problem =
             if high > low { problem.note(&messages::EQUAL_IN_PROGRAM, Vec::new()) } else { problem };
-        let underlined = if self.own.has(subject) { subject } else { limit };
+        let underlined = if is_own(subject) { subject } else { limit };
         self.problems.push(self.own.underline(underlined, problem));
     }
 }
@@ -353,14 +374,17 @@ pub(crate) fn check_mark(
     path: &Values<'_>,
     limits: &DoubtThresholds,
 ) -> Option<(Diagnostic, bool)> {
-    let thickness = path.number(Letter::T).number()?;
+    let thickness = path.thickness().number()?;
     let depth = thickness - bottom;
-    if !above(depth, limits.mark_depth * thickness) {
+    let is_own = own.has(Letter::D);
+    // The D of bars is usually half of T, and hardly meant for marks: for these, the limit itself is too deep.
+    let is_of_bars = !is_own && (path.has(Letter::P) || path.has(Letter::U));
+    let limit = limits.mark_depth * thickness;
+    if !above(depth, if is_of_bars { limit - HALF_DECIMAL } else { limit }) {
         return None;
     }
-    let is_own = own.has(Letter::D);
     let message = if is_own { &messages::DEEP_MARK } else { &messages::DEEP_MARKS_OF_PATH };
-    let usual = USUAL_MARK_DEPTH.min(limits.mark_depth * thickness);
+    let usual = USUAL_MARK_DEPTH.min(limit);
     let problem = Diagnostic::new(message)
         .with("value", bottom)
         .with("depth", depth)
@@ -380,17 +404,27 @@ pub(crate) fn check_cutting_depth(
     path: &Values<'_>,
     length: Option<f64>,
 ) -> Option<(Diagnostic, bool)> {
-    let problem = check_cutting_length(length?, bottom, path.number(Letter::T).number()?)?;
+    let problem = check_cutting_length(length?, bottom, path.thickness().number()?)?;
     let is_own = own.has(letter);
     let says = if is_own { own } else { path };
     Some((says.underline(letter, problem), !is_own))
 }
+
+/// Half of the last of three decimals, in mm.
+const HALF_DECIMAL: f64 = 0.0005;
 
 /// A usual depth of a mark in mm, for help.
 const USUAL_MARK_DEPTH: f64 = 0.2;
 
 /// A usual thickness of support bars in mm, for help.
 const USUAL_BAR_THICKNESS: f64 = 1.0;
+
+/// Height of sweeps above the surface in mm that no clamp needs, and that exceeds the Z travel of a small machine. A speed of the spindle, for which S
+/// may be mistaken, is above it.
+const MAX_SWEEP_CLEARANCE: f64 = 100.0;
+
+/// A usual height of sweeps above the surface in mm, for help.
+const USUAL_SWEEP_CLEARANCE: f64 = 5.0;
 
 /// A usual infeed in mm, for help.
 const USUAL_INFEED: f64 = 0.5;
@@ -400,7 +434,7 @@ const MIN_BAR_THICKNESS: f64 = 0.1;
 
 /// Returns the finding about support bars with this upper edge in mm, and whether the edge is the path's D rather than their own.
 pub(crate) fn check_bar(top: f64, own: &Values<'_>, path: &Values<'_>) -> Option<(Diagnostic, bool)> {
-    let thickness = path.number(Letter::T).number()?;
+    let thickness = path.thickness().number()?;
     if !above(MIN_BAR_THICKNESS.min(thickness / 2.0), top) {
         return None;
     }
@@ -410,6 +444,21 @@ pub(crate) fn check_bar(top: f64, own: &Values<'_>, path: &Values<'_>) -> Option
     let is_own = own.has(Letter::D);
     let says = if is_own { own } else { path };
     Some((says.underline(Letter::D, problem), !is_own))
+}
+
+/// Returns the finding about support bars of this length in mm, and whether the length is the path's P rather than their own.
+pub(crate) fn check_bar_length(
+    length: f64,
+    own: &Values<'_>,
+    path: &Values<'_>,
+) -> Option<(Diagnostic, bool)> {
+    if above(length, MAX_WEAK_BRIDGE) {
+        return None;
+    }
+    let problem = Diagnostic::new(&messages::SHORT_BARS).with("value", length);
+    let is_own = own.has(Letter::P);
+    let says = if is_own { own } else { path };
+    Some((says.underline(Letter::P, problem), !is_own))
 }
 
 /// Returns the findings about the values that `own` gives and that have an effect on the element. `path`: the values of the path.
@@ -425,8 +474,11 @@ pub(crate) fn check_doubts(
             !matches!(class.use_of(letter), LetterUse::Unknown | LetterUse::Ignored | LetterUse::PathOnly);
         own.number(letter).number().filter(|_| has_effect)
     };
-    let thickness = path.number(Letter::T).number();
-    let below = value(Letter::B).filter(|bottom| above(-bottom, limits.below_plate)).map(|bottom| {
+    let thickness = path.thickness().number();
+    let is_surface_zero =
+        path.thickness() == GivenNumber::Faulty && path.number(Letter::T) != GivenNumber::Faulty;
+    let is_below = |bottom: &f64| above(-bottom, limits.below_plate) && !is_surface_zero;
+    let below = value(Letter::B).filter(is_below).map(|bottom| {
         let depth = -bottom;
         let problem = match thickness.filter(|thickness| at_least(*thickness, depth)) {
             Some(thickness) => Diagnostic::new(&messages::BELOW_PLATE_BY_DEPTH)
@@ -436,6 +488,16 @@ pub(crate) fn check_doubts(
         };
         let problem = problem.with("value", bottom).with("depth", depth).with("limit", limits.below_plate);
         own.underline(Letter::B, problem)
+    });
+    let swept_high = value(Letter::S)
+        .zip(thickness)
+        .filter(|(height, thickness)| above(*height, thickness + MAX_SWEEP_CLEARANCE));
+    let swept_high = swept_high.map(|(height, thickness)| {
+        let problem = Diagnostic::new(&messages::HIGH_SWEEP)
+            .with("value", height)
+            .with("clearance", height - thickness)
+            .with("example", thickness + USUAL_SWEEP_CLEARANCE);
+        own.underline(Letter::S, problem)
     });
     let infeed = value(Letter::I)
         .zip(thickness)
@@ -472,7 +534,11 @@ pub(crate) fn check_doubts(
     });
     let thousands = value(Letter::F).and_then(|feed| thousands_doubt(own, feed));
     let zeros = LENGTHS.into_iter().filter_map(|letter| zero_doubt(own, letter, value(letter)?));
-    [below, infeed, feed, chips, lowered, pecks, thousands].into_iter().flatten().chain(zeros).collect()
+    [below, swept_high, infeed, feed, chips, lowered, pecks, thousands]
+        .into_iter()
+        .flatten()
+        .chain(zeros)
+        .collect()
 }
 
 /// Feed in mm/min below which three decimals were probably meant as thousands: F1.200 is slower than any cutter should go.

@@ -186,6 +186,13 @@ messages! {
         help_en: "write a value above 0, for example {example}",
         help_de: "einen Wert über 0 schreiben, zum Beispiel {example}",
     }
+    /// A thickness of 0 or less: heights were probably measured from the surface downwards.
+    THICKNESS_NOT_POSITIVE: ParameterOutOfRange {
+        en: "{letter} is {value}, but must be greater than 0",
+        de: "{letter} ist {value}, muss aber größer als 0 sein",
+        help_en: "write the thickness of the material: heights are measured from the plate upwards, not from the surface down; in a sheet of 2 mm, T2 is its surface, B-0.2 cuts through, B1 is a groove of 1 mm, and D1 leaves bars of 1 mm",
+        help_de: "die Dicke des Materials schreiben: Höhen zählen von der Platte nach oben, nicht von der Oberfläche nach unten; bei 2 mm Blech ist T2 die Oberfläche, B-0.2 schneidet durch, B1 ist eine Nut von 1 mm Tiefe, und D1 lässt Stege von 1 mm stehen",
+    }
     /// A feed that is rounded to zero in a program.
     FEED_ROUNDED_OFF: ParameterOutOfRange {
         en: "{letter} is less than 0.0005 mm/min, which a program with three decimals writes as 0",
@@ -234,6 +241,13 @@ messages! {
         de: "T ist hier {thickness}, in Pfad {path} desselben Programms aber {other}: Eilgänge des einen können durch Material des anderen führen",
         help_en: "join only paths whose sheets do not overlap on the table, or give both the same T",
         help_de: "nur Pfade verbinden, deren Bleche sich auf dem Tisch nicht überlappen, oder beiden dasselbe T geben",
+    }
+    /// A sweep height far above the material, such as a spindle speed.
+    HIGH_SWEEP: DoubtfulValue {
+        en: "S is {value}: sweeps run {clearance} mm above the material",
+        de: "S ist {value}: Leerfahrten laufen {clearance} mm über dem Material",
+        help_en: "write the height of the sweeps above the plate, for example S{example}; the spindle's speed is not given in the drawing, but as `spindle` of a [tool] in pathbuild.toml",
+        help_de: "die Höhe der Leerfahrten über der Platte schreiben, zum Beispiel S{example}; die Drehzahl der Spindel steht nicht in der Zeichnung, sondern als `spindle` eines [tool] in pathbuild.toml",
     }
     /// A bottom (B) far below the plate.
     BELOW_PLATE: DoubtfulValue {
@@ -290,6 +304,13 @@ messages! {
         de: "D ist {value}: die Stützstege enden in dieser Höhe, gemessen ab der Platte, zu niedrig, um etwas zu halten",
         help_en: "write the thickness of the bars, for example D{example}: D is their upper edge, measured from the plate upwards",
         help_de: "die Dicke der Stege schreiben, zum Beispiel D{example}: D ist ihre Oberkante, von der Platte nach oben gemessen",
+    }
+    /// Support bars so short that they hold nothing.
+    SHORT_BARS: DoubtfulValue {
+        en: "P is {value}: support bars of this length, in mm along the cut, hold nothing",
+        de: "P ist {value}: Stützstege dieser Länge, in mm entlang des Schnitts, halten nichts",
+        help_en: "write the length of a bar, for example P1",
+        help_de: "die Länge eines Stegs schreiben, zum Beispiel P1",
     }
     /// Parameters of support bars in a path with a closed outline but without any segment for support bars.
     LOST_BARS: LostBars {

@@ -10,7 +10,7 @@ use crate::geometry::{Curve, Xy};
 use crate::letter::{CHAIN_LETTERS, ElementClass, Letter};
 use crate::path::{Bars, ChainParameters, CutParameters, Helix, Hole, SegmentKind};
 use crate::text::TextId;
-use crate::values::check_bar;
+use crate::values::{check_bar, check_bar_length};
 
 impl Binder<'_> {
     /// Adds the cut of a segment in a milling chain. Returns the segment's order among the segments that meet at a point, and the cut's index in the
@@ -62,6 +62,7 @@ impl Binder<'_> {
         let [top, bar, distance] = [Letter::D, Letter::P, Letter::U].map(|letter| self.value(scope, letter));
         let bars = Bars { top: top?, length: bar?, distance: distance? };
         self.report_doubt(scope, check_bar(bars.top, scope.values, &self.values));
+        self.report_doubt(scope, check_bar_length(bars.length, scope.values, &self.values));
         let (tool, count) = (tool?, bars.count(length));
         let pitch = length / count;
         if count > 0.0 && !at_least(pitch, bars.length + tool) {
@@ -118,7 +119,7 @@ impl Binder<'_> {
                 (CIRCLE_ORDER_OFFSET, SegmentKind::Hole(push_indexed(&mut self.holes, hole)))
             }
             (ElementClass::UnknownCircle, _) | (_, None) => {
-                if let Some(tool) = tool {
+                if let Some(tool) = tool.filter(|_| !self.raw.faults.is_in_other_unit) {
                     let problem = Diagnostic::new(&drawing::CIRCLE_TOO_SMALL)
                         .with("diameter", 2.0 * radius)
                         .with("tool", tool);

@@ -40,6 +40,52 @@ fn the_bottom_is_not_far_below_the_plate() {
     assert_eq!(findings(&path("T5 O2 I1 B-3", "mill 0,0 40,0\nend 40,0"), higher), [""; 0]);
 }
 
+/// S is a height, and no speed: sweeps stay within the reach of a machine.
+#[test]
+fn sweeps_are_not_far_above_the_material() {
+    assert_eq!(line("T5 O2 I1 B0 S105", ""), [""; 0]);
+    assert_eq!(line("T5 O2 I1 B0 S105.01", ""), ["PB211 S105.01"]);
+    assert_eq!(line("T5 O2 I1 B0 M3 S12000", ""), ["PB211 S12000"]);
+    let sweep = |text: &str| {
+        let drawn = format!("mill 0,0 20,0\nsweep 20,0 40,0 \"{text}\"\nend 40,0");
+        findings(&path("T5 O2 I1 B0 S20", &drawn), MACHINE)
+    };
+    assert_eq!(sweep("S105"), [""; 0]);
+    assert_eq!(sweep("S105.01"), ["PB211 S105.01"]);
+    let said = messages(&path("T2 O2 I0.5 B0 S12000", "mill 0,0 40,0\nend 40,0"), MACHINE);
+    assert!(
+        said.contains("11998 mm above the material; write") && said.contains("for example S7;"),
+        "{said}"
+    );
+}
+
+/// Bars of 0.1 mm hold nothing, as in the part check.
+#[test]
+fn support_bars_are_not_too_short() {
+    let bars = |start: &str, text: &str| {
+        findings(&path(start, &format!("bars 0,0 40,0{text}\nbars 40,0 40,40\nend 40,40")), MACHINE)
+    };
+    assert_eq!(bars("T5 O2 I1 B0 D1 P0.101 U5", ""), [""; 0]);
+    assert_eq!(bars("T5 O2 I1 B0 D1 P0.1 U5", ""), ["PB211 P0.1"]);
+    assert_eq!(bars("T5 O2 I1 B0 D1 P1 U5", " \"P0.05\""), ["PB211 P0.05"]);
+}
+
+/// With the surface at Z0, the thickness is the only finding: no other value can be compared with it.
+#[test]
+fn a_surface_at_zero_is_a_single_finding() {
+    let found = |start: &str| {
+        let drawn = "mill 0,0 40,0 \"B1\"\nbars 40,0 80,0\nmark 80,0 99,0\nend 99,0";
+        findings(&path(start, drawn), MACHINE)
+    };
+    assert_eq!(found("O2 T0 I0.5 F150 B-2 D-1 P4 U10"), ["PB203 T0"]);
+    assert_eq!(found("O2 T-2 I0.5 F150 B-2 D-1 P4 U10"), ["PB203 T-2"]);
+    assert_eq!(found("O2 T0.0000000011 I0.0000000011 F150 B-2 D-1 P4 U10 S1").len(), 4);
+    // What does not depend on T is found all the same.
+    assert_eq!(found("O2 T0 I0.5 F150 B-2 D-3 P4 U10"), ["PB203 T0", "PB203 D-3"]);
+    let said = messages(&path("O2 T0 I1 B-2", "mill 0,0 40,0\nend 40,0"), MACHINE);
+    assert!(said.contains("measured from the plate upwards, not from the surface down"), "{said}");
+}
+
 /// Returns the messages about a path, with their help.
 fn messages(drawing: &str, doubts: DoubtThresholds) -> String {
     let language = Language { doubts, ..language() };
@@ -113,6 +159,11 @@ fn a_mark_is_not_deeper_than_half_the_material() {
     assert_eq!(mark("T5 O2 I1 D2.5", ""), [""; 0]);
     assert_eq!(mark("T5 O2 I1 D2.49", ""), ["PB211 D2.49"]);
     assert_eq!(mark("T5 O2 I1 D2.49", " \"D4.8\""), [""; 0]);
+    // With P or U it was meant for bars, and half of T is usual for these.
+    assert_eq!(mark("T5 O2 I1 D2.51 P1", ""), [""; 0]);
+    assert_eq!(mark("T5 O2 I1 D2.5 P1", ""), ["PB211 D2.5"]);
+    assert_eq!(mark("T5 O2 I1 D2.5 U5", ""), ["PB211 D2.5"]);
+    assert_eq!(mark("T5 O2 I1 D2.5 U5", " \"D2.5\""), [""; 0]);
     let through = DoubtThresholds { mark_depth: 1.0, ..MACHINE };
     assert_eq!(findings(&path("T5 O2 I1 D0", "mark 0,0 40,0\nend 40,0"), through), [""; 0]);
 }
