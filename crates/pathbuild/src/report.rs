@@ -115,7 +115,11 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
     let errors = match findings.errors() {
         0 => lang.choose("no errors", "keine Fehler").to_owned(),
         errors => {
-            format!("{} in {}", counted(errors, ERROR), counted(count_faulty_drawings(findings), DRAWING))
+            let errors = counted(errors, ERROR);
+            match count_faulty_drawings(findings) {
+                0 => errors,
+                drawings => format!("{errors} in {}", counted(drawings, DRAWING)),
+            }
         }
     };
     let warnings = match findings.warnings() {
