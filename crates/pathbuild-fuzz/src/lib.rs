@@ -220,6 +220,7 @@ fn values(data: &[u8]) {
         program: part(1, "a_Clean.gcode").unwrap_or(clean),
         log: part(2, "log"),
         max_correction: 1.0,
+        below_plate: 0.5,
     };
     if let Ok(adjusted) = adjust(&inputs) {
         let (least, most) = adjusted.corrections;

@@ -27,6 +27,7 @@ fn inputs<'a>(program: &'a [u8], values: &'a [u8]) -> Inputs<'a> {
         values: Source { file: Utf8Path::new("a_Z.txt"), bytes: values },
         log: None,
         max_correction: 1.0,
+        below_plate: 0.5,
     }
 }
 
@@ -583,4 +584,32 @@ fn hostile_files_take_neither_time_nor_memory_beyond_their_size() {
     let zeros = vec![0_u8; 1_000_000];
     assert_eq!(run(&zeros, VALUES).unwrap().program, zeros);
     assert!(run(MADE, &zeros).is_err());
+}
+
+/// Returns the warnings about cuts that do not end where the plate is, after a correction of each height by the same amount.
+fn plate_warnings(heights: &[&str], correction: f64) -> Vec<String> {
+    let lines: Vec<String> = heights.iter().map(|z| format!("G01 Z{z}(={z}+1.000*[#51-2.000])\n")).collect();
+    let values = format!("([1.000 2.000]/T=2.000) #51={}\n", 2.0 + correction);
+    let warnings = run(lines.concat(), values).unwrap().warnings;
+    assert!(warnings.iter().all(|warning| !warning.is_error()));
+    placed_codes(&warnings)
+}
+
+#[test]
+fn cuts_that_no_longer_go_through_are_told_once() {
+    let heights = ["1.000", "-0.200", "0.000", "-0.200"];
+    assert_eq!(plate_warnings(&heights, 0.0), [""; 0]);
+    assert_eq!(plate_warnings(&["-0.200"], 0.2), [""; 0]);
+    assert_eq!(plate_warnings(&["-0.200"], 0.201), ["a_Clean.gcode:1:6 PB602"]);
+    assert_eq!(plate_warnings(&heights, 0.3), ["a_Clean.gcode:3:6 PB602"], "the highest");
+    assert_eq!(plate_warnings(&["0.100"], 0.3), [""; 0], "drawn above the plate");
+}
+
+#[test]
+fn cuts_lowered_deep_below_the_plate_are_told_once() {
+    let heights = ["1.000", "-0.200", "0.000", "-0.300"];
+    assert_eq!(plate_warnings(&["-0.200"], -0.3), [""; 0]);
+    assert_eq!(plate_warnings(&["-0.200"], -0.301), ["a_Clean.gcode:1:6 PB602"]);
+    assert_eq!(plate_warnings(&heights, -0.4), ["a_Clean.gcode:4:6 PB602"], "the lowest");
+    assert_eq!(plate_warnings(&["-0.800"], 0.1), [""; 0], "drawn so deep");
 }

@@ -85,6 +85,20 @@ messages! {
         help_en: "this place lies far outside the probes: draw some near it, or allow more with --max-correction",
         help_de: "diese Stelle liegt weit außerhalb der Proben: welche in ihrer Nähe zeichnen, oder mit --max-correction mehr erlauben",
     }
+    /// Cuts through the material that end above the plate after the correction.
+    RAISED_ABOVE_PLATE: CorrectionTooLarge {
+        en: "cuts down to the plate (Z 0) or below it now end above it, up to Z {z}: they no longer go through",
+        de: "Schnitte bis auf die Platte (Z 0) oder tiefer enden jetzt darüber, bis Z {z}: sie gehen nicht mehr durch",
+        help_en: "if the sheet lies flat on the plate and is thicker than drawn, correct T in the drawing and run emit again, or write a lower B; if the sheet bulges, its lower face is as high",
+        help_de: "liegt das Blech eben auf der Platte und ist dicker als gezeichnet, T in der Zeichnung berichtigen und noch einmal emit aufrufen, oder B tiefer setzen; wölbt sich das Blech, ist auch seine Unterseite so hoch",
+    }
+    /// Cuts that a correction takes too far below the plate.
+    LOWERED_BELOW_PLATE: CorrectionTooLarge {
+        en: "the correction takes cuts down to Z {z}: {depth} mm below the plate",
+        de: "die Korrektur führt Schnitte bis Z {z} hinunter: {depth} mm unter die Platte",
+        help_en: "if the sheet is thinner than drawn, correct T in the drawing and run emit again, or write a higher B; set `below-plate` under [warnings] to allow more than {limit} mm",
+        help_de: "ist das Blech dünner als gezeichnet, T in der Zeichnung berichtigen und noch einmal emit aufrufen, oder B höher setzen; mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
+    }
     /// A formula that uses a probe which the file of measured values does not contain.
     UNKNOWN_PROBE: UnknownProbe {
         en: "the formula uses #{probe}, which {file} does not have",

@@ -10,13 +10,14 @@ mod values;
 use std::ops::Range;
 
 use camino::Utf8Path;
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes as messages;
+use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_path::approx::above;
 
 use crate::native::{f3, push_exact};
 use crate::provenance::is_same_program;
 
-use check::{Check, Values};
+use check::{Check, MIN_DIFFERENCE, Values};
 use scan::{
     Fault, FormulaSpan, Line, Probes, byte_order_mark, formula_spans, in_line, lines, located, number,
     value_of,
@@ -44,6 +45,8 @@ pub struct Inputs<'a> {
     pub log: Option<Source<'a>>,
     /// Maximum difference between a measured and a drawn height, in mm.
     pub max_correction: f64,
+    /// Depth in mm below the plate beyond which a lowered height is reported.
+    pub below_plate: f64,
 }
 
 /// The result of [`adjust`]: a program with measured heights, and findings about its probes.
@@ -55,7 +58,7 @@ pub struct AdjustedProgram {
     pub heights: u64,
     /// Least and greatest correction in mm; (0, 0) if there is none.
     pub corrections: (f64, f64),
-    /// Warnings about probes whose heights do not fit those of their neighbours.
+    /// Warnings about probes whose heights do not fit those of their neighbours, and about cuts that no longer end where the plate is.
     pub warnings: Vec<Diagnostic>,
     /// Errors for probes that no formula uses. Such a program must not be milled, because its formulas were removed or changed.
     pub unused: Vec<Diagnostic>,
@@ -135,7 +138,8 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     let mut problems = Vec::new();
     let survey = scan::ProbeSurvey::of(clean, &mut problems);
     let has_all = problems.is_empty() && survey.probes.keys().all(|probe| values.contains_key(probe));
-    let inputs = Inputs { program: clean, values: program, log: None, max_correction: f64::INFINITY };
+    let (max_correction, below_plate) = (f64::INFINITY, f64::INFINITY);
+    let inputs = Inputs { program: clean, values: program, log: None, max_correction, below_plate };
     has_all.then(|| evaluate_formulas(&inputs, &values).ok()).flatten().map(|adjusted| adjusted.program)
 }
 
@@ -149,9 +153,7 @@ pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
     let stated = ProbeTable::read(program).probes;
     let lines = values::read(values, &mut Vec::new());
     lines.iter().any(|line| match (line.value, stated.get(&line.probe).and_then(|probe| probe.measured)) {
-        (values::EnteredValue::Value(value), Some(measured)) => {
-            (value - measured).abs() > check::MIN_DIFFERENCE
-        }
+        (values::EnteredValue::Value(value), Some(measured)) => (value - measured).abs() > MIN_DIFFERENCE,
         _ => false,
     })
 }
@@ -174,7 +176,7 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
         return Err(problems);
     }
     let mut adjusted = evaluate_formulas(inputs, &values)?;
-    adjusted.warnings = check.odd_probes(&lines);
+    adjusted.warnings.extend(check.odd_probes(&lines));
     adjusted.unused = check.report_unused_probes(&lines);
     Ok(adjusted)
 }
@@ -192,7 +194,8 @@ pub(super) fn evaluate_formulas(
     values: &Values,
 ) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     let bytes = inputs.program.bytes;
-    let mut writer = Writer { inputs, values, adjusted: AdjustedProgram::default(), problems: Vec::new() };
+    let adjusted = AdjustedProgram::default();
+    let mut writer = Writer { inputs, values, adjusted, raised: None, lowered: None, problems: Vec::new() };
     writer.adjusted.program.reserve(bytes.len() + bytes.len() / 32);
     writer.adjusted.program.extend_from_slice(byte_order_mark(bytes));
     let mut is_in_header = true;
@@ -204,13 +207,22 @@ pub(super) fn evaluate_formulas(
             writer.line(line);
         }
     }
-    if writer.problems.is_empty() { Ok(writer.adjusted) } else { Err(writer.problems) }
+    if !writer.problems.is_empty() {
+        return Err(writer.problems);
+    }
+    let extremes = [writer.raised, writer.lowered].into_iter().flatten();
+    writer.adjusted.warnings.extend(extremes.map(|(_, warning)| warning));
+    Ok(writer.adjusted)
 }
 
 struct Writer<'w> {
     inputs: &'w Inputs<'w>,
     values: &'w Values,
     adjusted: AdjustedProgram,
+    /// The greatest height above the plate of a cut that was drawn down to the plate or below it, with its warning.
+    raised: Option<(f64, Diagnostic)>,
+    /// The least height that a correction lowered too far below the plate, with its warning.
+    lowered: Option<(f64, Diagnostic)>,
     problems: Vec<Diagnostic>,
 }
 
@@ -263,7 +275,9 @@ impl Writer<'_> {
         }
         self.adjusted.heights += 1;
         if is_height(line.content(), spot) {
-            self.check(line, spot, height - number(line.content(), spot).unwrap_or(height))?;
+            let drawn = number(line.content(), spot).unwrap_or(height);
+            self.check(line, spot, height - drawn)?;
+            self.check_plate(line, spot, drawn, height);
         }
         Ok(height)
     }
@@ -283,6 +297,29 @@ impl Writer<'_> {
         *lowest = lowest.min(correction);
         *highest = highest.max(correction);
         Ok(())
+    }
+}
+
+impl Writer<'_> {
+    /// Records a cut that was drawn through the material and is not through any more, and one that goes deep below the plate.
+    fn check_plate(&mut self, line: Line<'_>, spot: &FormulaSpan, drawn: f64, height: f64) {
+        let warning = |message| {
+            let problem = line.fault(message, spot.number.start..spot.formula.end).with("z", height);
+            let problem = problem.with("depth", -height).with("limit", self.inputs.below_plate);
+            Some((height, Diagnostic { severity: Severity::Warning, ..problem }))
+        };
+        if drawn <= 0.0
+            && height > MIN_DIFFERENCE
+            && self.raised.as_ref().is_none_or(|(most, _)| height > *most)
+        {
+            self.raised = warning(&messages::RAISED_ABOVE_PLATE);
+        }
+        if height < drawn
+            && above(-height, self.inputs.below_plate)
+            && self.lowered.as_ref().is_none_or(|(least, _)| height < *least)
+        {
+            self.lowered = warning(&messages::LOWERED_BELOW_PLATE);
+        }
     }
 }
 

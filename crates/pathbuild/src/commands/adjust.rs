@@ -205,6 +205,7 @@ impl<'a> Adjustment<'a> {
             values: source(&job.values, &values),
             log: self.log.zip(log.as_deref()).map(|(file, bytes)| source(file, bytes)),
             max_correction: self.max_correction,
+            below_plate: self.context.settings.warnings.below_plate.value,
         })?;
         if !is_as_emitted {
             let edited = edited_heights(job, &adjusted);
