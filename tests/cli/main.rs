@@ -25,6 +25,7 @@ mod diff;
 mod diff_limits;
 mod diff_reasons;
 mod documents;
+mod edited_programs;
 mod elsewhere;
 mod emit;
 mod emit_check_kept;

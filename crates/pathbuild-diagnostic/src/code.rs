@@ -253,7 +253,7 @@ codes! {
     766 UnknownPost "unknown-post" Error "a post-processor that does not exist";
     767 PostDiffers "post-differs" Error "the output of a post has other moves than the program";
     768 PostBuildFailed "post-build-failed" Error "the command that a post names does not run, or fails";
-    769 UncorrectedHeights "uncorrected-heights" Error "a program whose heights are still to be corrected would be written through a post";
+    769 UncorrectedHeights "uncorrected-heights" Error "a program whose heights are still to be corrected; a post does not write it, and `verify` warns";
     770 SpindleLeftOn "spindle-left-on" Warning "a program that ends with the spindle turning";
     771 CoarseArcs "coarse-arcs" Warning "arcs in millimetres with fewer than three decimals";
     772 ProbeNotRaised "probe-not-raised" Warning "a move in the plane straight after a probe has met something";

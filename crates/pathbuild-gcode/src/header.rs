@@ -124,6 +124,8 @@ macro_rules! header_forms {
 header_forms! {
     "pathbuild", "provenance.rs",
         "pathbuild 0.2.0 3f2a9c0d41b7e685-09c1d2e3 grbl O2 T5", => pathbuild_tool;
+    "pathbuild", "the list of tools and the tool changes of the built-in posts, and those of CamBam's definitions",
+        "T2: 1.0 end mill", "pathbuild " => pathbuild_list_entry;
     "Fusion 360", "shooshx/led_floor, cad/nc/6mm/1022_block2x2_17bit.nc; posts that Autodesk publishes",
         "T1  D=1.7 CR=0 - ZMIN=-3 - flat end mill", => fusion_tool;
     "CutViewer", "TOOL/MILL, diameter, corner radius, height, taper angle: Carbide Create, CamBam, HeeksCNC",
@@ -350,6 +352,8 @@ struct Collector {
     numbered: BTreeMap<u32, StatedCutter>,
     /// The tool that a comment describes for all moves after it.
     of_program: Option<StatedCutter>,
+    /// The number of the tool of the last cut, and the tool that was described for the whole program there.
+    of_last_cut: Option<(Option<u32>, StatedCutter)>,
     /// The description of the tool in use, and whether that tool has cut.
     of_current: Option<(StatedCutter, bool)>,
     number: Option<u32>,
@@ -417,7 +421,12 @@ impl Collector {
             let cutter = StatedCutter::new(line, tool, self.in_inches);
             match tool.scope {
                 Scope::Number(_) => {}
-                Scope::Program => self.of_program = Some(cutter),
+                Scope::Program => {
+                    // A second header is that of a program which was put behind the first one.
+                    if self.of_program.replace(cutter).is_some() {
+                        self.since.get_or_insert(line);
+                    }
+                }
                 Scope::Following => {
                     let known = self.of_current.filter(|(_, has_cut)| !has_cut).map(|(known, _)| known);
                     self.of_current = Some((self.combine(known, cutter, None), false));
@@ -433,8 +442,21 @@ impl Collector {
             }
             self.surface = self.corners[1].map(|(_, high)| high[2]);
         }
-        self.surface = statement.surface.or(self.surface);
-        self.is_of_pathbuild |= statement.surface.is_some();
+        if let Some(surface) = statement.surface {
+            self.header_surface(line, surface);
+        }
+    }
+
+    /// Records the surface that a header of pathbuild states. If several headers contradict each other, the highest surface is used.
+    fn header_surface(&mut self, line: u32, surface: f64) {
+        let is_second = std::mem::replace(&mut self.is_of_pathbuild, true);
+        let known = self.surface.filter(|_| is_second);
+        if let Some(known) = known.filter(|known| libm::fabs(known - surface) > EXACT_TOLERANCE) {
+            self.problems.add_at_line(&say::SURFACE_STATED_TWICE, line, |d| {
+                d.with("one", known).with("other", surface)
+            });
+        }
+        self.surface = Some(known.map_or(surface, |known| known.max(surface)));
     }
 
     /// Records a corner of the stock. If comments state different corners, the one with the greater Z is used.
@@ -465,9 +487,12 @@ impl Collector {
             None if self.tools.is_empty() => 0,
             None => return,
         };
+        let before = self.of_last_cut.filter(|(number, _)| *number == self.number).map(|(_, cutter)| cutter);
+        self.of_last_cut = self.of_program.map(|cutter| (self.number, cutter));
+        let of_program = self.of_program.map(|cutter| self.combine(before, cutter, self.number));
         let of_number = self.number.and_then(|number| self.numbered.get(&number).copied());
         let of_current = self.of_current.map(|(cutter, _)| cutter);
-        let stated = [self.of_program, of_number, of_current].into_iter().flatten();
+        let stated = [of_program, of_number, of_current].into_iter().flatten();
         let cutter = stated.fold(None, |known, next| Some(self.combine(known, next, self.number)));
         self.tools.push(CuttingTool { line, number: self.number, cutter });
     }
@@ -510,6 +535,12 @@ fn pathbuild_tool(comment: &str) -> Option<Statement> {
     let flat = |diameter| tool(Scope::Program, diameter, Tip::Flat, StatedUnit::Millimetre);
     let stated = provenance.cutter.map_or_else(Statement::default, flat);
     Some(Statement { surface: provenance.thickness, ..stated })
+}
+
+fn pathbuild_list_entry(comment: &str) -> Option<Statement> {
+    let (number, text) = comment.strip_prefix('T')?.split_once(':')?;
+    let scope = Scope::Number(number.trim().parse().ok()?);
+    Some(tool(scope, positive(text.split_whitespace().next()?)?, Tip::Flat, StatedUnit::OfProgram))
 }
 
 fn fusion_tool(comment: &str) -> Option<Statement> {

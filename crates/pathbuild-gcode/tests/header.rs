@@ -231,3 +231,44 @@ fn the_header_of_pathbuild_holds_for_all_tools() {
     assert_eq!(tools(&program), ["3: T1 2 flat 2", "8: T2 2 flat 2"]);
     assert_eq!(header(&program).surface, Some(5.0));
 }
+
+/// Returns a program with a header of pathbuild, and a cut with T1 unless `tool` names another tool.
+fn of_pathbuild(words: &str, tool: &str) -> String {
+    format!("(pathbuild 0.1.0 0123456789abcdef-01234567 rs274 {words})\nG21\n{tool}\n{CUT}")
+}
+
+#[test]
+fn headers_of_programs_put_together_are_compared() {
+    let two = |second: &str, tool: &str| of_pathbuild("O2 T5", "T1") + &of_pathbuild(second, tool);
+    assert_eq!(problems(&two("O2 T5", "T1")), [""; 0]);
+    assert_eq!(problems(&two("O2 T2", "T1")), ["8 header-contradiction"]);
+    assert_eq!(header(&two("O2 T2", "T1")).surface, Some(5.0));
+    let reversed = of_pathbuild("O2 T2", "T1") + &of_pathbuild("O2 T5", "T1");
+    assert_eq!((header(&reversed).surface, problems(&reversed).len()), (Some(5.0), 1));
+    // Another tool may have another diameter.
+    assert_eq!(problems(&two("O1 T5", "T1")), ["8 header-contradiction"]);
+    assert_eq!(tools(&two("O1 T5", "T1")), ["3: T1 2 flat 2", "10: T1 2 flat 1"]);
+    assert_eq!(problems(&two("O1 T5", "T2")), [""; 0]);
+    assert_eq!(tools(&two("O1 T5", "T2")), ["3: T1 2 flat 2", "10: T2 1 flat 1"]);
+    // Marlin has no T, and a program may state no thickness.
+    let marlin = of_pathbuild("O2 T5", "") + &of_pathbuild("O1", "");
+    assert_eq!(problems(&marlin), ["8 header-contradiction"]);
+}
+
+#[test]
+fn the_list_of_tools_of_pathbuild_is_read() {
+    let joined = |changes: [&str; 2]| {
+        let [first, second] = changes;
+        format!(
+            "(pathbuild 0.1.0 0123456789abcdef-01234567 grbl T2)\n(T1: 2.0 2mm)\n(T2: 1.0)\nG21\n{first}\n{CUT}{second}\n{CUT}"
+        )
+    };
+    assert_eq!(tools(&joined(["T1", "T2"])), ["5: T1 2 flat 2", "10: T2 1 flat 1"]);
+    assert_eq!(problems(&joined(["T1", "T2"])), [""; 0]);
+    assert_eq!(problems(&joined(["T1", ""])), ["3 disagreement"]);
+    assert_eq!(problems(&joined(["", "T2"])), ["2 disagreement"]);
+    assert_eq!(problems(&joined(["T1", "T3"])), ["3 disagreement"]);
+    // Without a header of pathbuild, the comments are free text.
+    let foreign = joined(["T1", ""]).replace("(pathbuild ", "(");
+    assert_eq!(problems(&foreign), [""; 0]);
+}

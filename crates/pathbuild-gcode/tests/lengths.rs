@@ -4,7 +4,7 @@ mod common;
 
 use common::fault_text;
 use pathbuild_diagnostic::Severity;
-use pathbuild_gcode::dialect::Dialect::{self, Fanuc, Haas, LinuxCnc, Rs274};
+use pathbuild_gcode::dialect::Dialect::{self, Fanuc, Grbl, Haas, LinuxCnc, Mach3, Rs274};
 use pathbuild_gcode::interpret::{Options, interpret};
 use pathbuild_gcode::verify::{LengthRules, Stock};
 
@@ -104,4 +104,28 @@ fn g43_without_h_means_what_the_control_makes_of_it() {
     assert_eq!(wrong(LinuxCnc, &second), FINE);
     assert_eq!(wrong(Fanuc, &second), ["8 wrong-tool-length"]);
     assert_eq!(wrong(Haas, &second), ["8 wrong-tool-length"]);
+}
+
+/// Without M6, GRBL, LinuxCNC and Mach3 change no tool at T, and only a stop lets the operator change it.
+#[test]
+fn a_tool_that_is_only_selected_needs_a_stop() {
+    let program = |change: &str| format!("T1\nG0 Z5.0\nM3 S900\n{}{change}\nG0 Z5.0\n{}", cut(0), cut(9));
+    for dialect in [Grbl, LinuxCnc, Mach3] {
+        assert_eq!(wrong(dialect, &program("M0\nT2")), FINE, "{dialect}");
+        assert_eq!(wrong(dialect, &program("T2\nM0")), FINE, "{dialect}");
+        assert_eq!(wrong(dialect, &program("T1")), FINE, "{dialect}");
+        assert_eq!(wrong(dialect, &program("T2")), ["8 disagreement?"], "{dialect}");
+        assert_eq!(wrong(dialect, &program("G4 P1\nT2")), ["9 disagreement?"], "{dialect}");
+        // The stop is before the last cut with the previous tool.
+        let early = program("T2").replace("M3 S900", "M0\nM3 S900");
+        assert_eq!(wrong(dialect, &early), ["9 disagreement?"], "{dialect}");
+        // The next tool cuts nothing, or cuts the air.
+        assert_eq!(wrong(dialect, &format!("T1\nG0 Z5.0\n{}T2", cut(0))), FINE, "{dialect}");
+        assert_eq!(wrong(dialect, &format!("T1\nG0 Z5.0\n{}T2\nG1 X1.0", cut(0))), FINE, "{dialect}");
+    }
+    // The second tool is only prepared, because M6 changes it later; GRBL has no M6.
+    let later = format!("{}T2\nM6\nG0 Z5.0\n{}", program("T2"), cut(0));
+    assert_eq!(wrong(LinuxCnc, &later), FINE);
+    // The changer of such a control may obey T alone.
+    assert_eq!(wrong(Fanuc, &program("T2")), FINE);
 }

@@ -80,6 +80,7 @@ fn a_selected_tool_is_inserted_before_it_cuts() {
     assert_eq!(found("T1 M6\ncut\nT2\ncut\nT3 M6\ncut"), [5]);
     assert_eq!(found("T1 M6\ncut\nT2\ncut\nT3\nM6\ncut"), [5]);
     assert_eq!(found("T1 M6\nT1\ncut"), NOTHING);
-    // Without any M6, the operator changes the tool.
-    assert_eq!(found("T1\ncut\nT2\ncut"), NOTHING);
+    // Without any M6, the operator changes the tool at a stop.
+    assert_eq!(found("T1\ncut\nM0\nT2\ncut"), NOTHING);
+    assert_eq!(found("T1\ncut\nT2\ncut"), [5]);
 }

@@ -55,8 +55,6 @@ struct Checker<'j> {
     surface: f64,
     /// Number of the tool that made the last cut.
     last: Option<u32>,
-    /// Whether the program has stopped for the operator since the last cut.
-    has_stopped: bool,
     /// Line of the first stop since the last cut, in a text without M6, if the spindle turned there: the operator changes the tool at it.
     spinning: Option<u32>,
     tip_height: TipHeight,
@@ -83,15 +81,14 @@ struct ToolWords {
     has_length: bool,
     /// Whether the target is XpertMILL, where M6 selects a layer instead of a tool. The first layer applies from the beginning.
     has_layers: bool,
-    /// Whether the text has no M6 although T only remembers the number, so that the operator must change the tool at a stop.
-    needs_stop: bool,
+    /// Whether a control is named and the text has no M6, so that the operator may have to change the tool at a stop.
+    is_changed_by_hand: bool,
 }
 
 impl ToolWords {
     fn new(steps: &[Step], target: Option<Dialect>) -> Self {
         let any = |is_such: fn(&Action) -> bool| steps.iter().any(|step| is_such(&step.action));
         let has_change = any(|action| matches!(action, Action::ChangeTool(_)));
-        let only_remembers = matches!(target, Some(Dialect::Grbl | Dialect::LinuxCnc | Dialect::Mach3));
         Self {
             has_selection: any(|action| matches!(action, Action::SelectTool(_) | Action::ChangeTool(_))),
             has_change,
@@ -100,7 +97,7 @@ impl ToolWords {
                 _ => false,
             }),
             has_layers: target.is_some_and(|target| target.rules().layers),
-            needs_stop: only_remembers && !has_change,
+            is_changed_by_hand: target.is_some() && !has_change,
         }
     }
 }
@@ -131,7 +128,6 @@ impl<'j> Checker<'j> {
             is_flat,
             surface: surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY),
             last: None,
-            has_stopped: false,
             spinning: None,
             tip_height: TipHeight::new(target.unwrap_or(Dialect::LinuxCnc)),
             moved_low: None,
@@ -145,15 +141,14 @@ impl<'j> Checker<'j> {
     fn step(&mut self, step: &Step) {
         self.moved_low = self.moved_low.or(self.tip_height.moved_since_stop());
         self.tip_height.step(step);
-        self.tools.step(step);
         if matches!(step.action, Action::Stop { .. }) {
             // The tool is changed at M6 or, in a text without M6, at the first stop after a cut. Further stops before the next cut are pauses.
-            let changes = !self.has_stopped && !self.words.has_change;
+            let changes = !self.tools.has_stopped() && !self.words.has_change;
             let is_on = self.tools.spindle().turning.is_on();
             self.turning_stops.extend(is_on.then_some(step.line));
             self.spinning = self.spinning.or((changes && is_on).then_some(step.line));
-            self.has_stopped = true;
         }
+        self.tools.step(step);
     }
 
     /// Compares the stops between the last cut and the step with this number (from 1) of the job. If the spindle stands still at one of
@@ -184,7 +179,8 @@ impl<'j> Checker<'j> {
             self.last = Some(tool);
         }
         self.check_spindle(line, operation);
-        (self.has_stopped, self.spinning, self.moved_low) = (false, None, None);
+        self.tools.cut();
+        (self.spinning, self.moved_low) = (None, None);
     }
 
     fn report(
@@ -215,10 +211,10 @@ impl<'j> Checker<'j> {
             }),
             // In a text without any T, the operator inserts the first tool before the start, and each further tool where the program
             // stops.
-            None if self.words.has_selection || is_changed && !self.has_stopped => {
+            None if self.words.has_selection || is_changed && !self.tools.has_stopped() => {
                 self.report(&posts::TOOL_NOT_SELECTED, line, |d| d.with("expected", u64::from(expected)));
             }
-            Some(_) if is_changed && self.words.needs_stop && !self.has_stopped => {
+            Some(_) if self.words.is_changed_by_hand && self.tools.lacks_stop() => {
                 self.report(&posts::TOOL_NOT_CHANGED, line, |d| d.with("expected", u64::from(expected)));
             }
             _ => {}

@@ -419,6 +419,8 @@ fn another_tool(program: &Program) -> Option<Changes> {
 }
 
 fn missing_tool_change(program: &Program) -> Option<Changes> {
+    // Fusion's post for GRBL writes T without a stop: the change is missing in the program as posted, with a warning.
+    program.replaced(r"M0?[06]([^.\d]|$)", "", 1)?;
     let words = tool_words(program);
     let first = words.first()?.1;
     let removed: Changes =

@@ -281,6 +281,27 @@ messages! {
         help_en: "adjust the program with pathbuild, which writes the heights into the header",
         help_de: "das Programm mit pathbuild anpassen: adjust schreibt die Höhen in den Kopf",
     }
+    /// A program whose formulas `adjust` has not worked out.
+    UNADJUSTED: UncorrectedHeights {
+        en: "the heights of this program are still to be corrected: a control takes its formulas for comments",
+        de: "die Höhen dieses Programms sind noch zu korrigieren: eine Steuerung hält seine Formeln für Kommentare",
+        help_en: "run `pathbuild adjust`, and mill with the _Milling.gcode that it writes",
+        help_de: "`pathbuild adjust` ausführen und mit der _Milling.gcode fräsen, die es schreibt",
+    }
+    /// A cut of a program by pathbuild that is deep below the plate.
+    CUT_BELOW_PLATE: Disagreement {
+        en: "the program is one of pathbuild, with Z 0 on the plate, but this cut goes down to Z {z}: {depth} mm below the plate",
+        de: "das Programm ist von pathbuild, mit Z 0 auf der Platte, aber dieser Schnitt geht bis Z {z} hinunter: {depth} mm unter die Platte",
+        help_en: "check the numbers of a program that was edited, or compare it with its drawing (--against PATH); set `below-plate` under [warnings] to allow more than {limit} mm",
+        help_de: "die Zahlen eines bearbeiteten Programms prüfen oder es mit seiner Zeichnung vergleichen (--against PFAD); mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
+    }
+    /// Inches in a program that pathbuild has written in millimetres.
+    INCHES_OF_PATHBUILD: Disagreement {
+        en: "the program is one of pathbuild, which writes millimetres, but this word selects inches",
+        de: "das Programm ist von pathbuild, das Millimeter schreibt, aber dieses Wort stellt auf Zoll um",
+        help_en: "write it as emit does, or compare the program with its drawing (--against PATH)",
+        help_de: "es so schreiben, wie emit es tut, oder das Programm mit seiner Zeichnung vergleichen (--against PFAD)",
+    }
     /// A cutter in the header that differs from the tool table.
     OTHER_CUTTER_IN_TABLE: Disagreement {
         en: "the header says that the cutter's diameter is {header} mm, but T{index} of `[tool]` has {table} mm",
@@ -371,6 +392,20 @@ messages! {
         de: "T{tool} wird hier gewählt, aber kein M6 wechselt es ein: die folgenden Schnitte macht das vorige Werkzeug",
         help_en: "write M6 after it, or remove T",
         help_de: "M6 dahinter schreiben oder T entfernen",
+    }
+    /// T without M6 or a stop, followed by cuts, on a control where T alone changes no tool.
+    TOOL_WITHOUT_STOP: Disagreement {
+        en: "T{tool} is selected here, but T alone does not change the tool on this control, and neither M6 nor a stop comes before the next cut: it is made with the previous tool",
+        de: "T{tool} wird hier gewählt, aber T allein wechselt auf dieser Steuerung kein Werkzeug, und vor dem nächsten Schnitt steht weder M6 noch ein Halt: ihn macht das vorige Werkzeug",
+        help_en: "write M0 beside it, so that the operator changes the tool, or M6 after it if the machine does; otherwise remove T",
+        help_de: "M0 daneben schreiben, damit der Bediener das Werkzeug wechselt, oder M6 dahinter, wenn die Maschine es tut; sonst T entfernen",
+    }
+    /// Headers of two programs that were put together, with different materials.
+    SURFACE_STATED_TWICE: HeaderContradiction {
+        en: "a header of pathbuild above says that the material is {one} mm high (T{one}), this one says {other} mm (T{other})",
+        de: "ein Kopf von pathbuild weiter oben gibt das Material mit {one} mm an (T{one}), dieser mit {other} mm (T{other})",
+        help_en: "run the programs one by one if they are for different sheets; until then, the higher value is used",
+        help_de: "die Programme einzeln laufen lassen, wenn sie für verschiedene Bleche sind; bis dahin gilt der höhere Wert",
     }
     /// Two comments that place a corner of the stock differently.
     STOCK_STATED_TWICE: HeaderContradiction {

@@ -53,6 +53,8 @@ pub struct Rules {
     pub m_order: MCodeOrder,
     /// Who changes the tool at M6.
     pub changer: ToolChanger,
+    /// Whether T alone is known to change no tool, so that the operator must change it where a program has no M6.
+    pub t_only_selects: bool,
     /// Whether rapid moves use the feed F, as all other moves do.
     pub rapids_at_feed: bool,
     /// Whether `O1234` at the beginning of a file is the program number.
@@ -312,6 +314,7 @@ const BASE: Rules = Rules {
     straight_rapids: true,
     m_order: MCodeOrder::First,
     changer: ToolChanger::Either,
+    t_only_selects: false,
     rapids_at_feed: false,
     program_numbers: false,
     least_increments: false,
@@ -355,6 +358,7 @@ pub(super) static RS274: Rules = Rules {
 
 pub(super) static LINUXCNC: Rules = Rules {
     dialect: Dialect::LinuxCnc,
+    t_only_selects: true,
     spelling: Spelling {
         semicolon_comments: NotationSupport::Usual,
         line_length: Some(LineLength::Whole(255)),
@@ -390,6 +394,7 @@ pub(super) static LINUXCNC: Rules = Rules {
 
 pub(super) static GRBL: Rules = Rules {
     dialect: Dialect::Grbl,
+    t_only_selects: true,
     spelling: Spelling {
         nested_comments: true,
         semicolon_comments: NotationSupport::Usual,
@@ -456,6 +461,7 @@ pub(super) static NATIVE: Rules = Rules {
 
 pub(super) static MACH3: Rules = Rules {
     dialect: Dialect::Mach3,
+    t_only_selects: true,
     // From memory of "Using Mach3Mill": parameters and expressions are those of RS274/NGC, with 10320 parameters. O numbers a subprogram.
     spelling: Spelling {
         grammar: Some(Grammar {

@@ -40,6 +40,10 @@ pub struct LengthRules<'c> {
     /// Whether M6 has inserted a tool.
     has_changed: bool,
     waiting: Option<WaitingTool>,
+    /// The line of the last T word.
+    selected_line: u32,
+    /// Tools for which the program does not stop, if it has no M6.
+    unchanged: Problems,
     problems: Problems,
 }
 
@@ -79,6 +83,8 @@ impl<'c> LengthRules<'c> {
             wrong_rapid: Problems::default(),
             has_changed: false,
             waiting: None,
+            selected_line: 0,
+            unchanged: Problems::default(),
             problems: Problems::default(),
         }
     }
@@ -118,16 +124,28 @@ impl<'c> LengthRules<'c> {
     }
 
     fn check_move(&mut self, line: u32, movement: &Move) {
-        if let Some(waiting) = &mut self.waiting {
-            waiting.has_cut |= is_cut_in_stock(line, movement, self.stock);
+        if is_cut_in_stock(line, movement, self.stock) {
+            self.waiting.iter_mut().for_each(|waiting| waiting.has_cut = true);
+            self.check_stop();
         }
         if !self.is_judged {
             self.check_cut(line, movement);
         }
     }
 
+    /// Checks at a cut that the program has stopped for a tool that T alone has selected.
+    fn check_stop(&mut self) {
+        if let Some(tool) = self.tools.selected().filter(|_| self.tools.lacks_stop()) {
+            self.unchanged.add_at_line(&say::TOOL_WITHOUT_STOP, self.selected_line, |d| {
+                d.with("tool", u64::from(tool))
+            });
+        }
+        self.tools.cut();
+    }
+
     /// Handles a T word, which on controls with a tool changer may only prepare the next change.
     fn check_selected_tool(&mut self, line: u32, number: u32) {
+        self.selected_line = line;
         self.leave_waiting(Some(number));
         let is_new = self.has_changed && self.tools.inserted() != Some(number);
         self.waiting = is_new.then_some(WaitingTool { line, number, has_cut: false });
@@ -216,6 +234,9 @@ impl<'c> LengthRules<'c> {
     pub fn finish(mut self) -> Vec<Diagnostic> {
         self.leave_waiting(None);
         self.begin_length();
+        if !self.has_changed {
+            self.problems.append(std::mem::take(&mut self.unchanged));
+        }
         if let Some(((line, tool), first)) = self.bare_rapid.filter(|_| self.bare.is_none()).zip(self.first) {
             self.problems.add_at_line(&say::RAPID_BEFORE_LENGTH, line, |d| {
                 let d = d.with("tool", u64::from(tool)).with("first", u64::from(first));

@@ -18,6 +18,10 @@ pub struct ToolState {
     entry: Option<u32>,
     length: Option<ActiveLength>,
     spindle: Spindle,
+    /// Number of the tool that was selected at the last cut; `None` before the first cut.
+    cutting: Option<u32>,
+    /// Whether the program has stopped for the operator since the last cut.
+    has_stopped: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +61,8 @@ impl ToolState {
             entry: None,
             length: None,
             spindle: Spindle::UNSTATED,
+            cutting: None,
+            has_stopped: false,
         }
     }
 
@@ -73,6 +79,7 @@ impl ToolState {
             }
             Action::Change(Change::ToolLength(length)) => self.set_length(step.line, *length),
             Action::Spindle(spindle) => self.spindle = *spindle,
+            Action::Stop { .. } => self.has_stopped = true,
             _ => {}
         }
     }
@@ -96,6 +103,23 @@ impl ToolState {
     /// Returns the number of the tool inserted by the last M6; `None` if it is unknown.
     pub fn inserted(&self) -> Option<u32> {
         self.inserted
+    }
+
+    /// Records that the program has made a cut.
+    pub fn cut(&mut self) {
+        (self.cutting, self.has_stopped) = (self.selected, false);
+    }
+
+    /// Whether the program has stopped for the operator since the last cut.
+    pub fn has_stopped(&self) -> bool {
+        self.has_stopped
+    }
+
+    /// Whether the program has selected another tool than that of the last cut without a stop since then, on a control where T alone changes no tool.
+    /// Without M6, the previous tool is still in the spindle.
+    pub fn lacks_stop(&self) -> bool {
+        let is_other = self.cutting.is_some() && self.cutting != self.selected;
+        is_other && self.dialect.rules().t_only_selects && !self.has_stopped
     }
 
     /// The state of the spindle.

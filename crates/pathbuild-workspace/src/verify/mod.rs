@@ -12,6 +12,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::gcode::{self as say, FEED_IGNORED, NO_DECIMAL_POINT};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
+use pathbuild_gcode::adjust::first_open_formula;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{Header, HeaderReader};
 use pathbuild_gcode::interpret::{EvidenceKind, Guess};
@@ -22,7 +23,8 @@ use pathbuild_gcode::verify::{
     DepthRules, DirectionRules, DrawingComparison, LengthRules, Machine, MachineRules, PostWords,
     StatedStatistics, Stock, WordRules, coarse_arc_finding, verify,
 };
-use pathbuild_motion::{Action, Move, Pace, Step};
+use pathbuild_motion::{Action, Group, Move, Pace, StatedWord, Step};
+use pathbuild_path::approx::above;
 use pathbuild_post::ToolTable;
 use serde::{Deserialize, Serialize};
 
@@ -350,8 +352,12 @@ struct CheckEvidence {
     blind: Option<BlindRapidRules>,
     speeds: SpindleStarts,
     corners: CornerRules,
-    /// The lowest height in mm that a cut reaches.
-    lowest_cut: Option<f64>,
+    /// The lowest height in mm that a cut reaches, with the first line that reaches it.
+    lowest_cut: Option<(f64, u32)>,
+    /// The line of the first word that selects inches.
+    inch_line: Option<u32>,
+    /// Ten times the G code that selects inches.
+    inch_word: u16,
     /// The reason why the travel that the program needs is not known; `None` if it is.
     travel_doubt: Option<Reason>,
     /// Whether the program's coolant could not be compared with that of the drawing's tool.
@@ -366,7 +372,13 @@ impl CheckEvidence {
             && matches!(movement.pace, Pace::Feed(_))
             && let [_, _, Some((low, _))] = movement.extent()
         {
-            self.lowest_cut = Some(self.lowest_cut.map_or(low, |lowest| lowest.min(low)));
+            let is_lowest = self.lowest_cut.is_none_or(|(lowest, _)| low < lowest);
+            self.lowest_cut = if is_lowest { Some((low, step.line)) } else { self.lowest_cut };
+        }
+        if let Action::Word(StatedWord { group: Some(Group::Units), code, .. }) = &step.action
+            && *code == self.inch_word
+        {
+            self.inch_line.get_or_insert(step.line);
         }
         if let Some(blind) = &mut self.blind {
             blind.step(step);
@@ -419,6 +431,8 @@ impl<'v> Examination<'v> {
             speeds: SpindleStarts::default(),
             corners: CornerRules::new(self.verifier.settings.general.part_tolerance.value),
             lowest_cut: None,
+            inch_line: None,
+            inch_word: self.program.inch_word(),
             travel_doubt: written.travel_doubt,
             has_uncompared_coolant: false,
         };
@@ -535,6 +549,7 @@ impl<'v> Examination<'v> {
         found.extend(self.sources.unknown_tools());
         if program.dialect == Dialect::Native {
             found.extend(native::unstated_heights(&program.text));
+            found.extend(self.unadjusted_heights());
         }
         found.extend(written.statistics);
         found.extend(self.sources.disagreements());
@@ -562,8 +577,11 @@ impl<'v> Examination<'v> {
             // A check that was not made is an error only if it is required.
             problem.severity = Severity::Warning;
         }
-        let CheckEvidence { blind, speeds, corners, lowest_cut, travel_doubt, has_uncompared_coolant } =
-            evidence;
+        found.extend(self.slips_in_own_program(&evidence));
+        let CheckEvidence {
+            blind, speeds, corners, lowest_cut, travel_doubt, has_uncompared_coolant, ..
+        } = evidence;
+        let lowest_cut = lowest_cut.map(|(lowest, _)| lowest);
         let verifier = self.verifier;
         let references = checks::References {
             is_compared_to_its_end: verifier
@@ -589,6 +607,33 @@ impl<'v> Examination<'v> {
         records.extend(has_uncompared_coolant.then(checks::coolant_not_compared));
         found.extend(corners.finish());
         records
+    }
+
+    /// Returns doubts about a program of pathbuild that was not compared with its drawing: such a program has Z 0 on the plate, and millimetres unless
+    /// a definition of the user's own wrote it.
+    fn slips_in_own_program(&self, evidence: &CheckEvidence) -> Vec<Diagnostic> {
+        if self.verifier.against.is_some() || Provenance::of_head(&self.program.text).is_none() {
+            return Vec::new();
+        }
+        let limit = self.verifier.settings.warnings.below_plate.value;
+        let below = evidence.lowest_cut.filter(|(lowest, _)| above(-lowest, limit)).map(|(lowest, line)| {
+            let problem = Diagnostic::new(&say::CUT_BELOW_PLATE).with("z", lowest).with("depth", -lowest);
+            problem.with("limit", limit).at_line(line, None)
+        });
+        let is_built_in = self.writer.is_none_or(|writer| writer.file().is_none());
+        let inches = evidence.inch_line.filter(|_| is_built_in);
+        let inches = inches.map(|line| Diagnostic::new(&say::INCHES_OF_PATHBUILD).at_line(line, None));
+        below.into_iter().chain(inches).collect()
+    }
+
+    /// Warns about a native program whose heights `adjust` has not corrected. If its header states measured heights, each such height is an error of
+    /// its own (PB776).
+    fn unadjusted_heights(&self) -> Option<Diagnostic> {
+        let mut problems = self.program.read.problems.iter();
+        let line = first_open_formula(&self.program.text)?;
+        let is_reported = problems.any(|problem| problem.code() == Code::UncheckedFormula);
+        let warning = Diagnostic::new(&say::UNADJUSTED).at_line(line, None);
+        (!is_reported).then_some(Diagnostic { severity: Severity::Warning, ..warning })
     }
 
     /// Returns doubts about the program's words. If there is a drawing to compare with, doubts about words that the drawing's program does not

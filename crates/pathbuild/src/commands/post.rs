@@ -177,7 +177,7 @@ fn findings(
 }
 
 /// Whether a finding is about something that the post-processor adds or completes (the spindle, tools of the table, the end of the
-/// program) or that it judges in its own output (the travel of the machine).
+/// program), that it judges in its own output (the travel of the machine), or that is an error of `post` (heights to be corrected).
 fn is_judged_in_output(problem: &Diagnostic) -> bool {
     matches!(
         problem.code(),
@@ -187,6 +187,7 @@ fn is_judged_in_output(problem: &Diagnostic) -> bool {
             | Code::OutsideMachine
             | Code::UnknownTool
             | Code::SpindleLeftOn
+            | Code::UncorrectedHeights
     )
 }
 
