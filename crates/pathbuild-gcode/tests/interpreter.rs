@@ -1633,6 +1633,29 @@ fn mach3_references_at_g28_1_and_others_store_the_position() {
 }
 
 #[test]
+fn a_stored_home_position_is_reported() {
+    let told = |dialect, word: &str| {
+        let program = format!("G21 G90 G17\nG0 X1 Y2 Z3\n{word}\nG0 Z5\nM30");
+        faults(dialect, &program).iter().any(|text| text.ends_with("offset-left-on"))
+    };
+    assert!(told(LinuxCnc, "G28.1") && told(LinuxCnc, "G30.1") && told(Grbl, "G28.1"));
+    assert!(!told(LinuxCnc, "G28") && !told(Mach3, "G28.1 Z0"));
+}
+
+/// Mach3's configuration says what I and J count from.
+#[test]
+fn centres_of_arcs_are_stated_where_a_setting_decides() {
+    let told = |dialect, words: &str, arc: &str| {
+        let program = format!("G21 G90 G17 G94 F100 {words}\nG0 X0 Y0 Z0\n{arc}\nM30");
+        faults(dialect, &program).iter().any(|text| text.ends_with("modes-not-stated"))
+    };
+    let arc = "G2 X10 Y0 I5 J0";
+    assert!(told(Mach3, "", arc));
+    assert!(!told(Mach3, "G91.1", arc) && !told(Mach3, "", "G2 X10 Y0 R5") && !told(Mach3, "", "G1 X10"));
+    assert!(!told(LinuxCnc, "", arc) && !told(Grbl, "", arc));
+}
+
+#[test]
 fn words_that_common_builds_of_marlin_lack_are_doubtful() {
     let ignored = |word: &str| {
         let found = faults(Marlin, &format!("G21\nG90\nG17\nG0 X5 Y0 Z0 F1000\n{word}"));

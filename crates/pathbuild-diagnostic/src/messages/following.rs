@@ -101,6 +101,13 @@ messages! {
         help_en: "check the program at the control, or write the moves out",
         help_de: "das Programm an der Steuerung prüfen oder die Bewegungen ausschreiben",
     }
+    /// G28.1 or G30.1, which overwrites the home position that the control stores.
+    HOME_STORED: OffsetLeftOn {
+        en: "{word} makes this the home position of the control for good: {home} of any other program goes here from now on",
+        de: "{word} macht diese Stelle dauerhaft zur Referenzposition der Steuerung: {home} jedes anderen Programms fährt von nun an hierher",
+        help_en: "remove the word, or store the usual home position again afterwards",
+        help_de: "das Wort entfernen oder danach die übliche Referenzposition wieder speichern",
+    }
     /// G28 of Marlin after the first cut, which changes the zero point.
     REFERENCED: WordNotFollowed {
         en: "{dialect} moves to the reference switches at {word} and counts from them afterwards, no longer from the zero of the part",

@@ -213,6 +213,8 @@ pub struct ArcRules {
     pub helix: bool,
     /// Whether the centre word of the third axis is ignored, as K in the XY plane.
     pub ignores_third_centre: bool,
+    /// Whether a setting of the control says what I and J count from, unless the program does (G90.1, G91.1).
+    pub centres_by_setting: bool,
 }
 
 /// Permitted difference of the radii at both ends of an arc, in mm.
@@ -294,6 +296,7 @@ const BASE: Rules = Rules {
         turns: false,
         helix: true,
         ignores_third_centre: false,
+        centres_by_setting: false,
     },
     feed_mode: FeedMode::KeepsFeed,
     start_motion: StartMotion::Rapid,
@@ -384,6 +387,7 @@ pub(super) static LINUXCNC: Rules = Rules {
         turns: true,
         helix: true,
         ignores_third_centre: false,
+        centres_by_setting: false,
     },
     feed_mode: FeedMode::ClearsFeed,
     start_motion: StartMotion::None,
@@ -476,7 +480,8 @@ pub(super) static MACH3: Rules = Rules {
     words: &codes::MACH3,
     // Using Mach3Mill, "Reference axes G28.1": "The axes will move at the current feed rate towards the home switch(es)".
     reference: ReferenceRules { g: &[281], loses_zero: false },
-    arcs: ArcRules { radius: NIST_RADIUS, axis_word: false, ..BASE.arcs },
+    // Mach3's General Config, "IJ Mode": absolute or inc.
+    arcs: ArcRules { radius: NIST_RADIUS, axis_word: false, centres_by_setting: true, ..BASE.arcs },
     dwell: DwellRules { p: DwellUnit::BySetting, seconds: b"", counts_turns: false },
     program_numbers: true,
     keeps_offsets: true,
@@ -561,7 +566,8 @@ pub(super) static MARLIN: Rules = Rules {
         semicolon_comments: NotationSupport::Usual,
         percent: Percent::Refused,
         slash: Slash::Unknown,
-        line_length: Some(LineLength::Whole(96)),
+        // Marlin's queue.cpp, process_stream_char: what follows `;` is dropped while the line is received.
+        line_length: Some(LineLength::BeforeSemicolon(96)),
         block_numbers: Some(u32::MAX),
         // Marlin's queue.cpp: "No Checksum with line number", unless the file is on the SD card.
         checksums: true,
@@ -716,8 +722,17 @@ pub enum Slash {
 pub enum LineLength {
     /// Limits the whole line in the file, except for its line break.
     Whole(usize),
+    /// Limits the part in front of the first `;`.
+    BeforeSemicolon(usize),
     /// Limits the line without its blanks and comments.
     Bare(usize),
+}
+
+impl LineLength {
+    /// Returns the length of the part of a line in front of the first `;`.
+    pub fn before_semicolon(line: &[u8]) -> usize {
+        memchr::memchr(b';', line).unwrap_or(line.len())
+    }
 }
 
 /// The syntax of expressions and parameters, which may replace numbers.

@@ -253,6 +253,9 @@ impl Interpreter<'_> {
             Command::StoreHome(which) => {
                 let here = self.state.position;
                 self.state.offsets.store_home(which, &here);
+                self.report(block, &say::HOME_STORED, span, |d| {
+                    d.quoting("word", codes::name('G', code)).quoting("home", codes::name('G', code - 1))
+                });
                 return false;
             }
             Command::LocalOffset => self.local_offset(),
@@ -649,7 +652,20 @@ impl Interpreter<'_> {
                 });
                 None
             }
-            _ => Some(self.centre_by_offsets(plane, from, offsets)),
+            _ => {
+                self.check_centres_stated(block);
+                Some(self.centre_by_offsets(plane, from, offsets))
+            }
+        }
+    }
+
+    /// Reports that the program has not stated what the centres of arcs count from, if the control may count from either point.
+    fn check_centres_stated(&mut self, block: &Block<'_>) {
+        if self.rules.arcs.centres_by_setting && !std::mem::replace(&mut self.state.stated.centres, true) {
+            let word = "G91.1";
+            self.report(block, &say::MODES_NOT_STATED, block.span(), |d| {
+                d.quoting("words", word).quoting("taken", word)
+            });
         }
     }
 

@@ -106,6 +106,7 @@ pub(super) struct StatedModes {
     pub(super) units: bool,
     pub(super) distance: bool,
     pub(super) plane: bool,
+    pub(super) centres: bool,
     pub(super) feed_missing: bool,
     pub(super) program_number: bool,
     /// Whether a refused change of the unit has been reported.

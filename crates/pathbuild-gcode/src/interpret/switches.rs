@@ -197,7 +197,10 @@ impl Interpreter<'_> {
                     self.state.incremental = incremental;
                     self.state.stated.distance = true;
                 }
-                Command::IncrementalCentres(incremental) => self.state.incremental_centres = incremental,
+                Command::IncrementalCentres(incremental) => {
+                    self.state.incremental_centres = incremental;
+                    self.state.stated.centres = true;
+                }
                 Command::RetractToR(to_r) => self.state.retract_to_r = to_r,
                 Command::System(system) => {
                     if let Some(system) = self.numbered_system(block, code, span, Some(system)) {

@@ -209,7 +209,9 @@ impl<'t> BlockReader<'t> {
     /// Returns a length in bytes up to which every line satisfies the dialect's limit.
     fn surely_short_enough(&self) -> usize {
         match self.rules.spelling.line_length {
-            Some(LineLength::Whole(most) | LineLength::Bare(most)) => most,
+            Some(LineLength::Whole(most) | LineLength::BeforeSemicolon(most) | LineLength::Bare(most)) => {
+                most
+            }
             None => LONGEST_LINE,
         }
     }
@@ -318,6 +320,7 @@ impl<'t> BlockReader<'t> {
     fn check_length(&mut self, line: &[u8]) {
         let (length, most) = match self.rules.spelling.line_length {
             Some(LineLength::Whole(most)) if line.len() > most => (line.len(), most),
+            Some(LineLength::BeforeSemicolon(most)) => (LineLength::before_semicolon(line), most),
             Some(LineLength::Bare(most)) if line.len() > most => (self.bare_length(line), most),
             _ => return,
         };
