@@ -9,6 +9,9 @@ use pathbuild_motion::{Course, Move, MoveShape, WrittenArc, widest_chord};
 /// Maximum number of chords per arc.
 pub(crate) const MAX_CHORDS: u32 = 100_000;
 
+/// Greatest distance in mm between an arc and the chords that replace it, whatever a definition permits.
+pub(crate) const MAX_CHORD_DISTANCE: f64 = 0.05;
+
 /// Returns the number of chords needed to stay within `tolerance` mm of the arc, or `None` if that would be too many.
 pub(crate) fn chords(course: &Course, tolerance: f64) -> Option<u32> {
     let count = (course.sweep() / widest_chord(course.radius(), tolerance)).ceil().max(1.0);

@@ -156,10 +156,11 @@ impl PostDefinition {
         let rounding = self.check_rounding(job, options.unchecked).map_err(|error| vec![*error])?;
         let options = &self.restricted_to(options, target.as_ref());
         let target = target.as_ref();
-        let EngineOutput { text, shadow, origins, warnings, notes, post_build } = match &self.engine {
-            Engine::CamBam(definition) => cambam::write(definition, &self.file, job, target, options)?,
-            Engine::Cad6(definition) => cad6::write(definition, &self.file, job, target, options)?,
-        };
+        let EngineOutput { text, shadow, origins, warnings, notes, follows_coolant, post_build } =
+            match &self.engine {
+                Engine::CamBam(definition) => cambam::write(definition, &self.file, job, target, options)?,
+                Engine::Cad6(definition) => cad6::write(definition, &self.file, job, target, options)?,
+            };
         let mut output = Output {
             text: target::with_permitted_characters(&text, target, options.charset),
             extension: self.extension().into(),
@@ -174,7 +175,7 @@ impl PostDefinition {
             target.map(|target| target::check(&output.text, target)).filter(|errors| !errors.is_empty());
         let found = match refused {
             Some(errors) => Err(errors),
-            None => self.read_back(&output.text, &shadow, job, target, options),
+            None => self.read_back(&output.text, (&shadow, follows_coolant), job, target, options),
         };
         if options.unchecked {
             output.notes.push(Note { message: &posts::POST_UNCHECKED, arguments: Vec::new() });
@@ -198,7 +199,7 @@ impl PostDefinition {
     fn read_back(
         &self,
         text: &[u8],
-        shadow: &TranslatedText,
+        (shadow, follows_coolant): (&TranslatedText, bool),
         job: &Job,
         target: Option<&Target>,
         options: &PostOptions<'_>,
@@ -227,6 +228,7 @@ impl PostDefinition {
             translated,
             is_manual,
             is_flat,
+            follows_coolant,
             milliseconds,
         };
         read_back::check(text, job, &expected)

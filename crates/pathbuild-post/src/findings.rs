@@ -77,6 +77,8 @@ pub(crate) struct EngineOutput {
     pub(crate) warnings: Vec<Diagnostic>,
     /// Notes, for example on functions that the job switches but the text does not.
     pub(crate) notes: Vec<Note>,
+    /// Whether the texts switch the coolant as the job says.
+    pub(crate) follows_coolant: bool,
     /// The command that the definition asks to run on the finished file, as program and arguments.
     pub(crate) post_build: Option<Vec<String>>,
 }

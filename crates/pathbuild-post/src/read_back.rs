@@ -12,7 +12,8 @@ use pathbuild_gcode::verify::{
     Tolerance, coarse_arc_finding,
 };
 use pathbuild_motion::{
-    Action, Axes, Change, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, WorkSystem,
+    Action, Axes, Change, Coolant, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength,
+    WorkSystem,
 };
 
 use crate::findings::LineOrigin;
@@ -25,6 +26,7 @@ use crate::{ambiguous, dwells, tools};
 
 /// The expectations that a text is checked against.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct ReadBackOptions<'a> {
     /// The control that the text is for. Without a target, the text that is checked is its translation to RS274.
     pub(super) target: Option<&'a Target>,
@@ -39,6 +41,8 @@ pub(super) struct ReadBackOptions<'a> {
     pub(super) is_manual: bool,
     /// Whether the text never moves in Z, because a beam cuts at all depths.
     pub(super) is_flat: bool,
+    /// Whether the texts of the definition switch the coolant as the job says.
+    pub(super) follows_coolant: bool,
     /// Whether the machine counts P of dwells in milliseconds. Only for controls where this is a setting.
     pub(super) milliseconds: bool,
 }
@@ -50,7 +54,16 @@ pub(super) fn check(
     job: &Job,
     expected: &ReadBackOptions<'_>,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let ReadBackOptions { target, tolerance, translated, is_manual, is_flat, milliseconds, .. } = expected;
+    let ReadBackOptions {
+        target,
+        tolerance,
+        translated,
+        is_manual,
+        is_flat,
+        follows_coolant,
+        milliseconds,
+        ..
+    } = expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
     let options = Options { milliseconds: *milliseconds, ..Options::default() };
     let read = interpret::interpret(text, reader, &options);
@@ -84,6 +97,7 @@ pub(super) fn check(
         broken.retain(|problem| problem.message != &gcode::CHANGE_NOT_RAISED);
     }
     doubts.extend(work_offset_warnings(&read.steps));
+    doubts.extend(target.filter(|target| target.has_probe_alarm()).and_then(|_| lenient_probe(&read.steps)));
     if let Some(tolerance) = tolerance {
         let mut wanted = moves(job).map_err(|error| vec![*error])?;
         let mut clearance =
@@ -102,6 +116,7 @@ pub(super) fn check(
                     target.map(|target| target.reader),
                     *is_manual,
                     *is_flat,
+                    *follows_coolant,
                 );
                 let of_changes = [&gcode::SPINNING_AT_CHANGE, &gcode::CHANGE_NOT_RAISED];
                 let is_told = |problem: &Diagnostic| {
@@ -133,8 +148,17 @@ pub(super) fn check(
             let is_low = |problem: &&Diagnostic| problem.message == &gcode::LOW_MACHINE_HEIGHT;
             doubts.extend(read.problems.iter().filter(is_low).cloned());
         }
+        let needs_coolant = |operation: &Operation| operation.coolant.is_some_and(Coolant::is_on);
+        if *follows_coolant && job.operations.iter().any(needs_coolant) && !tools::cools(&read.steps) {
+            doubts.push(Diagnostic::new(&posts::COOLANT_NEVER_ON));
+        }
         doubts.extend(translated.and_then(disputed_words_warning));
-        doubts.extend(translated.iter().flat_map(|translated| translated.warnings.iter().cloned()));
+        let (wrong, doubtful): (Vec<_>, Vec<_>) = translated
+            .iter()
+            .flat_map(|translated| translated.problems.iter().cloned())
+            .partition(Diagnostic::is_error);
+        problems.extend(wrong.into_iter().map(as_finding_of_post));
+        doubts.extend(doubtful);
         let shortest = tolerance.place.max(DWELL_TOLERANCE);
         problems.extend(dwells::check(&read.steps, *translated, job, shortest).map(as_finding_of_post));
         if target.is_some() {
@@ -378,6 +402,15 @@ pub(super) fn line_of(output: &[u8], number: u32) -> Option<Cow<'_, str>> {
 
 fn has_line_in_message(problem: &Diagnostic) -> bool {
     problem.arguments.iter().any(|(name, _)| *name == "line")
+}
+
+/// Returns a warning about the first probing move that goes on if the probe touches nothing. Probes of jobs stop with an error.
+fn lenient_probe(steps: &[Step]) -> Option<Diagnostic> {
+    let is_lenient = |step: &&Step| {
+        matches!(&step.action, Action::Move(Move { pace: Pace::Probe { must_answer: false, .. }, .. }))
+    };
+    let step = steps.iter().find(is_lenient)?;
+    Some(Diagnostic::new(&posts::PROBE_WITHOUT_ALARM).at_line(step.line, None))
 }
 
 /// Makes all probing moves equal. Probing words differ between controls in whether a missing contact is an error, but the move is the

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{gcode, posts};
+use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_gcode::interpret::{DisputedWords, UnionWord, code_name, union_word};
 
 use crate::findings::MAX_WARNINGS;
@@ -38,6 +38,8 @@ pub(crate) struct Rs274Translation {
 struct ModeWords {
     stated: [bool; 3],
     has_motion: bool,
+    /// Whether the text is in inches, so that a control in millimetres would make other moves unless the text states the unit.
+    is_inches: bool,
     unstated: Vec<Diagnostic>,
 }
 
@@ -56,7 +58,11 @@ impl ModeWords {
             return;
         }
         if !std::mem::replace(&mut self.stated[0], true) {
-            let unit = Diagnostic::new(&gcode::UNITS_NOT_STATED).quoting("inch", "G20").quoting("mm", "G21");
+            let mut unit =
+                Diagnostic::new(&gcode::UNITS_NOT_STATED).quoting("inch", "G20").quoting("mm", "G21");
+            if self.is_inches {
+                unit.severity = Severity::Error;
+            }
             self.unstated.push(unit.at_line(number, None));
         }
         let is_arc = states(&[20, 30]);
@@ -82,9 +88,9 @@ pub struct TranslatedText {
     /// The G4 words, which the translation omits: line number and duration. It is unknown whether a duration is in seconds or
     /// milliseconds.
     pub dwells: Vec<(u32, f64)>,
-    /// Warnings about lines that are no G-code, and about a unit, distance mode or plane that the program does not state although it
+    /// Problems: lines that are no G-code, and a unit, distance mode or plane that the program does not state although it
     /// depends on them.
-    pub warnings: Vec<Diagnostic>,
+    pub problems: Vec<Diagnostic>,
 }
 
 /// A word with an effect that the translation lacks.
@@ -132,7 +138,7 @@ impl Rs274Translation {
             disputes: DisputedWords::default(),
             dwells: Vec::new(),
             is_blank_open: false,
-            modes: ModeWords::default(),
+            modes: ModeWords { is_inches: units == Units::Inches, ..ModeWords::default() },
             unreadable: (!has_other_lines).then(Vec::new),
             has_words: false,
             has_ended: false,
@@ -204,7 +210,8 @@ impl Rs274Translation {
         if text.trim_end_matches('\r').contains('\r') {
             self.report("CR".to_owned(), Doubt::Dangerous);
         }
-        if line.is_comment_open {
+        // Behind the `//` of a control text, a `)` may still follow.
+        if line.is_comment_open && text.rfind(')') < text.rfind('(') {
             self.report("(".to_owned(), Doubt::Unknown);
         }
         if let Some(sign) = line.formula {
@@ -318,11 +325,11 @@ impl Rs274Translation {
         write!(self.text, "{letter}{number} ").expect("a String takes everything");
     }
 
-    /// Returns the translation, with the doubtful and disputed words, the dwells and the warnings.
+    /// Returns the translation, with the doubtful and disputed words, the dwells and the problems.
     pub(crate) fn finish(self) -> TranslatedText {
         let Self { text, doubtful, disputes, dwells, modes, unreadable, .. } = self;
-        let warnings = unreadable.into_iter().flatten().chain(modes.unstated).collect();
-        TranslatedText { text, doubtful, disputed: disputes.finish(), dwells, warnings }
+        let problems = unreadable.into_iter().flatten().chain(modes.unstated).collect();
+        TranslatedText { text, doubtful, disputed: disputes.finish(), dwells, problems }
     }
 }
 

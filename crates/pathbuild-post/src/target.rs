@@ -38,6 +38,11 @@ impl Target {
         self.rules.words.has_g(810)
     }
 
+    /// Whether the control has G38.2, with which a probe that touches nothing is an error.
+    pub(super) fn has_probe_alarm(&self) -> bool {
+        self.rules.words.has_g(382)
+    }
+
     pub(super) fn switches_spindle(&self) -> bool {
         self.rules.words.has_m(30)
     }
@@ -167,12 +172,16 @@ impl Checker<'_> {
     fn length(&mut self, bare: usize) {
         let (length, longest) = match self.target.spelling.line_length {
             Some(LineLength::Bare(longest)) => (bare, longest),
+            Some(LineLength::BeforeSemicolon(longest)) => {
+                (LineLength::before_semicolon(self.line.as_bytes()), longest)
+            }
             Some(LineLength::Whole(longest)) => (self.line.len(), longest),
             // The line is only limited by the length up to which it can be read back.
             None => (self.line.len(), LONGEST_LINE),
         };
         if length > longest {
-            let diagnostic = Diagnostic::new(&posts::LINE_TOO_LONG).with("length", length);
+            let message = if bare == 0 { &posts::COMMENT_TOO_LONG } else { &posts::LINE_TOO_LONG };
+            let diagnostic = Diagnostic::new(message).with("length", length);
             self.report(diagnostic.with("longest", longest), 0..self.line.len());
         }
     }

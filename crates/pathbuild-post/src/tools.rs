@@ -5,7 +5,7 @@ use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Message};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::verify::{LengthFit, TipHeight, ToolState};
-use pathbuild_motion::{Action, Change, Move, Pace, Step, ToolLength, Turning};
+use pathbuild_motion::{Action, Change, Coolant, Move, Pace, Step, ToolLength, Turning};
 
 use crate::job::{Job, JobStep, Operation};
 use crate::traverse::MatchedCut;
@@ -22,8 +22,10 @@ pub(super) fn check(
     target: Option<Dialect>,
     is_manual: bool,
     is_flat: bool,
+    follows_coolant: bool,
 ) -> Vec<Diagnostic> {
     let mut checker = Checker::new(steps, job, target, is_manual, is_flat);
+    checker.coolant = (follows_coolant && cools(steps)).then(Coolant::default);
     let mut rest = cuts;
     let mut current: Option<MatchedCut> = None;
     for step in steps {
@@ -44,6 +46,11 @@ pub(super) fn check(
     checker.problems
 }
 
+/// Whether a text switches coolant on.
+pub(super) fn cools(steps: &[Step]) -> bool {
+    steps.iter().any(|step| matches!(step.action, Action::Coolant(coolant) if coolant.is_on()))
+}
+
 struct Checker<'j> {
     /// The operations to which the steps of the job belong, one for each step.
     operations: Vec<&'j Operation>,
@@ -51,6 +58,8 @@ struct Checker<'j> {
     words: ToolWords,
     is_manual: bool,
     is_flat: bool,
+    /// State of the coolant; `None` if it is not compared.
+    coolant: Option<Coolant>,
     /// Height in mm above which cuts are moves in the air.
     surface: f64,
     /// Number of the tool that made the last cut.
@@ -126,6 +135,7 @@ impl<'j> Checker<'j> {
             words: ToolWords::new(steps, target),
             is_manual,
             is_flat,
+            coolant: None,
             surface: surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY),
             last: None,
             spinning: None,
@@ -141,6 +151,9 @@ impl<'j> Checker<'j> {
     fn step(&mut self, step: &Step) {
         self.moved_low = self.moved_low.or(self.tip_height.moved_since_stop());
         self.tip_height.step(step);
+        if let (Action::Coolant(coolant), Some(now)) = (&step.action, &mut self.coolant) {
+            *now = *coolant;
+        }
         if matches!(step.action, Action::Stop { .. }) {
             // The tool is changed at M6 or, in a text without M6, at the first stop after a cut. Further stops before the next cut are pauses.
             let changes = !self.tools.has_stopped() && !self.words.has_change;
@@ -179,6 +192,7 @@ impl<'j> Checker<'j> {
             self.last = Some(tool);
         }
         self.check_spindle(line, operation);
+        self.check_coolant(line, operation);
         self.tools.cut();
         (self.spinning, self.moved_low) = (None, None);
     }
@@ -232,12 +246,23 @@ impl<'j> Checker<'j> {
         }
     }
 
+    /// Compares whether any coolant flows. Definitions may write one word for flood and mist.
+    fn check_coolant(&mut self, line: u32, operation: &Operation) {
+        let Some((expected, found)) = operation.coolant.zip(self.coolant) else { return };
+        match (expected.is_on(), found.is_on()) {
+            (true, false) => self.report(&posts::COOLANT_OFF, line, |d| d),
+            (false, true) => self.report(&posts::COOLANT_ON, line, |d| d),
+            _ => {}
+        }
+    }
+
     /// Compares the spindle with the operation: its direction, if the program must switch it on, and its speed, if both the job and the text state
     /// it.
     fn check_spindle(&mut self, line: u32, operation: &Operation) {
         let found = self.tools.spindle();
         let turning = operation.spindle.filter(|turning| turning.is_on() && !self.is_manual);
-        let speed = operation.speed.filter(|_| found.speed.is_some());
+        // A layer of XpertMILL without an S of its own does not turn at that of another layer.
+        let speed = operation.speed.filter(|_| found.speed.is_some() || self.words.has_layers);
         // Cuts with a spindle that does not turn are reported by the rules of `verify`.
         if found.turning == Turning::Off || !self.tools.turns_otherwise(turning, speed, SPEED_TOLERANCE) {
             return;

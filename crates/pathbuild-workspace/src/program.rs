@@ -165,7 +165,7 @@ impl Program {
             each(step)
         });
         if let Some(by) = &by_definition {
-            problems.extend(by.translated.warnings.iter().cloned());
+            problems.extend(by.translated.problems.iter().cloned());
             // The definition does not say when M5 takes effect, which this problem depends on.
             problems.retain(|problem| problem.message.key != gcode::STOP_BEFORE_MOTION.key);
             // The columns and the quoted lines are those of the translation, which the user does not see.

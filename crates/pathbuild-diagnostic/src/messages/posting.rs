@@ -106,6 +106,13 @@ messages! {
         help_en: "replace the minus in the post's macros, such as {$-z}, by nothing or by _, unless the machine is such a one",
         help_de: "das Minus in den Makros des Postprozessors, etwa {$-z}, weglassen oder durch _ ersetzen, außer bei einer solchen Maschine",
     }
+    /// Feeds of a path wrapped around a cylinder, which many controls take for other speeds.
+    WRAPPED_FEED: DoubtfulPost {
+        en: "F is the speed along the surface of the cylinder, but without a rotary diameter controls take it for that of X, Y and Z alone or for degrees per minute: the cutter goes round far too fast or too slowly",
+        de: "F ist die Geschwindigkeit auf der Oberfläche des Zylinders, ohne Durchmesser der Drehachse bezieht es eine Steuerung aber nur auf X, Y und Z oder auf Grad je Minute: der Fräser fährt rundum viel zu schnell oder zu langsam",
+        help_en: "run the program only on a control that converts feeds of the rotary axis, and set its diameter to 2 x T there",
+        help_de: "das Programm nur auf einer Steuerung fahren, die Vorschübe der Drehachse umrechnet, und dort als deren Durchmesser 2 x T angeben",
+    }
     /// A word for an axis that is replaced by an angle.
     REPLACED_AXIS_WRITTEN: PostDiffers {
         en: "the post writes \"{line}\" although {angle} replaces {axis}: the machine would move both axes",
@@ -154,6 +161,13 @@ messages! {
         de: "der Postprozessor hat kein {macro}: die Ausgabe richtet sich nicht nach der Kühlung, die das Programm oder die Werkzeugtabelle bestimmt",
         help_en: "add {macro} to the post, or check how its texts switch the coolant",
         help_de: "{macro} in den Postprozessor aufnehmen oder prüfen, wie seine Texte die Kühlung schalten",
+    }
+    /// An output without a coolant word, although the job has the coolant on and the definition follows it.
+    COOLANT_NEVER_ON: DoubtfulPost {
+        en: "the program or the tool table switches the coolant on, but the output has neither M7 nor M8",
+        de: "das Programm oder die Werkzeugtabelle schaltet die Kühlung ein, die Ausgabe enthält aber weder M7 noch M8",
+        help_en: "correct the words for the coolant in the post; words of your own for it are not checked",
+        help_de: "die Wörter für die Kühlung im Postprozessor berichtigen; eigene Wörter dafür werden nicht geprüft",
     }
     /// Note: the spindle is not switched as the program or the tool table says, because the definition lacks the macro for it.
     SPINDLE_NOT_WRITTEN: DoubtfulPost {
@@ -211,6 +225,13 @@ messages! {
         help_en: "give the post's number format fewer decimals, or split its texts into several lines",
         help_de: "dem Zahlenformat des Postprozessors weniger Nachkommastellen geben oder seine Texte auf mehrere Zeilen verteilen",
     }
+    /// A comment that is longer than the target accepts a line to be.
+    COMMENT_TOO_LONG: LineTooLong {
+        en: "line {line} of the output is a comment of {length} characters; {dialect} accepts at most {longest}",
+        de: "Zeile {line} der Ausgabe ist ein Kommentar von {length} Zeichen; {dialect} nimmt höchstens {longest} an",
+        help_en: "shorten the comment in the program or the post from which it comes",
+        help_de: "den Kommentar in dem Programm oder Postprozessor kürzen, aus dem er stammt",
+    }
     /// Output that differs from the program when read back.
     POST_DIFFERS: PostDiffers {
         en: "line {line} of the output differs from the program",
@@ -251,6 +272,16 @@ messages! {
     SPINDLE_OTHER_WAY: PostDiffers {
         en: "here the spindle turns in the direction opposite to that in the program",
         de: "hier dreht sich die Spindel andersherum als im Programm",
+    }
+    /// Note: a cut without coolant, although the job has it on.
+    COOLANT_OFF: PostDiffers {
+        en: "the coolant is off during this cut, but the program or the tool table switches it on",
+        de: "bei diesem Schnitt ist die Kühlung aus, das Programm oder die Werkzeugtabelle schaltet sie aber ein",
+    }
+    /// Note: a cut with coolant, although the job has it off.
+    COOLANT_ON: PostDiffers {
+        en: "the coolant is on during this cut, but the program or the tool table switches it off",
+        de: "bei diesem Schnitt ist die Kühlung an, das Programm oder die Werkzeugtabelle schaltet sie aber aus",
     }
     /// Note: the spindle turns at a stop for the operator at which it stands still in the program.
     SPINDLE_TURNS_AT_STOP: PostDiffers {
@@ -344,6 +375,13 @@ messages! {
         de: "die Ausgabe setzt mit {word} einen Nullpunkt der Maschine: der Nullpunkt des Bedieners wird überschrieben oder verschoben, und die Zeichnung liegt woanders",
         help_en: "set the zero at the machine before the program starts, and remove the word from the post",
         help_de: "den Nullpunkt vor dem Start des Programms an der Maschine setzen und das Wort aus dem Postprozessor entfernen",
+    }
+    /// G38.3 or G38.5 in an output whose target has G38.2.
+    PROBE_WITHOUT_ALARM: DoubtfulPost {
+        en: "the output goes on if the probe touches nothing here; the program stops there with an error, as with G38.2",
+        de: "die Ausgabe läuft weiter, wenn der Taster hier nichts berührt; das Programm hält dann mit einem Fehler an, wie bei G38.2",
+        help_en: "write G38.2 in the post's text for probes",
+        help_de: "im Text des Postprozessors zum Antasten G38.2 schreiben",
     }
     /// Note: absolute centres of arcs in an output without G90.1.
     CENTRES_NOT_STATED: PostDiffers {

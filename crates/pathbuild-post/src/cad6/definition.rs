@@ -14,6 +14,7 @@ use super::control_text::{ControlText, ControlTextKind, locate};
 use super::expand::next_variable;
 use super::variables::{Variable, is_parameter, is_private};
 use crate::Units;
+use crate::arcs::MAX_CHORD_DISTANCE;
 use crate::findings::{Findings, LineStarts, MAX_FINDINGS};
 use crate::number::FormatOption;
 
@@ -100,7 +101,7 @@ impl Definition {
 
     /// Maximum distance in mm between an arc and the lines that replace it.
     pub(crate) fn chord(&self) -> f64 {
-        self.settings.arc_tolerance
+        self.settings.arc_tolerance.min(MAX_CHORD_DISTANCE)
     }
 
     /// Unit of the output; `None` means the unit of the job.
@@ -348,7 +349,7 @@ impl Abilities {
             arc_z: definition.names(ControlTextKind::Arc, &["Z1", "ZIncr"]),
             lift_between_passes: definition.settings.lift_between_passes,
             arc_sweep: definition.settings.arc_sweep.to_radians(),
-            arc_tolerance: definition.settings.arc_tolerance,
+            arc_tolerance: definition.chord(),
         }
     }
 }
@@ -516,8 +517,8 @@ settings! {
         "whether lines that are no G-code pass without a warning; default `false`",
         "ob Zeilen, die kein G-Code sind, ohne Warnung bleiben; sonst `false`";
     "arc-tolerance" |s, v| put(&mut s.arc_tolerance, positive(v)), "mm above 0", "mm über 0",
-        "greatest distance of a line from the arc that it stands for; default 0.01",
-        "größter Abstand einer Strecke vom Bogen, für den sie steht; sonst 0.01";
+        "greatest distance of a line from the arc that it stands for, at most 0.05; default 0.01",
+        "größter Abstand einer Strecke vom Bogen, für den sie steht, höchstens 0.05; sonst 0.01";
     "arc-sweep" |s, v| put(&mut s.arc_sweep, sweep(v)), "degrees from 10 to 360", "Grad von 10 bis 360",
         "largest angle of an arc (larger arcs are divided); default 360",
         "größter Winkel eines Bogens (größere werden geteilt); sonst 360";

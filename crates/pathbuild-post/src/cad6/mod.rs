@@ -56,7 +56,8 @@ pub(super) fn write(
 fn note_switches(output: &mut EngineOutput, uses: impl Fn(&str) -> bool, job: &Job, spin_up: f64) {
     let cools = job.operations.iter().any(|operation| operation.coolant.is_some_and(Coolant::is_on));
     let turns = job.operations.iter().any(|operation| operation.spindle.is_some_and(Turning::is_on));
-    if cools && !uses("ToolControl1") && !uses("ToolControl2") {
+    output.follows_coolant = uses("ToolControl1") || uses("ToolControl2");
+    if cools && !output.follows_coolant {
         output.note(&posts::COOLANT_NOT_WRITTEN, "macro", "~ToolControl1~");
     }
     if turns && spin_up > 0.0 && uses("MillingSpindleDir") && !uses("SpinUpTime") {
@@ -74,7 +75,7 @@ pub(super) fn translate(definition: &Definition, text: &[u8], units: Units) -> T
     for line in text.split(|&byte| byte == b'\n') {
         let line = String::from_utf8_lossy(line);
         let code = line.find("//").map_or(&*line, |comment| &line[..comment]);
-        shadow.line(code, &words(code, &CommentMarks::default()), None, false);
+        shadow.line(&line, &words(code, &CommentMarks::default()), None, false);
     }
     shadow.finish()
 }

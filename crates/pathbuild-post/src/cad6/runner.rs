@@ -186,7 +186,15 @@ impl<'a> Runner<'a> {
     pub(super) fn finish(self, units: Units) -> EngineOutput {
         let Self { text, origins, warnings, .. } = self;
         let shadow = super::translate(self.definition, &text, units);
-        EngineOutput { text, shadow, origins, warnings, notes: Vec::new(), post_build: None }
+        EngineOutput {
+            text,
+            shadow,
+            origins,
+            warnings,
+            notes: Vec::new(),
+            follows_coolant: false,
+            post_build: None,
+        }
     }
 }
 

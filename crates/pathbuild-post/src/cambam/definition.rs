@@ -12,6 +12,7 @@ use super::macros::{Macro, MacroArguments, State, Value};
 use super::options::{Options, Refusal};
 use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
+use crate::arcs::MAX_CHORD_DISTANCE;
 use crate::findings::{Findings, LineStarts, MAX_FINDINGS};
 use crate::job::{Job, Units};
 use crate::line_words::{CommentMarks, words};
@@ -162,7 +163,7 @@ impl Definition {
 
     /// Maximum distance in mm between an arc and the lines that replace it.
     pub(crate) fn chord(&self, units: Units) -> f64 {
-        self.options.arc_tolerance * units.millimetres()
+        (self.options.arc_tolerance * units.millimetres()).min(MAX_CHORD_DISTANCE)
     }
 
     pub(crate) fn writes_cycles(&self) -> bool {
@@ -447,7 +448,7 @@ impl<'a> Plan<'a> {
 
     /// Maximum distance in mm between an arc and the lines that replace it.
     pub(super) fn arc_tolerance(&self) -> f64 {
-        self.definition.options.arc_tolerance * self.unit()
+        self.definition.chord(self.job.units)
     }
 
     /// Returns the text of a user macro, which the configuration or the definition provides.

@@ -62,11 +62,16 @@ pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText 
     let marks = definition.comment_marks();
     let own_words = definition.own_motions();
     let mut shadow = Rs274Translation::new(Units::default(), definition.options.suppress_parser_errors);
-    for line in text.split(|&byte| byte == b'\n') {
+    let has_bare_numbers =
+        definition.options.add_line_numbers && definition.options.numbering.prefix.is_empty();
+    let end = if definition.options.end_of_line.ends_with('\r') { b'\r' } else { b'\n' };
+    for line in text.split(|&byte| byte == end) {
         let line = String::from_utf8_lossy(line);
+        let line =
+            if has_bare_numbers { line.trim_start_matches(|c: char| c.is_ascii_digit()) } else { &line };
         let motion =
             own_words.iter().find(|(_, word)| line.contains(word.as_str())).map(|(number, _)| *number);
-        shadow.line(&line, &words(&line, &marks), motion, false);
+        shadow.line(line, &words(line, &marks), motion, false);
     }
     shadow.finish()
 }
@@ -76,7 +81,8 @@ pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText 
 fn note_switches(output: &mut EngineOutput, plan: &Plan<'_>) {
     let cools = plan.job.operations.iter().any(|operation| operation.coolant.is_some());
     let mut macros = plan.templates().flat_map(Template::macros);
-    if cools && !macros.any(|(what, _)| *what == Macro::State(State::Coolant)) {
+    output.follows_coolant = macros.any(|(what, _)| *what == Macro::State(State::Coolant));
+    if cools && !output.follows_coolant {
         output.note(&posts::COOLANT_NOT_WRITTEN, "macro", "{$coolant}");
     }
     let definition = plan.definition;

@@ -126,8 +126,8 @@ element_options! {
     "ArcCenterMode" = "Incremental", |o, v| put(&mut o.absolute_centres, centre_mode(v)),
         "whether I and J are absolute or distances from the start of the arc", "ob I und J absolut oder Abstände vom Bogenanfang sind";
     "ArcToLinesTolerance" = "0.01", |o, v| put(&mut o.arc_tolerance, positive(v)),
-        "greatest distance of a line from its arc, in the program's unit",
-        "größter Abstand einer Strecke vom Bogen, in der Einheit des Programms";
+        "greatest distance of a line from its arc, in the program's unit; at most 0.05 mm",
+        "größter Abstand einer Strecke vom Bogen, in der Einheit des Programms; höchstens 0,05 mm";
     "MinimumArcLength" = "0.0001", |o, v| put(&mut o.least_arc_length, length(v)),
         "shorter arcs become lines", "kürzere Bögen werden Strecken";
     "MaximumArcRadius" = "1000000", |o, v| put(&mut o.greatest_arc_radius, positive(v)),

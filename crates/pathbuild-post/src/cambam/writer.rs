@@ -107,6 +107,9 @@ impl<'a> Writer<'a> {
         if let Some([least, most]) = self.angles.filter(|[least, most]| most - least > FULL_TURN) {
             self.warn(Diagnostic::new(&posts::WRAPPED_TWICE).with("degrees", most - least));
         }
+        if self.angles.is_some() {
+            self.warn(Diagnostic::new(&posts::WRAPPED_FEED));
+        }
         for (axis, _) in
             Register::AXES.into_iter().zip(self.turned).filter(|(_, turned)| *turned == Some(true))
         {
@@ -120,6 +123,7 @@ impl<'a> Writer<'a> {
             origins,
             warnings,
             notes: Vec::new(),
+            follows_coolant: false,
             post_build: None,
         })
     }
@@ -326,6 +330,7 @@ impl<'a> Writer<'a> {
 
     /// Writes a comment on a line of its own.
     pub(super) fn write_comment(&mut self, text: &str, blank: &str) -> WriteResult {
+        self.place = (Section::Comment, 0);
         self.write_section(Section::Comment)?;
         self.write_text(blank)?;
         self.write_foreign_text(text, "endcomment", Section::Comment, 0)?;

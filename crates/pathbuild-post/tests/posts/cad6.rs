@@ -604,7 +604,8 @@ fn arcs_that_cannot_be_written_become_lines() {
     let steps = vec![rapid(10.0, 0.0, 5.0), feed(10.0, 0.0, -1.0), helix];
     let with_z =
         CALLS.replace("line = 'line", "line = 'Z{.~Z1~} line").replace("[text]", "arc-tolerance = 1\n[text]");
-    assert_eq!(calls(&with_z, steps.clone())[3..5], ["Z-1.5 line 7.071 7.071 F9 10", "Z-2 line 0 10 F9 01"]);
+    let lines = calls(&with_z, steps.clone());
+    assert_eq!([&*lines[3], &*lines[10]], ["Z-1.125 line 9.808 1.951 F9 10", "Z-2 line 0 10 F9 01"]);
     let no_z = output(CALLS, &job(steps), &PostOptions::default()).unwrap_err();
     assert!(
         texts(&no_z)[0].starts_with("PB759 mill has a helix from Z -1 to Z -2, but the text arc has no ~Z1~"),

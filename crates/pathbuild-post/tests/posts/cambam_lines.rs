@@ -312,3 +312,17 @@ fn stock_and_tool_values_come_from_whoever_knows_them() {
     let missing = header(&all[..2], "").expect_err("the length is missing");
     assert_eq!(texts(&missing)[0].split(' ').take(2).collect::<Vec<_>>(), ["4:", "PB754"]);
 }
+
+#[test]
+fn numbers_without_a_letter_and_cr_alone_are_read_as_they_were_written() {
+    let numbers = "<AddLineNumbers>true</AddLineNumbers><LineNumberPrefix></LineNumberPrefix>";
+    let [numbered, ended] = ["1 G21 G90\n2 G0 Z5\n10 G1 X1 F100", "G21 G90\rG0 Z5\rG1 X1 F100"];
+    let translated = |elements: &str, text: &str| {
+        let translated = read(&definition(elements)).unwrap().translate(text.as_bytes());
+        (translated.text.lines().count(), translated.problems.len())
+    };
+    assert_eq!(translated(numbers, numbered), (3, 0));
+    assert_eq!(translated("<EndOfLine>\\r</EndOfLine>", ended), (3, 0));
+    assert_ne!(translated("", numbered), (3, 0));
+    assert_ne!(translated("<EndOfLine>\\r\\n</EndOfLine>", ended), (3, 0));
+}

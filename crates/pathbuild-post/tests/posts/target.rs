@@ -7,7 +7,7 @@ use pathbuild_gcode::verify::{Machine, Travel};
 use pathbuild_motion::Turning;
 use pathbuild_post::{Hole, HoleKind, Job, JobStep, Output, PostDefinition, PostOptions};
 
-use crate::support::{definition, feed, job, rapid, read, texts};
+use crate::support::{definition, feed, job, rapid, read, read_toml, texts};
 
 /// Writes a text literally, for a target.
 fn write_with(target: &str, text: &str, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
@@ -120,6 +120,16 @@ fn lines_are_as_long_as_the_target_takes_them() {
     assert_eq!(
         refused("rs274", &line(242)),
         ["line 1 of the output has 257 characters; rs274 accepts at most 256"]
+    );
+    // Marlin drops comments while it receives a line, but no blanks.
+    let marlin = |zeros: usize| format!("G0 X{}; {}", "0".repeat(zeros), "a remark ".repeat(20));
+    assert!(write_with(&dialect("marlin"), &marlin(92), &PostOptions::default()).is_ok());
+    assert!(refused("marlin", &marlin(93))[0].contains("marlin accepts at most 96"));
+    let comment = |length: usize| format!("({})", "x".repeat(length));
+    assert!(write_with(&dialect("rs274"), &comment(254), &PostOptions::default()).is_ok());
+    assert_eq!(
+        refused("rs274", &comment(255)),
+        ["line 1 of the output is a comment of 257 characters; rs274 accepts at most 256"]
     );
 }
 
@@ -601,4 +611,66 @@ fn dwells_of_texts_without_a_dialect_are_compared() {
             warnings.iter().any(|text| text.contains(&format!("PB752 the output contains {word},")));
         assert_eq!(is_told, !word.is_empty(), "{dwell}: {warnings:?}");
     }
+}
+
+/// Writes a cut with control texts that declare no dialect, and returns the first note of the error.
+fn control_texts(settings: &str, start: &str, end: &str) -> Option<String> {
+    let text = format!(
+        "[post]\nnumber-lines = false\n{settings}\n[text]\nprogram-start = '{start}'\n\
+         rapid = 'G00 X{{.~X1~}} Y{{.~Y1~}} Z{{.~Z1~}}'\n\
+         line = 'G01 X{{.~X1~}} Y{{.~Y1~}} Z{{.~Z1~}} F{{.~MovingVel~}}'\nprogram-end = \"\"\"{end}\"\"\"\n"
+    );
+    let steps = vec![feed(0.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)];
+    let errors = read_toml(&text).write(&job(steps), &PostOptions::default()).err()?;
+    Some(errors[0].notes.first().map_or(String::new(), |note| note.text(Lang::En)))
+}
+
+/// A control in millimetres takes inches for millimetres, unless the text states the unit.
+#[test]
+fn inches_are_stated() {
+    let inches = |start: &str| control_texts("units = \"inch\"", start, "M30");
+    assert_eq!(inches("G20 G17 G90"), None);
+    assert_eq!(inches("G70 G17 G90"), None);
+    assert!(inches("G17 G90").unwrap().contains("millimetres are assumed"));
+    assert_eq!(control_texts("", "G17 G90", "M30"), None, "a warning");
+}
+
+/// The output must stop where the probe of the program stops, if the target can.
+#[test]
+fn a_probe_that_touches_nothing_is_an_error() {
+    let warnings = |dialect: &str, probe: &str| {
+        let text = format!(
+            "<PostFile>G17 G21 G90 G94\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP>\
+             <Probe>{probe} {{$f}} {{$x}} {{$y}} {{$z}}</Probe>{dialect}"
+        );
+        let steps = vec![JobStep::probe([0.0, 0.0, -5.0], Some(40.0))];
+        let output = read(&definition(&text)).unwrap().write(&job(steps), &PostOptions::default());
+        texts(&output.unwrap_or_else(|errors| panic!("{:?}", texts(&errors))).warnings)
+    };
+    let is_told = |dialect: &str, probe: &str| {
+        warnings(dialect, probe).iter().any(|text| text.contains("if the probe touches nothing"))
+    };
+    for target in ["linuxcnc", "grbl"] {
+        assert!(!is_told(&dialect(target), "G38.2"));
+        assert!(is_told(&dialect(target), "G38.3"));
+    }
+    assert!(!is_told("", "G31"));
+}
+
+/// `//` begins a comment of control texts, also within another comment.
+#[test]
+fn comments_of_control_texts_are_read_to_their_end() {
+    let start = |text: &str| control_texts("", &format!("G17 G21 G90 {text}"), "M30");
+    assert_eq!(start(r"// x\\\~0D"), None);
+    assert!(start(r"// x\\\~0DG0 Z-5").unwrap().contains("CR"));
+    let warnings = |comment: &str| {
+        let text = format!(
+            "[post]\nnumber-lines = false\n[text]\nprogram-start = 'G17 G21 G90 {comment}'\n\
+             rapid = 'G00 X{{.~X1~}} Y{{.~Y1~}} Z{{.~Z1~}}'\nline = 'G01 X{{.~X1~}} Y{{.~Y1~}} Z{{.~Z1~}} F{{.~MovingVel~}}'\n"
+        );
+        let steps = vec![feed(0.0, 0.0, -1.0), rapid(0.0, 0.0, 5.0)];
+        texts(&read_toml(&text).write(&job(steps), &PostOptions::default()).unwrap().warnings)
+    };
+    assert_eq!(warnings("(http://x)"), [""; 0]);
+    assert!(warnings("(http://x) (y")[0].contains("the output contains"));
 }

@@ -1,10 +1,10 @@
 //! Tests tool, tool length and spindle in the output of definitions, each with a correct definition and one with a single mistake.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_motion::Turning;
+use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{Job, Operation, PostOptions};
 
-use crate::support::{definition, feed, operation, rapid, read};
+use crate::support::{definition, feed, operation, rapid, read, read_toml};
 
 /// A definition for a control with M6 and G43.
 const RIGHT: &str = "<Dialect>linuxcnc</Dialect>
@@ -148,4 +148,63 @@ fn the_height_is_stated_after_a_tool_change_by_hand() {
         let found = by_hand(stop);
         assert!(!found.is_empty() && found.iter().all(|found| found.contains(unstated)), "{stop}: {found:?}");
     }
+}
+
+/// Flood and mist may have the same word, so only whether coolant flows is compared.
+#[test]
+fn each_cut_has_the_coolant_of_its_tool() {
+    let [flood, mist, off] = [Coolant::FLOOD, Coolant::MIST, Coolant::OFF];
+    let found = |dialect: &str, coolant: [Coolant; 2], elements: &str, text: &str| {
+        let mut job = two_tools();
+        job.operations.iter_mut().zip(coolant).for_each(|(operation, coolant)| {
+            operation.coolant = Some(coolant);
+        });
+        let right = RIGHT.replace("<Dialect>linuxcnc</Dialect>", dialect);
+        let text = format!("{}{elements}", right.replace("{$blocks}", &format!("{text}{{$blocks}}")));
+        let output = read(&definition(&text)).unwrap().write(&job, &PostOptions::default());
+        match output {
+            Ok(output) => output.warnings.iter().map(|warning| warning.text(Lang::En)).collect(),
+            Err(_) => wrong(&text, &job),
+        }
+    };
+    let own = "{$coolant}\n";
+    for dialect in ["<Dialect>linuxcnc</Dialect>", ""] {
+        let found = |coolant, elements: &str, text: &str| found(dialect, coolant, elements, text);
+        assert_eq!(found([flood, mist], "", own), FINE);
+        assert_eq!(found([flood, mist], "<CoolantMist>M8</CoolantMist>", own), FINE);
+        let dry = found([flood, mist], "<CoolantMist>M9</CoolantMist>", own);
+        assert!(dry[0].starts_with("the coolant is off during this cut"), "{dry:?}");
+        let never_off = "<CoolantOff></CoolantOff>";
+        assert!(found([flood, off], never_off, own)[0].starts_with("the coolant is on during this cut"));
+        assert_eq!(found([flood, mist], never_off, own), FINE);
+        for flood_word in ["M9", "", "M50"] {
+            let elements = format!("<CoolantFlood>{flood_word}</CoolantFlood>");
+            let warnings = found([flood, flood], &elements, own);
+            assert!(warnings.iter().any(|text| text.contains("neither M7 nor M8")), "{warnings:?}");
+        }
+        assert_eq!(found([flood, off], "", ""), FINE, "a note says that the post does not follow it");
+        assert_eq!(found([flood, flood], "", "M8\n"), FINE);
+    }
+}
+
+/// S belongs to the layer that M06 has selected before it.
+#[test]
+fn each_layer_of_xpertmill_has_its_own_speed() {
+    let definition = include_str!("../../posts/xpertmill.toml");
+    let written = |from: &str, to: &str| {
+        assert!(definition.contains(from));
+        let found =
+            read_toml(&definition.replace(from, to)).write(&two_tools(), &PostOptions::default()).err()?;
+        Some(found[0].notes[0].text(Lang::En))
+    };
+    let speed = "{!MillingSpindleRate {$}{$S{#~MillingSpindleRate~}}}\n";
+    let change = format!("M06 {{02d ~MachineToolNo~}}\n{speed}");
+    assert_eq!(written(&change, &change), None);
+    for wrong in [change.replace(speed, ""), format!("{speed}M06 {{02d ~MachineToolNo~}}\n")] {
+        assert!(written(&change, &wrong).unwrap().starts_with("the spindle speed is"), "{wrong}");
+    }
+    let mut job = two_tools();
+    job.operations.iter_mut().for_each(|operation| operation.speed = None);
+    let without = read_toml(&definition.replace(speed, "")).write(&job, &PostOptions::default());
+    assert!(without.is_ok(), "{:?}", without.err());
 }
