@@ -332,7 +332,7 @@ fn materials_that_only_look_the_same_are_told_apart() {
             let changed = library.replace(&drawn, &drawn.replace("MBl\u{e4}ch", material));
             let run = Place::of(&format!("== {changed}")).run("check --format json");
             let mut lines = run.stdout.lines().filter(|line| line.contains(code));
-            assert_eq!(lines.any(|line| line.contains("as two characters")), is_noted, "{run}");
+            assert_eq!(lines.any(|line| line.contains("two characters that look")), is_noted, "{run}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Explains why a walk cannot continue, with hints for finding the cause.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use pathbuild_diagnostic::messages::{drawing, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, Message, Text, Value, words};
@@ -78,11 +78,12 @@ impl Walker<'_> {
     /// Returns the problem that the path ends in the middle of a line or arc that was not reached. One that branches off at a point that the walk passed
     /// may be followed back, and a subpath cannot be split.
     fn ends_on_another(&self, message: &'static Message) -> Option<Diagnostic> {
-        let is_candidate = |segment: &usize| {
-            !matches!(self.path.segments[*segment].kind, SegmentKind::Subpath(_))
+        let is_meant = |segment: &usize| {
+            self.passes_through(*segment, self.at)
+                && !matches!(self.path.segments[*segment].kind, SegmentKind::Subpath(_))
                 && !self.ends.of(*segment).iter().any(|end| self.is_passed(*end))
         };
-        let segment = self.segment_through(self.at, self.unreached_segments().filter(is_candidate))?;
+        let segment = self.unreached_segments().find(is_meant)?;
         let problem = Diagnostic::new(message).with("element", self.word(segment));
         Some(problem.with("point", diagnostic_point(self.at)))
     }
@@ -90,7 +91,7 @@ impl Walker<'_> {
     /// Returns the problem that the nearest segment that was not reached begins in the middle of a traversed one, unless that is a small gap.
     fn begins_on_another(&self) -> Option<Diagnostic> {
         let (segment, begin, distance) = self.nearest_end(self.at)?;
-        let other = self.segment_through(begin, self.traversed_segments())?;
+        let other = self.segment_through(begin)?;
         let is_near = distance <= MAX_SKIPPED_GAP;
         let problem = if !is_near {
             Diagnostic::new(&messages::BEGINS_ON_OTHER)
@@ -213,7 +214,7 @@ impl Walker<'_> {
         } else if let Some(branch) = branch {
             about(&messages::UNREACHED_BRANCH, branch)
         } else if let Some((segment, point)) = remaining {
-            match self.segment_through(point, self.traversed_segments()).map(|other| self.word(other)) {
+            match self.segment_through(point).map(|other| self.word(other)) {
                 Some(other) if other == self.word(segment) => {
                     about(&messages::NO_END_THERE_ALIKE, (segment, point))
                 }
@@ -228,14 +229,19 @@ impl Walker<'_> {
         if is_told { problem } else { self.with_duplicate(problem) }
     }
 
-    /// Returns the first of these segments that passes through a point without ending there.
-    fn segment_through(&self, point: Xy, mut segments: impl Iterator<Item = usize>) -> Option<usize> {
+    /// Returns a traversed segment that passes through a point without ending there.
+    fn segment_through(&self, point: Xy) -> Option<usize> {
+        self.traversed_segments().find(|segment| self.passes_through(*segment, point))
+    }
+
+    /// Whether a line or arc passes through a point without ending there.
+    fn passes_through(&self, segment: usize, point: Xy) -> bool {
         let is_on = |curve: Curve| {
             let is_end =
                 [curve.start(), curve.end()].iter().any(|end| (end - point).norm() < ON_CURVE_TOLERANCE);
             !is_end && curve.distance_to(point) < ON_CURVE_TOLERANCE
         };
-        segments.find(|segment| self.path.curve(&self.path.segments[*segment]).is_some_and(is_on))
+        self.path.curve(&self.path.segments[segment]).is_some_and(is_on)
     }
 
     pub(super) fn end_not_reached(&self, stopped_at: Xy) -> Diagnostic {
@@ -290,18 +296,19 @@ impl Walker<'_> {
         distances.reduce(|best, other| if other.2 < best.2 { other } else { best })
     }
 
-    /// Whether a segment that was not reached ends at a point alone: not at a corner, but perhaps at a hole.
-    fn is_open(&self, point: Xy) -> bool {
-        let is_line = |segment: usize| self.path.curve(&self.path.segments[segment]).is_some();
-        let mut found = Vec::new();
-        self.ends.find_near(point, |segment| !self.is_traversed[segment] && is_line(segment), &mut found);
-        found.iter().all(|segment| *segment == found[0])
-    }
-
     /// Adds the end to which a missing segment probably leads: across a small gap the nearest one, otherwise rather an open end than a corner.
     fn with_nearest_end(&self, problem: Diagnostic, point: Xy) -> Diagnostic {
         let Some(nearest) = self.nearest_end(point) else { return problem };
-        let open = || self.nearest_end_where(point, |end| self.is_open(*end));
+        let open = || {
+            let is_line = |segment: &usize| self.path.curve(&self.path.segments[*segment]).is_some();
+            let mut line_ends: BTreeMap<[i64; 2], usize> = BTreeMap::new();
+            for end in self.unreached_segments().filter(is_line).flat_map(|segment| self.ends.of(segment)) {
+                *line_ends.entry(grid_square(end)).or_default() += 1;
+            }
+            // At a corner, two lines end; at a hole, only the line that leads on.
+            let is_open = |end: &Xy| line_ends.get(&grid_square(*end)).is_none_or(|count| *count == 1);
+            self.nearest_end_where(point, is_open)
+        };
         let nearest = Some(nearest)
             .filter(|(.., distance)| *distance <= MAX_SKIPPED_GAP)
             .or_else(open)
