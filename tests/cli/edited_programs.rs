@@ -177,3 +177,33 @@ fn heights_that_are_still_to_be_corrected_are_told() {
         assert!(!run.stderr.contains("PB769"), "{run}");
     }
 }
+
+/// The edits are lost, so `emit` says so once.
+#[test]
+fn writing_over_an_edited_program_is_told() {
+    for (post, extension) in [("grbl", "gcode"), ("native", "gcode"), ("estlcam", "nc")] {
+        let file = format!("1234.1P_Milling.{extension}");
+        let place = library();
+        let emit = |place: &Place, options: &str| {
+            let run = place.run(&format!("emit 1234.1P --post {post} {options}"));
+            assert_eq!(run.status, Some(0), "{run}");
+            run.stderr.lines().find(|line| line.starts_with(&file)).map(str::to_owned).unwrap_or_default()
+        };
+        assert!(emit(&place, "").starts_with(&format!("{file}: written, ")), "{post}");
+        let program = place.read(&file);
+        let edited = program.replacen("Y20.0", "Y21.0", 1);
+        assert_ne!(edited, program);
+        let place = place.file(&file, &edited);
+        let line = emit(&place, "");
+        assert!(line.starts_with(&format!("{file}: written over an edited file (")), "{line}");
+        assert!(emit(&place, "").starts_with(&format!("{file}: unchanged, ")), "{post}");
+        let place = place.file(&file, &edited);
+        let line = emit(&place, "--lang de");
+        assert!(line.starts_with(&format!("{file}: über eine bearbeitete Datei geschrieben (")), "{line}");
+        // Other comments are no edit that changes a move, and another drawing makes another program.
+        let place = place.file(&file, program.replacen("(Path", "(PATH", 1));
+        assert!(emit(&place, "").starts_with(&format!("{file}: written, ")), "{post}");
+        let place = place.file("1234.1P.dxf", path("1234.1P", 2, 3));
+        assert!(emit(&place, "").starts_with(&format!("{file}: written, ")), "{post}");
+    }
+}

@@ -184,6 +184,8 @@ pub struct OutputFile {
 pub enum FileState {
     /// The file was written.
     Written,
+    /// The file was written over a program that had been edited, whose changes are lost.
+    Overwritten,
     /// The file was already current, and was not touched.
     Unchanged,
     /// The file was compared and is current.
@@ -307,6 +309,7 @@ impl FileState {
     fn of(state: State) -> (Self, Option<Vec<u8>>) {
         match state {
             State::Written => (Self::Written, None),
+            State::Overwritten => (Self::Overwritten, None),
             State::Unchanged => (Self::Unchanged, None),
             State::Current => (Self::Current, None),
             State::Outdated => (Self::Outdated, None),

@@ -76,7 +76,9 @@ impl ProgramOutcome {
     pub(super) fn generated(&self, task: Task) -> Vec<GeneratedFile> {
         // A comparison of moves alone does not show whether the bytes are equal.
         let is_compared_whole = task != Task::Compare { moves_only: true };
-        let is_there = |state: &State| matches!(state, State::Written | State::Unchanged | State::Current);
+        let is_there = |state: &State| {
+            matches!(state, State::Written | State::Overwritten | State::Unchanged | State::Current)
+        };
         let file = |((path, state), hash): (&(Utf8PathBuf, State), &[u8; 32])| GeneratedFile {
             path: path.clone(),
             hash: *hash,
@@ -91,7 +93,11 @@ impl ProgramOutcome {
             let message = match state {
                 State::Missing => &outputs::MISSING_OUTPUT,
                 State::Outdated => &outputs::OTHER_OUTPUT,
-                State::Written | State::Unchanged | State::Current | State::Printed(_) => return None,
+                State::Written
+                | State::Overwritten
+                | State::Unchanged
+                | State::Current
+                | State::Printed(_) => return None,
             };
             let finding = Diagnostic::new(message).quoting("name", file.file_name().unwrap_or_default());
             Some(finding.in_file(file).in_path(&self.path))
@@ -100,7 +106,8 @@ impl ProgramOutcome {
 
     /// Whether the file on disk is up to date because this run wrote it or found it unchanged.
     pub fn has_written(&self, file: &Utf8Path) -> bool {
-        let is_there = |state: &State| matches!(state, State::Written | State::Unchanged);
+        let is_there =
+            |state: &State| matches!(state, State::Written | State::Overwritten | State::Unchanged);
         self.files.iter().any(|(path, state)| path == file && is_there(state))
     }
 }
@@ -110,6 +117,8 @@ impl ProgramOutcome {
 pub enum State {
     /// The file was written by this run.
     Written,
+    /// The file was written over a program that had been edited.
+    Overwritten,
     /// The file was up to date before this run, so it was not written.
     Unchanged,
     /// The file on disk was compared and is equal.

@@ -11,7 +11,7 @@ use pathbuild_diagnostic::messages::probes;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, interpret};
-use pathbuild_gcode::provenance::is_same_program;
+use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance, is_same_program};
 use pathbuild_gcode::verify::{self, Ends, PostWords, Tolerance};
 
 use super::build::{BuiltProgram, Output, build};
@@ -112,7 +112,7 @@ fn settle(
     let hashed = outputs.iter().zip(hashes);
     match task {
         Task::Write { force } => {
-            if let Err(problem) = write(system, hashed, force, &mut delivered) {
+            if let Err(problem) = write(system, hashed, force, limit, &mut delivered) {
                 delivered.problems.push(*problem);
             }
         }
@@ -147,6 +147,7 @@ fn write<'a>(
     system: &dyn System,
     outputs: impl Iterator<Item = (&'a Output, [u8; 32])> + Clone,
     force: bool,
+    limit: u64,
     delivered: &mut ProgramOutcome,
 ) -> Result<(), Box<Diagnostic>> {
     let mut values =
@@ -159,14 +160,34 @@ fn write<'a>(
     }
     for (output, hash) in outputs {
         let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(system, output);
+        let is_edited = is_edited(system, output, limit);
         let written =
             if is_kept { Ok(WriteOutcome::Unchanged) } else { system.write(&output.path, &output.text) };
         let written = written.map_err(|reason| Box::new(write_error(output.path.as_str(), reason)))?;
-        let state = if written == WriteOutcome::Changed { State::Written } else { State::Unchanged };
+        let state = match written {
+            WriteOutcome::Changed if is_edited => State::Overwritten,
+            WriteOutcome::Changed => State::Written,
+            _ => State::Unchanged,
+        };
         delivered.hashes.push(hash);
         delivered.files.push((output.path.clone(), state));
     }
     Ok(())
+}
+
+/// Whether the file on disk has the header of a generated program, but other lines that determine moves: it was edited after it had been written.
+fn is_edited(system: &dyn System, output: &Output, limit: u64) -> bool {
+    let head = system.read_head(&output.path, HEAD_BYTES).unwrap_or_default();
+    let [present, written] =
+        [&head, &output.text].map(|text| Provenance::of_head(text).map(|(found, _)| found));
+    let is_own = present
+        .zip(written)
+        .is_some_and(|(present, written)| present.is_same(&written) && present.version == written.version);
+    let has_other_moves = |present: Vec<u8>| {
+        let [present, written] = [&present, &output.text].map(|text| String::from_utf8_lossy(text));
+        !verify::same_move_lines(&present, &written)
+    };
+    is_own && system.read(&output.path, limit).is_ok_and(has_other_moves)
 }
 
 /// Whether the file on disk contains measured values for probes other than those in the generated file.

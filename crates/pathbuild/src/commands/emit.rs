@@ -114,9 +114,13 @@ fn show(context: &Context, output: &OutputFile) -> bool {
     // Only the program itself gets a length; the files that belong to it have none.
     context.json_row(|| row(context, file, *state, Some(output)));
     match state {
-        FileState::Written | FileState::Unchanged => {
+        FileState::Written | FileState::Overwritten | FileState::Unchanged => {
             let state = match state {
                 FileState::Written => context.choose("written", "geschrieben"),
+                FileState::Overwritten => context.choose(
+                    "written over an edited file (give edited programs a name of their own)",
+                    "über eine bearbeitete Datei geschrieben (bearbeiteten Programmen einen eigenen Namen geben)",
+                ),
                 _ => context.choose("unchanged", "unverändert"),
             };
             if output.is_program {
@@ -157,7 +161,7 @@ fn row(
     output: Option<&OutputFile>,
 ) -> (&'static str, Value) {
     let state = match state {
-        FileState::Written => "written",
+        FileState::Written | FileState::Overwritten => "written",
         FileState::Unchanged => "unchanged",
         FileState::Current => "current",
         FileState::Outdated => "stale",
