@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::support::{Place, Run};
+use crate::support::{Place, Run, dxf};
 
 /// A library of components with and without faults, and of projects: one with probes, and one whose component is missing.
 const LIBRARY: &str = r#"
@@ -279,4 +279,34 @@ fn a_drawing_outside_of_the_tree_is_told_that_no_configuration_holds() {
     for inside in ["check parts/1234.dxf", "verify ../stick/1234.gcode --against 1234.1P"] {
         assert!(!place.at_work(inside).stderr.contains("does not apply"));
     }
+}
+
+/// Windows hides the end of `pathbuild.toml.txt`, and other systems distinguish `Pathbuild.toml` from `pathbuild.toml`.
+#[test]
+fn a_configuration_with_a_wrong_name_is_named() {
+    let drawing = dxf("layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0\"\nmill 0,0 20,0\nend 20,0\n");
+    let note = |file: &str, from: &str, argument: &str| {
+        let place = Place::new().file(file, "feed = 150\n").file("parts/1234.1P.dxf", &drawing);
+        let run = place.run_in(from, &["check", argument]);
+        run.stderr.lines().find(|line| line.contains("no configuration applies")).map(str::to_owned)
+    };
+    let named = |file: &str| {
+        format!(
+            "note: no configuration applies: {file} must be named pathbuild.toml (Windows may hide the end of its name)"
+        )
+    };
+    let txt = "pathbuild.toml.txt";
+    assert_eq!(note(txt, ".", "parts/1234.1P.dxf"), Some(named(txt)));
+    assert_eq!(note(txt, "parts", "1234.1P.dxf"), Some(named("../pathbuild.toml.txt")));
+    assert_eq!(note("parts/pathbuild.toml.toml", ".", "parts"), Some(named("parts/pathbuild.toml.toml")));
+    // The search begins at the drawing.
+    assert_eq!(note("other/pathbuild.toml.txt", ".", "parts/1234.1P.dxf"), None);
+    assert_eq!(note("pathbuild.toml.bak", ".", "parts/1234.1P.dxf"), None);
+    assert_eq!(note("pathbuild.toml", ".", "parts/1234.1P.dxf"), None);
+    if cfg!(target_os = "linux") {
+        assert_eq!(note("Pathbuild.toml", ".", "parts/1234.1P.dxf"), Some(named("Pathbuild.toml")));
+    }
+    let place = Place::new().file(txt, "").file("pathbuild.toml", "").file("1234.1P.dxf", &drawing);
+    let run = place.run("check 1234.1P.dxf");
+    assert!(!run.stderr.contains(txt), "there is a configuration: {run}");
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{Place, Run};
+use crate::support::{Place, Run, dxf};
 
 const PATH: &str = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n";
 const REMARKS: &str = "layer remarks\nline 0,0 40,0\n";
@@ -260,4 +260,31 @@ fn a_write_protected_program_stays() {
     permissions.set_readonly(false);
     fs::set_permissions(&program, permissions).unwrap();
     assert_eq!(emit().status, Some(0));
+}
+
+/// Without a configuration only the working directory is searched, although its subdirectories are known. (PB503)
+#[test]
+fn a_drawing_that_is_not_searched_is_named_with_the_reason() {
+    let path =
+        |name: &str| dxf(&format!("layer {name}\nstart 0,0 \"T2 O2 I1 B0\"\nmill 0,0 20,0\nend 20,0\n"));
+    let place = Place::new()
+        .file("parts/1234.1P.dxf", path("1234.1P"))
+        .file("parts/1300.1-1300.2P.dxf", path("1300.2P"))
+        .file("parts/1400.1P.dxf", path("1400.2P"));
+    let missed = |name: &str, lang: &str| {
+        let run = place.run(&format!("emit {name} --lang {lang}"));
+        assert_eq!(run.status, Some(1), "{run}");
+        run.stderr
+    };
+    let (en, de) =
+        ("defines the path, but its directory is not searched", "aber das Verzeichnis wird nicht durchsucht");
+    for (name, file) in [("1234.1P", "parts/1234.1P.dxf"), ("1300.2P", "parts/1300.1-1300.2P.dxf")] {
+        let text = missed(name, "en");
+        assert!(text.contains(&format!("{file} {en}")), "{text}");
+        let text = missed(name, "de");
+        assert!(text.contains(de), "{text}");
+    }
+    let text = missed("1400.2P", "en");
+    assert!(text.contains("although the file's name does not include it"), "{text}");
+    assert_eq!(place.run("check parts/1234.1P.dxf").status, Some(0));
 }

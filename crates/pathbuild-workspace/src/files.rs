@@ -126,6 +126,16 @@ pub(crate) fn name_of_source_or_program(context: &Workspace, file: &Utf8Path) ->
 /// File name of a configuration.
 pub const FILE_NAME: &str = "pathbuild.toml";
 
+/// Names that a configuration has by mistake: Windows hides extensions, and other systems distinguish upper and lower case.
+pub(crate) const MISTAKEN_NAMES: [&str; 6] = [
+    "pathbuild.toml.txt",
+    "pathbuild.toml.toml",
+    "pathbuild.txt",
+    "Pathbuild.toml",
+    "PathBuild.toml",
+    "PATHBUILD.TOML",
+];
+
 /// The file extensions of G-code programs; the first is for native programs. A post definition may choose another extension.
 pub(crate) const PROGRAM_EXTENSIONS: [&str; 6] = ["gcode", "nc", "ngc", "tap", "cnc", "din"];
 

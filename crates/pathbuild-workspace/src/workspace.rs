@@ -59,6 +59,11 @@ impl Workspace {
         Some(relative(file, &self.working_directory))
     }
 
+    /// Returns the path, relative to the working directory, of a file that was probably meant as the configuration, if there is none.
+    pub fn misnamed_configuration(&self) -> Option<Utf8PathBuf> {
+        Some(relative(self.settings.misnamed.as_deref()?, &self.working_directory))
+    }
+
     /// Returns the path of the configuration, relative to the working directory, if it applies to a program unexpectedly.
     pub fn unexpected_configuration(&self) -> Option<Utf8PathBuf> {
         let file = self.settings.file.as_deref().filter(|_| self.settings.is_unexpected)?;

@@ -8,7 +8,7 @@ use std::sync::atomic::Ordering;
 use camino::Utf8Path;
 use pathbuild_api::{Error, Finding, Library};
 use pathbuild_db::system::OsSystem;
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::waivers::WaivedFinding;
@@ -81,13 +81,20 @@ impl Context {
         self.output.refusal(self).or_else(|| environment::refusal(self))
     }
 
-    /// Warns if the working directory's configuration does not apply to this run.
+    /// Warns if the working directory's configuration does not apply to this run, or if a configuration has a wrong name.
     pub(crate) fn warn_about_unused_configuration(&self) {
         if let Some(file) = self.unused_configuration() {
             self.printer.status(self.phrase(
                 "note: {} does not apply to files outside its tree (give --config {} to apply it); no other configuration was found",
                 "Hinweis: {} gilt nicht für Dateien außerhalb ihres Verzeichnisbaums (mit --config {} gilt sie doch); eine andere Konfiguration wurde nicht gefunden",
                 file.as_str(),
+            ));
+        }
+        if let Some(file) = self.misnamed_configuration() {
+            self.printer.status(self.phrase(
+                "note: no configuration applies: {} must be named pathbuild.toml (Windows may hide the end of its name)",
+                "Hinweis: keine Konfiguration gilt: {} muss pathbuild.toml heißen (Windows blendet das Ende des Namens vielleicht aus)",
+                &shown::line(file.as_str()),
             ));
         }
     }

@@ -43,10 +43,11 @@ pub fn load(
     }
     diagnostics.extend(faults);
     let not_used = if file.is_none() { discovery.of_working_directory() } else { None };
+    let misnamed = if file.is_none() { discovery.misnamed() } else { None };
     let is_unexpected =
         given.config.is_none() && file.as_deref().is_some_and(|file| discovery.is_unexpected(file));
     let mut settings =
-        Settings { file, not_used, is_unexpected, confined, date: given.date, ..options.resolve() };
+        Settings { file, not_used, misnamed, is_unexpected, confined, date: given.date, ..options.resolve() };
     // `config show` prints the value that applies.
     settings.general.comment_lang.value = settings.comment_lang();
     (settings, diagnostics)
@@ -172,6 +173,13 @@ impl Discovery<'_> {
 
     pub(super) fn of_working_directory(&self) -> Option<Utf8PathBuf> {
         self.find_above(&clean(self.working_directory))
+    }
+
+    /// Finds a file that was probably meant as the configuration, in the directories where a configuration is searched.
+    fn misnamed(&self) -> Option<Utf8PathBuf> {
+        let start = self.search_start();
+        let names = |directory| files::MISTAKEN_NAMES.iter().map(move |name| join(directory, name));
+        start.ancestors().flat_map(names).find(|file| self.system.kind(file) == FileKind::File)
     }
 
     /// Returns the directory that takes the place of the configuration's directory if there is no configuration: that of the first argument, or the

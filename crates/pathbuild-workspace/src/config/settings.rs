@@ -31,6 +31,8 @@ macro_rules! tables {
             /// The working directory's configuration, if it is ignored because the arguments are outside its tree and no other configuration applies
             /// to them.
             pub not_used: Option<Utf8PathBuf>,
+            /// A file with a name like that of a configuration, where one is searched, if there is no configuration.
+            pub misnamed: Option<Utf8PathBuf>,
             /// Whether `file` applies to a program unexpectedly: the working directory has another configuration, or the program lies outside the
             /// tree of this configuration.
             pub is_unexpected: bool,
@@ -64,6 +66,7 @@ macro_rules! tables {
                 Settings {
                     file: None,
                     not_used: None,
+                    misnamed: None,
                     date: None,
                     is_unexpected: false,
                     confined: None,

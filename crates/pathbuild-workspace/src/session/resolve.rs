@@ -360,7 +360,7 @@ impl Session<'_> {
         self.with_library_hints(diagnostics).into_iter().map(with_near).collect()
     }
 
-    /// Finds a missing path elsewhere: in the library, in a drawing with a file name that does not cover the path, or under a similar name.
+    /// Finds a missing path elsewhere: in the library, in a drawing that is not searched or whose file name does not cover the path, or under a similar name.
     fn near_path(&self, name: &str, known: &KnownNames) -> Option<(&'static Message, String)> {
         let path = PathName::new(name);
         let in_drawing = |message, file: SourceFile| Some((message, file.path(self.db()).to_string()));
@@ -369,7 +369,10 @@ impl Session<'_> {
             return in_drawing(&outputs::DEFINED_IN, *file);
         }
         if let Some((_, file)) = known.paths.iter().find(|(known, _)| *known == path) {
-            return in_drawing(&outputs::NOT_IN_FILE_NAME, *file);
+            let directory = file.path(self.db()).parent().map(Utf8Path::to_owned).unwrap_or_default();
+            let is_named = !self.definitions(&path, &[directory]).is_empty();
+            let message = if is_named { &outputs::NOT_SEARCHED } else { &outputs::NOT_IN_FILE_NAME };
+            return in_drawing(message, *file);
         }
         let paths = known.paths.iter().map(|(name, _)| name.as_str());
         let others = paths.chain(known.entries.iter().map(String::as_str)).filter(|other| *other != name);
