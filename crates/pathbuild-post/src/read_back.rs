@@ -235,7 +235,9 @@ fn bent_rapids(steps: &[Step], job: &Job, cuts: &[MatchedCut], target: &Target) 
 /// Returns errors about rapid moves with the length of another tool than the one in the spindle. Lengths of cuts are compared with the job.
 fn rapids_with_other_length(steps: &[Step], reader: Dialect) -> impl Iterator<Item = Diagnostic> {
     let mut rules = LengthRules::new(reader, None);
-    steps.iter().for_each(|step| rules.step(step));
+    for step in steps {
+        rules.step(step);
+    }
     let found = rules.finish().into_iter();
     found.filter(|problem| problem.message == &gcode::RAPID_WITH_OTHER_LENGTH).map(as_finding_of_post)
 }
