@@ -66,7 +66,8 @@ pub(super) fn check(
     } = expected;
     let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
     let options = Options { milliseconds: *milliseconds, ..Options::default() };
-    let read = interpret::interpret(text, reader, &options);
+    let mut read = interpret::interpret(text, reader, &options);
+    mark_skippable_stops(&mut read.steps, text);
     let mut problems: Vec<Diagnostic> =
         read.problems.iter().filter(|problem| problem.is_error()).cloned().map(as_finding_of_post).collect();
     if !problems.is_empty() && target.is_some() {
@@ -129,36 +130,22 @@ pub(super) fn check(
                 problems
                     .extend(target.iter().flat_map(|target| bent_rapids(&read.steps, job, &cuts, target)));
             }
-            Err(movement) => problems.push(as_finding_of_post(*movement)),
-        }
-        for word in translated.iter().flat_map(|translated| &translated.doubtful) {
-            match word.doubt {
-                Doubt::Dangerous => {
-                    let found = Diagnostic::new(&gcode::NOT_FOLLOWED).quoting("word", &*word.word);
-                    problems.push(as_finding_of_post(found.at_line(word.line, None)));
-                }
-                Doubt::Unknown => {
-                    let doubt = Diagnostic::new(&posts::WORD_NOT_FOLLOWED).quoting("word", &*word.word);
-                    doubts.push(doubt.at_line(word.line, None));
-                }
+            Err(movement) => {
+                // A line that RS274 refuses, such as G83 without Q, may be the reason.
+                let cause = read.problems.iter().find(|problem| target.is_none() && problem.is_error());
+                problems.extend(cause.cloned().map(as_finding_of_post));
+                problems.push(as_finding_of_post(*movement));
             }
         }
-        if target.is_none() {
-            doubts.extend(unused_words(&read.problems));
-            let is_low = |problem: &&Diagnostic| problem.message == &gcode::LOW_MACHINE_HEIGHT;
-            doubts.extend(read.problems.iter().filter(is_low).cloned());
+        if let Some(translated) = translated {
+            let (wrong, doubtful) = translation_findings(translated, &read.problems);
+            problems.extend(wrong.into_iter().map(as_finding_of_post));
+            doubts.extend(doubtful);
         }
         let needs_coolant = |operation: &Operation| operation.coolant.is_some_and(Coolant::is_on);
         if *follows_coolant && job.operations.iter().any(needs_coolant) && !tools::cools(&read.steps) {
             doubts.push(Diagnostic::new(&posts::COOLANT_NEVER_ON));
         }
-        doubts.extend(translated.and_then(disputed_words_warning));
-        let (wrong, doubtful): (Vec<_>, Vec<_>) = translated
-            .iter()
-            .flat_map(|translated| translated.problems.iter().cloned())
-            .partition(Diagnostic::is_error);
-        problems.extend(wrong.into_iter().map(as_finding_of_post));
-        doubts.extend(doubtful);
         let shortest = tolerance.place.max(DWELL_TOLERANCE);
         problems.extend(dwells::check(&read.steps, *translated, job, shortest).map(as_finding_of_post));
         if target.is_some() {
@@ -168,6 +155,32 @@ pub(super) fn check(
     }
     problems.extend(broken);
     if problems.is_empty() { Ok(doubts) } else { Err(problems) }
+}
+
+/// Returns the errors and the warnings about the words of a translation. `problems` are those of its reader.
+fn translation_findings(
+    translated: &TranslatedText,
+    problems: &[Diagnostic],
+) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+    let doubtful = translated.doubtful.iter().map(|word| {
+        let (message, is_dangerous) = match word.doubt {
+            Doubt::Dangerous => (&gcode::NOT_FOLLOWED, true),
+            Doubt::Unknown => (&posts::WORD_NOT_FOLLOWED, false),
+        };
+        let found = Diagnostic::new(message).quoting("word", &*word.word).at_line(word.line, None);
+        (found, is_dangerous)
+    });
+    let is_low = |problem: &&Diagnostic| problem.message == &gcode::LOW_MACHINE_HEIGHT;
+    let others = unused_words(problems)
+        .into_iter()
+        .chain(problems.iter().filter(is_low).cloned())
+        .chain(disputed_words_warning(translated))
+        .map(|doubt| (doubt, false));
+    let stated = translated.problems.iter().map(|problem| (problem.clone(), problem.is_error()));
+    let (wrong, doubts): (Vec<_>, Vec<_>) =
+        doubtful.chain(others).chain(stated).partition(|(_, is_wrong)| *is_wrong);
+    let found = |findings: Vec<(Diagnostic, bool)>| findings.into_iter().map(|(found, _)| found).collect();
+    (found(wrong), found(doubts))
 }
 
 /// Returns the first of the problems with this message as a finding about the post. Further ones are not reported.
@@ -204,6 +217,18 @@ fn begins_with_slash(line: &[u8]) -> bool {
         _ => line,
     };
     after_number.starts_with(b"/") && !after_number.starts_with(b"//")
+}
+
+/// Makes stops optional in lines that block delete can skip.
+fn mark_skippable_stops(steps: &mut [Step], text: &[u8]) {
+    let mut stops = steps.iter_mut().filter(|step| matches!(step.action, Action::Stop { .. })).peekable();
+    for (number, line) in (1_u32..).zip(text.split(|byte| *byte == b'\n')) {
+        while let Some(stop) = stops.next_if(|stop| stop.line <= number) {
+            if begins_with_slash(line) {
+                stop.action = Action::Stop { optional: true };
+            }
+        }
+    }
 }
 
 /// Whether a line has an F, or a G word other than G4.

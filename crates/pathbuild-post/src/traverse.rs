@@ -258,7 +258,9 @@ impl<'m> ExpectedTraverse<'m> {
         let goes_on = |index: usize| found.get(index).is_some_and(|(_, movement)| is_rapid(movement));
         let is_end = |index: &usize| !goes_on(*index) && place(*index).as_ref().is_some_and(is_there);
         let begins = (0..=found.len()).find(is_end);
-        begins.ok_or_else(|| self.difference(found.first().copied(), Some(*next)))
+        // The line of the cut is nearer to the fault than the first of the moves that lead to it.
+        let first_cut = || found.iter().find(|(_, movement)| !is_rapid(movement)).or(found.first());
+        begins.ok_or_else(|| self.difference(first_cut().copied(), Some(*next)))
     }
 
     fn difference(&self, found: Option<(u32, Move)>, expected: Option<(u32, Move)>) -> Box<Diagnostic> {

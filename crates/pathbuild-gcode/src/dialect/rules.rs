@@ -537,6 +537,7 @@ pub(super) static FANUC: Rules = Rules {
 
 pub(super) static HAAS: Rules = Rules {
     dialect: Dialect::Haas,
+    t_only_selects: true,
     spelling: Spelling { macros: true, ..BASE_SPELLING },
     // From memory of the operator's manual: G20 and G21 only check Setting 9, and alarm if it differs.
     units: UnitChange::Refused,

@@ -20,7 +20,7 @@ pub struct ToolState {
     spindle: Spindle,
     /// Number of the tool that was selected at the last cut; `None` before the first cut.
     cutting: Option<u32>,
-    /// Whether the program has stopped for the operator since the last cut.
+    /// Whether the program has stopped for the operator since the last cut, whatever the switches of the machine.
     has_stopped: bool,
 }
 
@@ -79,7 +79,7 @@ impl ToolState {
             }
             Action::Change(Change::ToolLength(length)) => self.set_length(step.line, *length),
             Action::Spindle(spindle) => self.spindle = *spindle,
-            Action::Stop { .. } => self.has_stopped = true,
+            Action::Stop { optional: false } => self.has_stopped = true,
             _ => {}
         }
     }
@@ -110,7 +110,7 @@ impl ToolState {
         (self.cutting, self.has_stopped) = (self.selected, false);
     }
 
-    /// Whether the program has stopped for the operator since the last cut.
+    /// Whether the program has stopped for the operator since the last cut, whatever the switches of the machine.
     pub fn has_stopped(&self) -> bool {
         self.has_stopped
     }

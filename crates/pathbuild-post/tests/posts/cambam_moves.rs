@@ -1,5 +1,6 @@
 //! Tests moves through a CamBam definition: registers, arcs, cycles, start and end of cutting.
 
+use pathbuild_diagnostic::Lang;
 use pathbuild_motion::{Arc, Move, MoveShape, Pace, Plane, Turning};
 use pathbuild_post::{Entry, Hole, HoleKind, Job, JobStep, PostOptions, Units};
 
@@ -96,6 +97,41 @@ fn a_reversed_axis_has_one_sign() {
     }
     let mixed = bare("<Rapid>{$g0} {$_x} {$_y} {$-z}</Rapid>");
     assert!(read(&mixed).unwrap().write(&job, &PostOptions::default()).is_err(), "to both sides of 0");
+}
+
+/// A hole without its moves is found at the line of the cycle, not at the rapid moves to it.
+#[test]
+fn a_wrong_cycle_is_named() {
+    let hole = Hole {
+        at: [3.0, 4.0],
+        level: 5.0,
+        retract: 1.0,
+        exit: 5.0,
+        bottom: -2.0,
+        feed: Some(60.0),
+        kind: HoleKind::Peck { depth: 1.0 },
+    };
+    let options = PostOptions { cycles: true, ..PostOptions::default() };
+    let named = |peck: &str, dialect: &str| {
+        let text = format!(
+            "<PostFile>{{$units}} G90 G17 G94\n{{$mops}}\nM30</PostFile><MOP>{{$blocks}}</MOP>
+            <CannedCycleStart>G98</CannedCycleStart><CannedCycleEnd>G80</CannedCycleEnd>
+            <DrillPeck>{peck}</DrillPeck>{dialect}"
+        );
+        let found =
+            read(&support::definition(&text)).unwrap().write(&job(vec![JobStep::Hole(hole)]), &options);
+        let errors = found.err().unwrap_or_default();
+        errors
+            .first()
+            .map(|error| error.notes.iter().map(|note| note.text(Lang::En)).collect::<Vec<_>>().join("; "))
+    };
+    for dialect in ["", "<Dialect>mach3</Dialect>"] {
+        assert_eq!(named("{$g83} {$x} {$y} {$z} {$q} {$r} {$f}", dialect), None);
+        for peck in ["{$g83} {$x} {$y} {$z} {$q} R9 {$f}", "{$g83} {$x} {$y} {$z} {$r} {$f}"] {
+            let notes = named(peck, dialect).unwrap();
+            assert!(notes.contains("comes from DrillPeck"), "{peck} {dialect}: {notes}");
+        }
+    }
 }
 
 /// Feeds have one sign on every machine, and the centres of arcs that of their axis.

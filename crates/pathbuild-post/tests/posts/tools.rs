@@ -68,6 +68,15 @@ fn each_cut_has_its_own_tool() {
     assert_eq!(changed("T{$tool.index} M6", "T{$tool.index}\nM0\n{$set(z,NaN)}"), FINE);
     let alone = changed("T{$tool.index} M6", "T{$tool.index}");
     assert!(alone[0].starts_with("T alone does not change the tool"), "{alone:?}");
+    // A switch at the machine decides whether the program stops at M1, and at a line that begins with `/`.
+    for stop in ["M1", "/M0"] {
+        let optional = changed("T{$tool.index} M6", &format!("T{{$tool.index}}\n{stop}\n{{$set(z,NaN)}}"));
+        assert!(optional[0].starts_with("T alone does not change the tool"), "{stop}: {optional:?}");
+        let without_t = changed("T{$tool.index} M6\nG43 H{$tool.index}", &format!("{stop}\n{{$set(z,NaN)}}"));
+        assert!(without_t[0].starts_with("the output has not changed to T2"), "{stop}: {without_t:?}");
+    }
+    let haas = RIGHT.replace("linuxcnc", "haas").replace("T{$tool.index} M6", "T{$tool.index}");
+    assert!(wrong(&haas, &two_tools())[0].starts_with("T alone does not change the tool"));
     let turret = RIGHT.replace("linuxcnc", "fanuc").replace("T{$tool.index} M6", "T{$tool.index}");
     assert_eq!(wrong(&turret, &two_tools()), FINE, "a control may change the tool at T");
     // Without any T, the program must stop for the operator.
