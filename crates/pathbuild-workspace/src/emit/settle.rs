@@ -167,7 +167,7 @@ fn write<'a>(
         let state = match written {
             WriteOutcome::Changed if is_edited => State::Overwritten,
             WriteOutcome::Changed => State::Written,
-            _ => State::Unchanged,
+            WriteOutcome::Unchanged => State::Unchanged,
         };
         delivered.hashes.push(hash);
         delivered.files.push((output.path.clone(), state));
