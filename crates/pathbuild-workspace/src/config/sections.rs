@@ -324,8 +324,8 @@ pub mod tables {
         severity_in: Vec<FileSeverities> = "severity-in", SEVERITY_IN, Vec::new(), "[[severity-in]]\nfiles = [\"old/**\"]\nPB112 = \"ignore\"\nreason = \"milled by hand\"\nuntil = \"2031-12-31\"", Neither;
         /// a tool, for post-processors: found by O (and by paths, a pattern of path names); with shape = "slot" (T-slot cutter,
         /// wider than its shank) its paths are compared with parts only for cuts into them, and with shape = "other" (V-bit,
-        /// drill) verify counts only the centre line of its cuts; corner-radius in mm (ball: half the diameter); length of the cutting edges in mm: a deeper cut is a
-        /// warning (PB792);
+        /// drill) verify counts only the centre line of its cuts; corner-radius in mm (ball: half the diameter); length of the cutting
+        /// edges in mm: a deeper cut is a warning (PB792);
         /// chip-load in mm per tooth: with flutes, feeds outside are a warning (PB790); a cut with the spindle turning against
         /// direction, or counter-clockwise where only spindle is given, is an error of verify (PB783)
         tools: Vec<Tool> = "tool", TOOLS, Vec::new(),

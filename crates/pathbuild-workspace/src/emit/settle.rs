@@ -184,8 +184,8 @@ fn is_edited(system: &dyn System, output: &Output, limit: u64) -> bool {
         .zip(written)
         .is_some_and(|(present, written)| present.is_same(&written) && present.version == written.version);
     let has_other_moves = |present: Vec<u8>| {
-        let [present, written] = [&present, &output.text].map(|text| String::from_utf8_lossy(text));
-        !verify::same_move_lines(&present, &written)
+        let [shown, written] = [&present, &output.text].map(|text| String::from_utf8_lossy(text));
+        present != output.text && !verify::same_move_lines(&shown, &written)
     };
     is_own && system.read(&output.path, limit).is_ok_and(has_other_moves)
 }

@@ -360,7 +360,8 @@ impl Session<'_> {
         self.with_library_hints(diagnostics).into_iter().map(with_near).collect()
     }
 
-    /// Finds a missing path elsewhere: in the library, in a drawing that is not searched or whose file name does not cover the path, or under a similar name.
+    /// Finds a missing path elsewhere: in the library, in a drawing that is not searched or whose file name does not cover the path, or under a
+    /// similar name.
     fn near_path(&self, name: &str, known: &KnownNames) -> Option<(&'static Message, String)> {
         let path = PathName::new(name);
         let in_drawing = |message, file: SourceFile| Some((message, file.path(self.db()).to_string()));
