@@ -11,9 +11,11 @@ use pathbuild_gcode::native::too_large;
 use pathbuild_gcode::verify::{Ends, Tolerance};
 use pathbuild_motion::Turning;
 
+use crate::arcs::MAX_CHORD_DISTANCE;
 use crate::findings::EngineOutput;
 use crate::job::{Job, Operation, Units};
 use crate::line_words::{CommentMarks, first_other_line, words};
+use crate::number::StatedOption;
 use crate::read_back::{self, ReadBackOptions};
 use crate::rs274_translation::TranslatedText;
 use crate::target::{self, Target};
@@ -154,6 +156,7 @@ impl PostDefinition {
             self.check_decimal_points(target.as_ref()).map_err(|error| vec![*error])?;
         }
         let rounding = self.check_rounding(job, options.unchecked).map_err(|error| vec![*error])?;
+        let chord = self.check_chord(job);
         let options = &self.restricted_to(options, target.as_ref());
         let target = target.as_ref();
         let EngineOutput { text, shadow, origins, warnings, notes, follows_coolant, post_build } =
@@ -165,7 +168,7 @@ impl PostDefinition {
             text: target::with_permitted_characters(&text, target, options.charset),
             extension: self.extension().into(),
             notes,
-            warnings: self.warnings.iter().cloned().chain(rounding).chain(warnings).collect(),
+            warnings: self.warnings.iter().cloned().chain(rounding).chain(chord).chain(warnings).collect(),
             post_build,
         };
         if output.text.len() > options.most_bytes {
@@ -331,12 +334,27 @@ impl PostDefinition {
             .then(|| self.format_finding(&posts::COARSE_NUMBERS).with("error", error)))
     }
 
+    /// Reports a stated distance between arcs and lines that is greater than the greatest that is used.
+    fn check_chord(&self, job: &Job) -> Option<Diagnostic> {
+        let (stated, option) = match &self.engine {
+            Engine::CamBam(definition) => (definition.stated_chord(job.units), definition.chord_option()),
+            Engine::Cad6(definition) => (definition.stated_chord(), definition.chord_option()),
+        };
+        let message = &posts::CHORD_LIMITED;
+        (option.line.is_some() && stated > MAX_CHORD_DISTANCE)
+            .then(|| self.option_finding(message, option).with("limit", MAX_CHORD_DISTANCE))
+    }
+
     /// Creates a finding about the option that determines how numbers are written.
     fn format_finding(&self, message: &'static Message) -> Diagnostic {
         let option = match &self.engine {
             Engine::CamBam(definition) => definition.format_option(),
             Engine::Cad6(definition) => definition.format_option(),
         };
+        self.option_finding(message, option)
+    }
+
+    fn option_finding(&self, message: &'static Message, option: StatedOption) -> Diagnostic {
         let diagnostic =
             Diagnostic::new(message).quoting("option", option.name).quoting("value", option.value);
         diagnostic.in_file(&self.file).at_line(option.line, option.column)

@@ -15,7 +15,7 @@ pub(crate) struct NumberFormat {
 
 /// The option of a definition that determines how numbers are written.
 #[derive(Debug)]
-pub(crate) struct FormatOption {
+pub(crate) struct StatedOption {
     pub(crate) name: &'static str,
     /// Value of the option in the file, or its default.
     pub(crate) value: String,

@@ -32,6 +32,13 @@ messages! {
         help_en: "write three decimals in mm or four in inches, such as NumberFormat 0.0## or decimals = 4",
         help_de: "drei Nachkommastellen in mm oder vier in Zoll schreiben, etwa NumberFormat 0.0## oder decimals = 4",
     }
+    /// A permitted distance between arcs and the lines that replace them that is not used in full.
+    CHORD_LIMITED: DoubtfulPost {
+        en: "{option} is \"{value}\"; lines that replace arcs are nevertheless at most {limit} mm away from them",
+        de: "{option} ist \"{value}\"; Strecken, die Bögen ersetzen, weichen dennoch höchstens {limit} mm von ihnen ab",
+        help_en: "write at most 0.05, or 0.0019 in inches",
+        help_de: "höchstens 0.05 schreiben, in Zoll 0.0019",
+    }
     /// A number format that writes whole numbers without a decimal point, for a target that may read them as thousandths.
     PATTERN_WITHOUT_POINT: InvalidPost {
         en: "{option} is \"{value}\", which writes whole numbers without a decimal point: some {dialect} controllers read them as thousandths",

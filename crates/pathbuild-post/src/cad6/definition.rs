@@ -1,7 +1,7 @@
 //! Reads a definition consisting of control texts and settings, which is a TOML file. (book: program/posts)
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 use camino::Utf8Path;
@@ -16,7 +16,7 @@ use super::variables::{Variable, is_parameter, is_private};
 use crate::Units;
 use crate::arcs::MAX_CHORD_DISTANCE;
 use crate::findings::{Findings, LineStarts, MAX_FINDINGS};
-use crate::number::FormatOption;
+use crate::number::StatedOption;
 
 /// A definition as parsed from its file, before any text is expanded.
 #[derive(Clone, Debug)]
@@ -94,14 +94,28 @@ impl Definition {
     }
 
     /// Returns the option that determines how numbers are written, for messages.
-    pub(crate) fn format_option(&self) -> FormatOption {
-        let (line, column) = self.settings.decimals_place.unzip();
-        FormatOption { name: "decimals", value: self.settings.decimals.to_string(), line, column }
+    pub(crate) fn format_option(&self) -> StatedOption {
+        self.option("decimals", self.settings.decimals.to_string())
+    }
+
+    /// Returns the option that determines how far lines may be from the arc that they replace, for messages.
+    pub(crate) fn chord_option(&self) -> StatedOption {
+        self.option("arc-tolerance", self.settings.arc_tolerance.to_string())
+    }
+
+    fn option(&self, name: &'static str, value: String) -> StatedOption {
+        let (line, column) = self.settings.places.get(name).copied().unzip();
+        StatedOption { name, value, line, column }
     }
 
     /// Maximum distance in mm between an arc and the lines that replace it.
     pub(crate) fn chord(&self) -> f64 {
-        self.settings.arc_tolerance.min(MAX_CHORD_DISTANCE)
+        self.stated_chord().min(MAX_CHORD_DISTANCE)
+    }
+
+    /// The same distance as the file states it.
+    pub(crate) fn stated_chord(&self) -> f64 {
+        self.settings.arc_tolerance
     }
 
     /// Unit of the output; `None` means the unit of the job.
@@ -235,9 +249,8 @@ impl ControlTextReader<'_> {
             let Some(setting) = SETTINGS.iter().find(|setting| setting.name == key) else { return };
             if (setting.set)(settings, value.get_ref()).is_none() {
                 reader.refuse(key, value, setting.expected);
-            } else if key == "decimals" {
-                settings.decimals_place = Some(reader.place(value.span().start));
             }
+            settings.places.insert(setting.name, reader.place(value.span().start));
         });
     }
 
@@ -429,8 +442,8 @@ pub(super) struct Settings {
     pub(super) extension: Box<str>,
     pub(super) end_of_line: &'static str,
     pub(super) decimals: usize,
-    /// Line and column of `decimals`, if the file states it.
-    decimals_place: Option<(u32, u32)>,
+    /// Line and column of each setting in the file.
+    places: HashMap<&'static str, (u32, u32)>,
     /// Unit of the output; `None` means the unit of the job.
     pub(super) units: Option<Units>,
     pub(super) number_lines: bool,
@@ -454,7 +467,7 @@ impl Default for Settings {
             extension: "nc".into(),
             end_of_line: "\n",
             decimals: 3,
-            decimals_place: None,
+            places: HashMap::new(),
             units: None,
             number_lines: true,
             trim: true,

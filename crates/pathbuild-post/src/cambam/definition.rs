@@ -16,7 +16,7 @@ use crate::arcs::MAX_CHORD_DISTANCE;
 use crate::findings::{Findings, LineStarts, MAX_FINDINGS};
 use crate::job::{Job, Units};
 use crate::line_words::{CommentMarks, words};
-use crate::number::FormatOption;
+use crate::number::StatedOption;
 use crate::target::Target;
 use crate::{PostMacro, PostOptions};
 
@@ -26,8 +26,8 @@ pub(crate) struct Definition {
     sections: Vec<Option<Template>>,
     defaults: Vec<Template>,
     pub(super) options: Options,
-    /// The text of `NumberFormat` and its line, if the file contains it.
-    number_format: Option<(Box<str>, u32)>,
+    /// The text and the line of each option in the file, by the name of its element.
+    stated: HashMap<Box<str>, (Box<str>, u32)>,
     pub(super) macros: UserMacros,
 }
 
@@ -155,15 +155,29 @@ impl Definition {
     }
 
     /// Returns the option that determines how numbers are written, for messages.
-    pub(crate) fn format_option(&self) -> FormatOption {
-        let stated = self.number_format.as_ref();
-        let value = stated.map_or_else(|| "0.0###".to_owned(), |(text, _)| text.to_string());
-        FormatOption { name: "NumberFormat", value, line: stated.map(|(_, line)| *line), column: None }
+    pub(crate) fn format_option(&self) -> StatedOption {
+        self.option("NumberFormat", "0.0###")
+    }
+
+    /// Returns the option that determines how far lines may be from the arc that they replace, for messages.
+    pub(crate) fn chord_option(&self) -> StatedOption {
+        self.option("ArcToLinesTolerance", "0.01")
+    }
+
+    fn option(&self, name: &'static str, default: &str) -> StatedOption {
+        let stated = self.stated.get(name);
+        let value = stated.map_or(default, |(text, _)| text).to_owned();
+        StatedOption { name, value, line: stated.map(|(_, line)| *line), column: None }
     }
 
     /// Maximum distance in mm between an arc and the lines that replace it.
     pub(crate) fn chord(&self, units: Units) -> f64 {
-        (self.options.arc_tolerance * units.millimetres()).min(MAX_CHORD_DISTANCE)
+        self.stated_chord(units).min(MAX_CHORD_DISTANCE)
+    }
+
+    /// The same distance as the file states it.
+    pub(crate) fn stated_chord(&self, units: Units) -> f64 {
+        self.options.arc_tolerance * units.millimetres()
     }
 
     pub(crate) fn writes_cycles(&self) -> bool {
@@ -221,7 +235,7 @@ impl<'a> CbppReader<'a> {
             sections: vec![None; Section::ALL.len()],
             defaults: Section::ALL.iter().map(default).collect(),
             options: Options::initial(),
-            number_format: None,
+            stated: HashMap::new(),
             macros: UserMacros::default(),
         };
         Self { file, lines, definition, seen: HashSet::new(), findings: Findings::default() }
@@ -334,9 +348,7 @@ impl<'a> CbppReader<'a> {
     }
 
     fn option(&mut self, name: &str, text: &str, line: u32) {
-        if name == "NumberFormat" {
-            self.definition.number_format = Some((text.trim().into(), line));
-        }
+        self.definition.stated.insert(name.into(), (text.trim().into(), line));
         match self.definition.options.set(name, text) {
             Ok(()) => {}
             Err(Refusal::Unknown) => {

@@ -321,6 +321,40 @@ fn rounding_is_judged_in_millimetres() {
     );
 }
 
+/// Lines are at most 0.05 mm from the arc that they replace. Who permits more is told so.
+#[test]
+fn a_permitted_distance_from_arcs_that_is_not_used_is_reported() {
+    let is_limited = |post: PostDefinition, job: &Job| {
+        let warnings = texts(&post.write(job, &PostOptions::default()).unwrap().warnings);
+        let limited =
+            warnings.iter().find(|it| it.contains("that replace arcs are nevertheless at most 0.05 mm away"));
+        limited.inspect(|text| assert!(text.contains("PB752"), "{text}")).cloned()
+    };
+    let cambam = |units: Units, distance: &str| {
+        let post = definition(&format!("<ArcToLinesTolerance>{distance}</ArcToLinesTolerance>"));
+        is_limited(read(&post).unwrap(), &Job { units, ..milled() })
+    };
+    let cad6 = |distance: &str| {
+        is_limited(
+            read_toml(&DIN.replace("[text]", &format!("arc-tolerance = {distance}\n[text]"))),
+            &milled(),
+        )
+    };
+    for (is_reported, found) in [
+        (false, cambam(Units::Millimetres, "0.05")),
+        (true, cambam(Units::Millimetres, "0.051")),
+        (false, cambam(Units::Inches, "0.0019")),
+        (true, cambam(Units::Inches, "0.002")),
+        (false, cad6("0.05")),
+        (true, cad6("0.051")),
+    ] {
+        assert_eq!(found.is_some(), is_reported, "{found:?}");
+    }
+    let unstated = is_limited(read(&definition("")).unwrap(), &milled());
+    assert_eq!(unstated, None);
+    assert!(cad6("0.5").unwrap().contains("arc-tolerance is \"0.5\""));
+}
+
 #[test]
 fn ends_of_lines_may_have_signs_in_front() {
     let end = |end: &str| {
