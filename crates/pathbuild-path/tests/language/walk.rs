@@ -35,6 +35,20 @@ fn an_arc_is_turned_round_with_its_direction() {
     assert_eq!(arc("mill arc centre 10,0 r 10 from 0 to 180"), (true, 180.0));
 }
 
+/// Among equally long segments, lines come before arcs, whatever their places in the file.
+#[test]
+fn a_line_comes_before_an_equally_long_arc() {
+    let is_line = |statements: &str| {
+        let compiled = compile(&path(P, &format!("{statements}\nend 0,0")));
+        matches!(compiled.first_chain()[0], Curve::Line(_))
+    };
+    let arc = "mill arc centre 10,0 r 10 from 180 to 0";
+    assert!(is_line(&format!("mill 0,0 20,0\n{arc}")));
+    assert!(is_line(&format!("{arc}\nmill 0,0 20,0")));
+    // A longer line comes after the arc.
+    assert!(!is_line("mill arc centre 9.99,0 r 9.99 from 180 to 0\nmill 0,0 20,0\nmill 20,0 19.98,0"));
+}
+
 /// Points coincide if the square of their distance is near 0: within 0.0000316 mm.
 #[test]
 fn ends_that_nearly_meet_do() {
