@@ -17,7 +17,7 @@ use crate::names::{CaseSensitiveName, PathName};
 use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
 use crate::raw::RawPath;
 use crate::text::TextId;
-use crate::variables::{Bindings, Definition};
+use crate::variables::{AllowedValues, Bindings, Definition};
 
 /// A path before its variables are bound.
 #[derive(Clone, Debug, PartialEq)]
@@ -490,8 +490,12 @@ impl<'a> SubpathChecker<'a> {
         let values = &call.subpath.values;
         let wrong = values.iter().filter_map(|given| self.wrong_value(call, given, inner));
         let is_given = |known: &Definition| values.iter().any(|given| given.variable == Some(known.name));
-        let missing = inner.definitions.iter().filter(|known| !is_given(known));
-        let missing = missing.map(|definition| {
+        let is_known =
+            |given: &SubpathValue| inner.definitions.iter().any(|known| given.variable == Some(known.name));
+        let unknown = values.iter().filter(|given| !is_known(given)).count();
+        let missing: Vec<_> = inner.definitions.iter().filter(|known| !is_given(known)).collect();
+        // Each missing variable may be what an unknown one was meant to be.
+        let missing = missing.into_iter().skip(unknown).map(|definition| {
             let problem = Diagnostic::new(&parameters::MISSING_VALUE_HERE)
                 .with("variable", definition.name)
                 .quoting("example", definition.check_value(0).as_str())
@@ -519,7 +523,13 @@ impl<'a> SubpathChecker<'a> {
                 Diagnostic::new(message).with("known", known)
             }
             Some(definition) if !definition.allows(&given.value) => {
-                Diagnostic::new(&parameters::VALUE_NOT_ALLOWED)
+                let is_list = matches!(definition.values, AllowedValues::List(_));
+                let message = if is_list && given.value.contains(',') {
+                    &parameters::VALUE_WITH_COMMA
+                } else {
+                    &parameters::VALUE_NOT_ALLOWED
+                };
+                Diagnostic::new(message)
                     .quoting("value", &*given.value)
                     .quoting("definition", definition.to_string())
             }

@@ -191,6 +191,13 @@ impl Definition {
         }
     }
 
+    /// Returns the first value that is in the list again; `None` if there is none.
+    pub(crate) fn repeated_value(&self) -> Option<&str> {
+        let AllowedValues::List(values) = &self.values else { return None };
+        let mut seen = HashSet::new();
+        values.iter().find(|value| !seen.insert(value.as_str())).map(SmolStr::as_str)
+    }
+
     /// Returns the value with which a path is checked. `k` is the position of the variable in its path, so that neighbouring variables get different
     /// values.
     pub fn check_value(&self, k: usize) -> SmolStr {

@@ -221,6 +221,13 @@ messages! {
         help_en: "join only paths that are milled from one sheet, or give both the same M",
         help_de: "nur Pfade verbinden, die aus demselben Blech gefräst werden, oder beiden dasselbe M geben",
     }
+    /// A list of permitted values with the same value twice.
+    LISTED_TWICE: DoubtfulValue {
+        en: "the values of variable \"{variable}\" contain \"{value}\" twice",
+        de: "die Werte der Variable \"{variable}\" enthalten \"{value}\" zweimal",
+        help_en: "remove one of them; if the commas are decimal commas, write points: in a list, the comma separates the values",
+        help_de: "einen davon entfernen; sind die Kommas Dezimalkommas, Punkte schreiben: in einer Liste trennt das Komma die Werte",
+    }
     /// Two probes of a path with the same name (L).
     PROBE_NAME_TWICE: DoubtfulValue {
         en: "L is {label}, as for the probe at {point}: the file for the measured heights has two lines with this name",
@@ -675,6 +682,13 @@ messages! {
         de: "Variable \"{variable}\" kann nicht \"{value}\" sein",
         help_en: "use a value that path {name} allows: {definition}",
         help_de: "einen Wert verwenden, den Pfad {name} erlaubt: {definition}",
+    }
+    /// A value with a comma that the definition does not permit, because the comma separates the values of its list.
+    VALUE_WITH_COMMA: VariableValueNotAllowed {
+        en: "variable \"{variable}\" cannot be \"{value}\"",
+        de: "Variable \"{variable}\" kann nicht \"{value}\" sein",
+        help_en: "write decimals with a point, here and in path {name}, whose list is {definition}: the comma separates its values",
+        help_de: "Dezimalstellen mit Punkt schreiben, hier und in Pfad {name}, dessen Liste {definition} ist: das Komma trennt ihre Werte",
     }
     /// A variable with a value that refers to itself.
     ENDLESS: EndlessVariable {

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing::BARS_ON_HOLE;
+use pathbuild_diagnostic::messages::parameters::LISTED_TWICE;
 use pathbuild_diagnostic::messages::{drawing, parameters};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Number, Point, Value};
 use smol_str::SmolStr;
@@ -154,7 +155,14 @@ impl PathCheck<'_> {
         let (mut definitions, mut problems, mut faulty) = (Vec::new(), Vec::new(), Vec::new());
         for piece in pieces {
             match Definition::parse(parameters.value(piece)) {
-                Ok(definition) => definitions.push(definition),
+                Ok(definition) => {
+                    if let Some(value) = definition.repeated_value() {
+                        let problem = Diagnostic::new(&LISTED_TWICE).quoting("value", value);
+                        let problem = problem.with("variable", definition.name);
+                        problems.push(self.raw.at_parameters(problem.with_text(parameters.fault(piece))));
+                    }
+                    definitions.push(definition);
+                }
                 Err(problem) => {
                     faulty.extend(parameters.value(piece).chars().next());
                     // The spaces in the definition are reported separately.

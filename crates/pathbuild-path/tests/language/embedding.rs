@@ -327,9 +327,34 @@ fn values_fit_the_definitions_of_the_path() {
     assert_eq!(with(":B1.1"), ["PB304"]);
     assert_eq!(with(""), ["PB302"]);
     assert_eq!(with(":B1 :C1"), ["PB303"]);
+    // C may be what B was meant to be.
+    assert_eq!(with(":C1"), ["PB303"]);
+    let two = PathHeader::of(&raw(&path("T5 O3 I1 Mx :B0~1 :D0~1", "mill 0,0 20,0 \"B=B D=D\"\nend 20,0")));
+    let outer = project("T5 O3 I1 B0 Mx", ">1111.1P :C1");
+    let found = judged(&outer, &[], |judge, call| codes(&judge.binding_problems(call, &two)));
+    assert_eq!(found, ["PB303", "PB302"]);
     let unsound = PathHeader { is_sound: false, ..inner.clone() };
     let outer = project("T5 O3 I1 B0 Mx", ">1111.1P");
     assert_eq!(judged(&outer, &[], |judge, call| codes(&judge.binding_problems(call, &unsound))), RIGHT);
+}
+
+/// In a list, the comma separates the values, so that a decimal comma is none of them.
+#[test]
+fn a_decimal_comma_in_the_value_of_a_list_is_explained() {
+    let advice = |definition: &str| {
+        let inner = format!("T5 O3 I1 Mx {definition}");
+        let inner = PathHeader::of(&raw(&path(&inner, "mill 0,0 20,0 \"B=B\"\nend 20,0")));
+        let outer = project("T5 O3 I1 B0 Mx", ">1111.1P :B0,8");
+        let found = judged(&outer, &[], |judge, call| judge.binding_problems(call, &inner));
+        found
+            .iter()
+            .map(|found| found.help(Lang::En).is_some_and(|help| help.contains("with a point")))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(advice(":B0,5,0.8"), [true]);
+    assert_eq!(advice(":B?08"), [false]);
+    assert_eq!(advice(":B0~0,7"), [false]);
+    assert_eq!(advice(":B0~0,8"), [false; 0]);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Tests variables. (book: language/variables)
 
+use pathbuild_diagnostic::Lang;
 use pathbuild_path::{Bindings, Definition};
 
 use crate::support::{codes, compile_raw, language, path, raw, read, wrong};
@@ -189,7 +190,7 @@ fn a_filled_value_is_checked_like_any_other() {
 #[test]
 fn definitions_are_not_filled_in() {
     assert_eq!(definition("a=b,=c").corner_values(), ["=b", "=c"]);
-    assert_eq!(wrong(&path("T5 O3 I1 B0 :a=b,=b :b1~2", "mill 0,0 40,0 \"B=a\"\nend 40,0")), [""; 0]);
+    assert_eq!(wrong(&path("T5 O3 I1 B0 :a=b,=c :b1~2 :c1~2", "mill 0,0 40,0 \"B=a\"\nend 40,0")), [""; 0]);
 }
 
 #[test]
@@ -211,6 +212,18 @@ fn bindings_compare_without_order() {
         |values: [(char, &str); 2]| Bindings::new(values.map(|(name, value)| (name, value.into())));
     assert_eq!(bindings([('a', "1"), ('b', "2")]), bindings([('b', "2"), ('a', "1")]));
     assert_ne!(bindings([('a', "1"), ('b', "2")]), bindings([('a', "2"), ('b', "1")]));
+}
+
+/// `0,5,0,8` was probably meant to be 0.5 and 0.8.
+#[test]
+fn a_value_that_is_listed_twice_is_reported() {
+    let found = |start: &str| {
+        let raw = raw(&path(&format!("T5 O3 I1 {start}"), "mill 0,0 40,0 \"B=D\"\nend 40,0"));
+        raw.diagnostics.iter().map(|found| found.text(Lang::En)).collect::<Vec<_>>()
+    };
+    assert_eq!(found(":D0,5,0,8"), ["the values of variable \"D\" contain \"0\" twice"]);
+    assert_eq!(found(":D0,5,00,8"), [""; 0]);
+    assert_eq!(found(":D0.5,0.8"), [""; 0]);
 }
 
 #[test]
