@@ -58,6 +58,15 @@ fn library(head: &str) -> Place {
     Place::of(&LIBRARY.replace("library = [\".\"]", &format!("library = [\".\"]\n{head}")))
 }
 
+/// Names of paths do not differ by case, so the layer `1400.1t` has the same tool.
+#[test]
+fn the_tool_of_a_path_does_not_depend_on_case() {
+    let drawing = LIBRARY.replace("layer 1400.1T", "layer 1400.1t");
+    let place = Place::of(&drawing);
+    let written = runs(&place, ["emit 1400.1T --post linuxcnc -o -"]);
+    assert!(written.contains("T7 M6") && written.contains("S6000"), "{written}");
+}
+
 #[test]
 fn a_program_is_written_through_a_post() {
     let place = library("");

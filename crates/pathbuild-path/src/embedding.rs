@@ -13,7 +13,7 @@ use crate::effective::{PathNumbers, PathOptions, PathRole};
 use crate::element::Origin;
 use crate::language::Language;
 use crate::letter::{Letter, Letters};
-use crate::names::{CaseSensitiveName, PathName};
+use crate::names::{CaseSensitiveName, PathName, name_regex};
 use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName, SubpathValue};
 use crate::raw::RawPath;
 use crate::text::TextId;
@@ -335,7 +335,7 @@ impl Restriction {
     /// # Errors
     /// If one of them is not a valid regular expression.
     pub fn new(parent: &str, child: &str) -> Result<Self, regex::Error> {
-        Ok(Self { parent: Regex::new(parent)?, child: Regex::new(child)? })
+        Ok(Self { parent: name_regex(parent)?, child: name_regex(child)? })
     }
 
     fn child(&self) -> &Regex {
@@ -376,7 +376,7 @@ impl<'a> SubpathChecker<'a> {
     ) -> Self {
         let restriction = || restrictions.iter().find(|rule| outer.name.is_match(&rule.parent));
         let rule = match &outer.embeds_only {
-            Some(own) => Rule::Own(own, Regex::new(own).ok()),
+            Some(own) => Rule::Own(own, name_regex(own).ok()),
             None if outer.unknown.contains(Letter::E) => Rule::Any,
             None => restriction().map_or(Rule::Any, |rule| Rule::Restriction(rule.child())),
         };

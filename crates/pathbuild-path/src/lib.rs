@@ -49,7 +49,9 @@ pub use names::files::{
     FilePattern, NameRange, PathKey, RangeTable, check_file_name, is_q_project, q_project_name,
     tested_by_q_project,
 };
-pub use names::{CaseSensitiveName, LayerPattern, PathLayer, PathName, PathPattern, PatternError};
+pub use names::{
+    CaseSensitiveName, LayerPattern, PathLayer, PathName, PathPattern, PatternError, name_regex,
+};
 pub use part::{
     CutElement, DrawnParts, EarlierCuts, EmbeddedPlace, LeftMaterial, LostBar, MAX_WEAK_BRIDGE,
     NeighbourCuts, NeighbourGouge, Part, PartCut, PartFindings, PartRing, PartSettings, PartSweep, PathCuts,

@@ -13,12 +13,12 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::CuttingTool;
 use pathbuild_gcode::verify::{Machine, PostWords, Travel};
 use pathbuild_motion::{Coolant, Turning};
+use pathbuild_path::name_regex;
 use pathbuild_post::{
     BUILT_IN, Job, Operation, Output, PostDefinition, PostFiles, PostOptions, Tool, ToolEntry, ToolTable,
     TranslatedText, samples,
 };
 use pathbuild_view::Tip;
-use regex::Regex;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::config::types::NumberRange;
@@ -435,7 +435,7 @@ fn entry(tool: &types::Tool) -> ToolEntry {
     ToolEntry {
         name: tool.name.clone(),
         diameter: tool.diameter,
-        paths: tool.paths.as_deref().and_then(|pattern| Regex::new(pattern).ok()),
+        paths: tool.paths.as_deref().and_then(|pattern| name_regex(pattern).ok()),
         index: tool.number,
         spindle: tool.turning(),
         speed: tool.spindle,

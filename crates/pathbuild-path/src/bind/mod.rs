@@ -11,7 +11,6 @@ use std::sync::Arc;
 use pathbuild_diagnostic::messages::{drawing, parameters as messages, paths};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_motion::ChipLoad;
-use regex::Regex;
 use smol_str::SmolStr;
 
 use crate::approx::{above, is_negligible};
@@ -21,6 +20,7 @@ use crate::element::{Cut, Element, Marker, Origin, Role, Shape, diagnostic_point
 use crate::geometry::{Curve, Line, PlaceKey};
 use crate::language::{Language, PathTool};
 use crate::letter::{ElementClass, Letter, LetterUse, Letters};
+use crate::names::name_regex;
 use crate::path::{
     CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath, SubpathName, SubpathValue,
     Surface, Turn,
@@ -162,7 +162,7 @@ impl<'a> Binder<'a> {
             material: self.path_text(Letter::M),
             feed: self.path_number(Letter::F),
             output_suffix: self.path_text(Letter::R).unwrap_or_default(),
-            embeds_only: self.path_text(Letter::E).filter(|own| Regex::new(own).is_ok()),
+            embeds_only: self.path_text(Letter::E).filter(|own| name_regex(own).is_ok()),
             start: start.at,
             end: end.at,
             turns: turns.map(|turn| Turn { origin: turn.origin.clone(), at: turn.at }).collect(),
@@ -269,7 +269,7 @@ impl<'a> Binder<'a> {
             let missing = Diagnostic::new(&messages::MISSING_AT_START).with("letter", letter.as_char());
             problems.push(self.with_path_text(missing.with_text(self.raw.parameters().whole_text_fault())));
         }
-        if let Some(Err(error)) = self.values.text(Letter::E).map(Regex::new) {
+        if let Some(Err(error)) = self.values.text(Letter::E).map(name_regex) {
             let problem = Diagnostic::new(&messages::INVALID_REGEX).with("reason", regex_reason(&error));
             problems.push(self.values.underline(Letter::E, problem));
         }

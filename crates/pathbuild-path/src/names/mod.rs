@@ -14,7 +14,7 @@ use smol_str::SmolStr;
 use crate::look_alikes;
 use pattern::{DefaultPattern, Groups, Pattern};
 
-pub use pattern::{LayerPattern, PatternError};
+pub use pattern::{LayerPattern, PatternError, name_regex};
 
 /// A path name in the spelling of its layer, with points. Comparison ignores case. Short names are stored inline, since every stage copies them.
 #[derive(Clone)]

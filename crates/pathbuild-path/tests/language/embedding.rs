@@ -215,6 +215,7 @@ fn e_says_what_may_be_embedded() {
     assert_eq!(refused(&with("11.1P"), &[]), None);
     assert_eq!(refused(&with("^2"), &[]).as_deref(), Some("PB507"));
     assert_eq!(refused(&with("^1"), &[restriction("", "^2")]), None);
+    assert_eq!(refused(&with("1p$"), &[]), None);
 }
 
 /// The first restriction that applies to a path decides.
@@ -226,6 +227,9 @@ fn restrictions_say_what_may_be_embedded() {
     assert_eq!(refused(&outer, &[restriction("^1", "^2")]).as_deref(), Some("PB507"));
     assert_eq!(refused(&outer, &[restriction("^1", "^1"), restriction("^1", "^2")]), None);
     assert_eq!(refused(&outer, &[restriction("^8", "^1"), restriction("", "^2")]).as_deref(), Some("PB507"));
+    // Names do not differ by case.
+    assert_eq!(refused(&outer, &[restriction("p$", "l$")]).as_deref(), Some("PB507"));
+    assert_eq!(refused(&outer, &[restriction("p$", "p$")]), None);
 }
 
 #[test]

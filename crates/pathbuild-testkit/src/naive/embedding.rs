@@ -194,7 +194,7 @@ impl<'m> Visit<'m> {
     /// Whether E of the embedding path allows the name; without E, the first applicable `--restrict` decides.
     fn is_allowed(&self, path: &Path, name: &PathName) -> bool {
         let is_in = |rule: &str, name: &PathName| {
-            Regex::new(rule).is_ok_and(|pattern| pattern.is_match(name.as_str()))
+            Regex::new(&format!("(?i){rule}")).is_ok_and(|pattern| pattern.is_match(name.as_str()))
         };
         if let Some(rule) = &path.embeds_only {
             return is_in(rule, name);
