@@ -613,3 +613,13 @@ fn cuts_lowered_deep_below_the_plate_are_told_once() {
     assert_eq!(plate_warnings(&heights, -0.4), ["a_Clean.gcode:4:6 PB602"], "the lowest");
     assert_eq!(plate_warnings(&["-0.800"], 0.1), [""; 0], "drawn so deep");
 }
+
+#[test]
+fn a_height_that_is_not_corrected_must_be_above_the_measured_surface() {
+    let program = |words: &str| {
+        format!("(Z1)\nG00 {words} (Z1) ;Z1\nG01 Z1.000(=1.000+1.000*[#51-2.000])\nG00 {words}\n")
+    };
+    assert_eq!(run(program("X1 Z2.101"), VALUES).unwrap().warnings, []);
+    assert_eq!(refused(run(program("X1 Z2.100"), VALUES)), ["a_Clean.gcode:2:9 PB602"]);
+    assert_eq!(refused(run(program("z 2"), VALUES)), ["a_Clean.gcode:2:7 PB602"]);
+}

@@ -331,3 +331,27 @@ fn a_native_program_names_neither_a_speed_nor_places_of_the_machine() {
         assert_eq!(run.status, Some(1), "{word}: {run}");
     }
 }
+
+#[test]
+fn verify_finds_heights_of_a_corrected_program_in_the_material_and_in_the_plate() {
+    let place = adjusted("");
+    let good = place.read("a_Milling.gcode");
+    let measured = |height: &str| good.replace("Z20.000\n", &format!("Z{height}\n"));
+    let highest =
+        good.lines().filter_map(|line| line.strip_prefix("(Probe ")?.rsplit_once(" Z")).map(|(_, z)| z);
+    let highest = highest.map(|z| z.trim_end_matches(')').parse::<f64>().unwrap()).fold(0.0, f64::max);
+    let cases = [(highest + 0.001, false), (highest, true)];
+    for (height, is_found) in cases {
+        write(&place, "edited.gcode", &measured(&format!("{height:.3}")));
+        let run = place.run("verify edited.gcode");
+        assert_eq!(run.stderr.contains("error[PB602]"), is_found, "{run}");
+    }
+    measure(&place, |_, _| -1.0);
+    succeed(&place.run("adjust a.dxf --max-correction 1"));
+    for (limit, is_found) in [("0.51", false), ("0.49", true)] {
+        write(&place, "pathbuild.toml", &format!("{VALUES}[warnings]\nbelow-plate = {limit}\n"));
+        for run in verify(&place, "a_Milling.gcode") {
+            assert_eq!(run.stderr.contains("warning[PB602]"), is_found, "{limit}: {run}");
+        }
+    }
+}

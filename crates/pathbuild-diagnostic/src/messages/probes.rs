@@ -85,6 +85,13 @@ messages! {
         help_en: "this place lies far outside the probes: draw some near it, or allow more with --max-correction",
         help_de: "diese Stelle liegt weit außerhalb der Proben: welche in ihrer Nähe zeichnen, oder mit --max-correction mehr erlauben",
     }
+    /// A rapid move at S, which is not corrected, at or below the highest measured height.
+    SWEEP_BELOW_MEASURED: CorrectionTooLarge {
+        en: "the material was measured up to Z {surface}, but the program moves at rapid at Z {z} before its first cut and after its last one",
+        de: "das Material reicht nach der Messung bis Z {surface}, aber vor dem ersten und nach dem letzten Schnitt fährt das Programm mit Eilgang auf Z {z}",
+        help_en: "this height is the S of the path, which is not corrected: write a greater S in the drawing, and emit again",
+        help_de: "diese Höhe ist das S des Pfads, das nicht korrigiert wird: in der Zeichnung S höher setzen und noch einmal emit aufrufen",
+    }
     /// Cuts through the material that end above the plate after the correction.
     RAISED_ABOVE_PLATE: CorrectionTooLarge {
         en: "cuts down to the plate (Z 0) or below it now end above it, up to Z {z}: they no longer go through",

@@ -4,20 +4,22 @@
 //! Therefore little memory is needed besides the texts of both programs, and nothing is written if there is an error.
 
 mod check;
+mod heights;
 mod scan;
 mod values;
 
 use std::ops::Range;
 
 use camino::Utf8Path;
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes as messages;
-use pathbuild_diagnostic::{Diagnostic, Severity};
-use pathbuild_path::approx::above;
 
 use crate::native::{f3, push_exact};
 use crate::provenance::is_same_program;
 
 use check::{Check, MIN_DIFFERENCE, Values};
+use heights::HeightRules;
+pub use heights::corrected_heights;
 use scan::{
     Fault, FormulaSpan, Line, Probes, byte_order_mark, formula_spans, in_line, lines, located, number,
     value_of,
@@ -176,6 +178,9 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
         return Err(problems);
     }
     let mut adjusted = evaluate_formulas(inputs, &values)?;
+    if adjusted.warnings.iter().any(Diagnostic::is_error) {
+        return Err(adjusted.warnings);
+    }
     adjusted.warnings.extend(check.odd_probes(&lines));
     adjusted.unused = check.report_unused_probes(&lines);
     Ok(adjusted)
@@ -185,7 +190,8 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
 /// probe's does, because weights with three decimals need not sum to 1.
 const CORRECTION_SLACK: (f64, f64) = (1.002, 0.002);
 
-/// Evaluates all formulas and adds the measured heights to the header. Everything else is preserved byte for byte.
+/// Evaluates all formulas and adds the measured heights to the header. Everything else is preserved byte for byte. The findings of
+/// [`HeightRules`] are among the warnings, also those that are errors.
 ///
 /// # Errors
 /// Formulas that cannot be evaluated, or whose result is too large.
@@ -195,7 +201,8 @@ pub(super) fn evaluate_formulas(
 ) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     let bytes = inputs.program.bytes;
     let adjusted = AdjustedProgram::default();
-    let mut writer = Writer { inputs, values, adjusted, raised: None, lowered: None, problems: Vec::new() };
+    let rules = HeightRules::new(inputs.below_plate, values.values().copied());
+    let mut writer = Writer { inputs, values, adjusted, rules, problems: Vec::new() };
     writer.adjusted.program.reserve(bytes.len() + bytes.len() / 32);
     writer.adjusted.program.extend_from_slice(byte_order_mark(bytes));
     let mut is_in_header = true;
@@ -210,8 +217,7 @@ pub(super) fn evaluate_formulas(
     if !writer.problems.is_empty() {
         return Err(writer.problems);
     }
-    let extremes = [writer.raised, writer.lowered].into_iter().flatten();
-    writer.adjusted.warnings.extend(extremes.map(|(_, warning)| warning));
+    writer.adjusted.warnings.extend(writer.rules.finish());
     Ok(writer.adjusted)
 }
 
@@ -219,10 +225,7 @@ struct Writer<'w> {
     inputs: &'w Inputs<'w>,
     values: &'w Values,
     adjusted: AdjustedProgram,
-    /// The greatest height above the plate of a cut that was drawn down to the plate or below it, with its warning.
-    raised: Option<(f64, Diagnostic)>,
-    /// The least height that a correction lowered too far below the plate, with its warning.
-    lowered: Option<(f64, Diagnostic)>,
+    rules: HeightRules,
     problems: Vec<Diagnostic>,
 }
 
@@ -246,6 +249,7 @@ impl Writer<'_> {
     }
 
     fn line(&mut self, line: Line<'_>) {
+        self.rules.line(line);
         let mut done = 0;
         for spot in formula_spans(line.content()) {
             match self.height(line, &spot) {
@@ -277,7 +281,7 @@ impl Writer<'_> {
         if is_height(line.content(), spot) {
             let drawn = number(line.content(), spot).unwrap_or(height);
             self.check(line, spot, height - drawn)?;
-            self.check_plate(line, spot, drawn, height);
+            self.rules.corrected(line, spot, drawn, height);
         }
         Ok(height)
     }
@@ -297,29 +301,6 @@ impl Writer<'_> {
         *lowest = lowest.min(correction);
         *highest = highest.max(correction);
         Ok(())
-    }
-}
-
-impl Writer<'_> {
-    /// Records a cut that was drawn through the material and is not through any more, and one that goes deep below the plate.
-    fn check_plate(&mut self, line: Line<'_>, spot: &FormulaSpan, drawn: f64, height: f64) {
-        let warning = |message| {
-            let problem = line.fault(message, spot.number.start..spot.formula.end).with("z", height);
-            let problem = problem.with("depth", -height).with("limit", self.inputs.below_plate);
-            Some((height, Diagnostic { severity: Severity::Warning, ..problem }))
-        };
-        if drawn <= 0.0
-            && height > MIN_DIFFERENCE
-            && self.raised.as_ref().is_none_or(|(most, _)| height > *most)
-        {
-            self.raised = warning(&messages::RAISED_ABOVE_PLATE);
-        }
-        if height < drawn
-            && above(-height, self.inputs.below_plate)
-            && self.lowered.as_ref().is_none_or(|(least, _)| height < *least)
-        {
-            self.lowered = warning(&messages::LOWERED_BELOW_PLATE);
-        }
     }
 }
 

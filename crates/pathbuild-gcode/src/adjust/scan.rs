@@ -110,6 +110,26 @@ fn closing_bracket(line: &[u8], open: usize) -> Option<usize> {
     })
 }
 
+/// Returns the number of the first Z word that has no formula, as a byte range of the line.
+pub(super) fn plain_height(line: &[u8]) -> Option<Range<usize>> {
+    let mut at = 0;
+    while let Some(byte) = line.get(at).filter(|byte| **byte != b';') {
+        at = match byte {
+            b'(' => closing_bracket(line, at)? + 1,
+            _ => at + 1,
+        };
+        if byte.eq_ignore_ascii_case(&b'Z') {
+            let start = at + line[at..].iter().take_while(|byte| **byte == b' ').count();
+            let length = line[start..].iter().take_while(|byte| b"+-.0123456789".contains(byte)).count();
+            let number = start..start + length;
+            if !line[number.end..].starts_with(b"(=") {
+                return Some(number);
+            }
+        }
+    }
+    None
+}
+
 #[derive(Debug, Default)]
 pub(super) struct ProbeSurvey<'a> {
     pub(super) probes: BTreeMap<u32, ProbeUse<'a>>,

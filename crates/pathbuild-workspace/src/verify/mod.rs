@@ -12,7 +12,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::gcode::{self as say, FEED_IGNORED, NO_DECIMAL_POINT};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
-use pathbuild_gcode::adjust::first_open_formula;
+use pathbuild_gcode::adjust::{Source, corrected_heights, first_open_formula};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{Header, HeaderReader};
 use pathbuild_gcode::interpret::{EvidenceKind, Guess};
@@ -550,6 +550,9 @@ impl<'v> Examination<'v> {
         if program.dialect == Dialect::Native {
             found.extend(native::unstated_heights(&program.text));
             found.extend(self.unadjusted_heights());
+            let source = Source { file: &program.file, bytes: &program.text };
+            let below_plate = verifier.settings.warnings.below_plate.value;
+            found.extend(corrected_heights(source, below_plate));
         }
         found.extend(written.statistics);
         found.extend(self.sources.disagreements());
