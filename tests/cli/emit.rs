@@ -774,6 +774,25 @@ fn joined_paths_cut_into_no_parts_of_each_other() {
     }
 }
 
+/// The probing program is the first that runs, and goes where no cut does.
+#[test]
+fn the_probing_program_stays_within_the_limits_of_the_machine() {
+    let drawing = dxf("layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 MX\"\nmill 0,0 20,0\nprobe 80,20\nend 20,0");
+    let run = |machine: &str| {
+        let configuration =
+            format!("feed = 150\nprobe-feed = 200\nrapid = 1000\nsweep-height = 10\n[machine]\n{machine}\n");
+        let place = Place::new().file("pathbuild.toml", configuration).file("1234.1P.dxf", drawing.clone());
+        let emitted = place.run("emit 1234.1P");
+        let is_written = place.path().join("1234.1P_Probing.gcode").exists();
+        let codes = ["PB747", "PB748"].map(|code| emitted.stderr.contains(code));
+        assert!(codes == [false, false] || emitted.stderr.contains("1234.1P_Probing.gcode"), "{emitted}");
+        (codes, is_written)
+    };
+    assert_eq!(run("x = [0, 80]\nrates = [1000, 1000, 200]"), ([false, false], true));
+    assert_eq!(run("x = [0, 79.9]"), ([false, true], false));
+    assert_eq!(run("rates = [1000, 1000, 199]"), ([true, false], true));
+}
+
 /// `emit` and `verify` apply the same rules, although `emit` knows coordinates with more than three decimals.
 #[test]
 fn emit_and_verify_agree_on_the_limits_of_a_machine() {

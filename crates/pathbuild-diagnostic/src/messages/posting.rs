@@ -400,6 +400,11 @@ messages! {
         en: "in line {line} of the output",
         de: "in Zeile {line} der Ausgabe",
     }
+    /// Note: the line of one of several files that contains the problem.
+    IN_OUTPUT_FILE: PostDiffers {
+        en: "in line {line} of {name}",
+        de: "in Zeile {line} von {name}",
+    }
     /// Note: the section and line of the definition that wrote the line of output.
     WRITTEN_BY_LINE: PostDiffers {
         en: "the line comes from {section}, line {at} of the definition",

@@ -4,6 +4,8 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Axes, Frame, Move, MoveShape, NamedPosition, Step, Turning};
 
+use crate::dialect::Dialect;
+use crate::interpret::{Options, interpret_each};
 use crate::read::Problems;
 
 /// The limits of a machine. Unknown limits are not checked.
@@ -17,6 +19,13 @@ pub struct Machine {
     pub rates: [Option<f64>; 3],
     /// Minimum and maximum spindle speed, in 1/min.
     pub spindle: Option<(f64, f64)>,
+}
+
+/// Returns the moves and speeds of a native text that exceed the machine's capabilities, by line. Heights are those to which the tool moves.
+pub fn text_beyond_machine(text: &[u8], machine: &Machine) -> Vec<Diagnostic> {
+    let mut rules = MachineRules::new(machine);
+    interpret_each(text, Dialect::Native, &Options::default(), &mut |step| rules.step(&step));
+    rules.finish()
 }
 
 /// The travel of the axes, in mm.

@@ -42,7 +42,7 @@ pub use cutting_length::CuttingLengthRules;
 pub use depth::DepthRules;
 pub use direction::DirectionRules;
 pub use lengths::LengthRules;
-pub use machine::{Machine, MachineRules, Travel};
+pub use machine::{Machine, MachineRules, Travel, text_beyond_machine};
 pub use material::{Cutter, Stock, StockSpan, rapid_hits};
 pub use rapids::{beyond_machine, rapids_into_material};
 pub use rules::Rules;

@@ -10,11 +10,11 @@ use pathbuild_db::{
     program, summary, traced_program,
 };
 use pathbuild_diagnostic::messages::gcode::FEED_TOO_HIGH;
-use pathbuild_diagnostic::messages::{files, parameters, paths as messages, probes};
-use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity, words};
+use pathbuild_diagnostic::messages::{files, parameters, paths as messages, posts, probes};
+use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity, Value, words};
 use pathbuild_gcode::native::{self, probe_name};
 use pathbuild_gcode::read::LONGEST_LINE;
-use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material};
+use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material, text_beyond_machine};
 use pathbuild_path::approx::near;
 use pathbuild_path::{Curve, KeepOutMap, Line, TipMove, Xy};
 use pathbuild_post::Job as PostJob;
@@ -222,9 +222,31 @@ fn write_native(
         let Some(text) = text else { return Ok(None) };
         too_long_line(&text, path).map_or(Ok(()), |problem| Err(vec![at(problem)]))?;
         kind.read_back(&text, program).map_err(fault)?;
+        if *kind == OutputKind::Probing {
+            let beyond = probing_beyond_machine(&text, path, settings.machine.as_ref());
+            let (errors, warnings): (Vec<_>, Vec<_>) = beyond.map(&at).partition(Diagnostic::is_error);
+            delivered.problems.extend(warnings);
+            if !errors.is_empty() {
+                return Err(errors);
+            }
+        }
         Ok(Some(Output { kind: *kind, path: path.clone(), text: text.into_bytes() }))
     };
     job.files.iter().map(output).filter_map(Result::transpose).collect()
+}
+
+/// Returns the moves of a probing program that exceed the machine's capabilities. They come from the probes, not from a step of the path's program.
+fn probing_beyond_machine(
+    text: &str,
+    path: &Utf8Path,
+    machine: Option<&Machine>,
+) -> impl Iterator<Item = Diagnostic> {
+    let found = machine.map(|machine| text_beyond_machine(text.as_bytes(), machine));
+    let name = path.file_name().unwrap_or_default().to_owned();
+    found.into_iter().flatten().map(move |mut problem| {
+        let line = u64::from(problem.place.line.take().unwrap_or_default());
+        problem.note(&posts::IN_OUTPUT_FILE, vec![("line", line.into()), ("name", Value::quoted(&name))])
+    })
 }
 
 fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Item = Diagnostic> {
