@@ -454,6 +454,35 @@ fn a_key_of_an_earlier_version_names_its_successor() {
     assert!(run.stderr.contains("PB003") && run.stderr.contains("`compatible = true`"), "{run}");
 }
 
+/// To TOML, 12.000 is 12: a spindle would turn at 12 rotations a minute.
+#[test]
+fn a_speed_with_a_separator_of_thousands_is_refused() {
+    let run = |text: &str, options: &str| {
+        let run = Place::new().file("pathbuild.toml", text).run(&format!("config show {options}"));
+        assert_eq!(run.status == Some(2), run.stderr.contains("1200 instead of 1.200"), "{text}: {run}");
+        run.status == Some(2)
+    };
+    for text in [
+        "feed = ",
+        "rapid = ",
+        "probe-feed = ",
+        "[machine]\nmaximum-feed = ",
+        "[tool.a]\ndiameter = 2\nspindle = ",
+    ] {
+        assert!(run(&format!("{text}12.000\n"), ""), "{text}");
+        assert!(run(&format!("{text}99.999\n"), ""), "{text}");
+        assert!(!run(&format!("{text}100.000\n"), ""), "{text}");
+        assert!(!run(&format!("{text}12.00\n"), ""), "{text}");
+        assert!(run(&format!("{text}1.000\n"), ""), "{text}");
+        assert!(!run(&format!("{text}0.999\n"), ""), "{text}");
+        assert!(!run(&format!("{text}12000\n"), ""), "{text}");
+    }
+    assert!(run("", "--feed 1,200"));
+    assert!(run("", "--probe-feed 1.200"));
+    assert!(!run("", "--feed 1200"));
+    assert!(!run("", "--sweep-height 1.200"));
+}
+
 /// A TOML table extends to the next one: a key added at the end belongs to the last table.
 #[test]
 fn a_key_in_the_wrong_table_is_told_where_it_belongs() {

@@ -356,6 +356,8 @@ words! {
     NUMBER: "a number", "eine Zahl";
     /// Permitted values of measures. Values beyond these bounds can only be mistakes.
     MEASURE: "a number from 0.001 to 1000000", "eine Zahl von 0.001 bis 1000000";
+    /// Permitted values of speeds in mm/min or 1/min.
+    SPEED: "a number without a separator of thousands, such as 1200 instead of 1.200", "eine Zahl ohne Tausendertrennzeichen, etwa 1200 statt 1.200";
     /// Permitted values: numbers greater than 0.
     POSITIVE: "a number greater than 0", "eine Zahl größer als 0";
     /// Permitted values: 0 and greater numbers.

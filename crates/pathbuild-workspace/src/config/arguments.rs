@@ -7,7 +7,7 @@ use pathbuild_db::system::join;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message, Text, TextFault, Value};
 
-use super::kinds::{MEASURE_BOUNDS, number_from_text, regex_fault, split_restriction};
+use super::kinds::{MEASURE_BOUNDS, has_thousands, number_from_text, regex_fault, split_restriction};
 use super::origin::SourcedValue;
 use super::types::{Directories, Restriction};
 use crate::waivers::RunDate;
@@ -187,6 +187,15 @@ impl GivenOption<'_> {
     pub(super) fn positive_number(&self) -> Result<Option<f64>, Vec<Diagnostic>> {
         let number = number_from_text(self.last()).filter(|number| MEASURE_BOUNDS.contains(number));
         number.map(Some).ok_or_else(|| vec![invalid_option(self.name, self.last(), &messages::MEASURE)])
+    }
+
+    pub(super) fn speed(&self) -> Result<Option<f64>, Vec<Diagnostic>> {
+        match self.positive_number()? {
+            Some(speed) if has_thousands(self.last(), speed) => {
+                Err(vec![invalid_option(self.name, self.last(), &messages::SPEED)])
+            }
+            speed => Ok(speed),
+        }
     }
 
     pub(super) fn regex(&self) -> Result<Box<str>, Vec<Diagnostic>> {

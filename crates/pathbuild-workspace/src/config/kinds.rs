@@ -25,7 +25,18 @@ pub(in crate::config) const POSITIVE: ValueType<Option<f64>> = ValueType {
     schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
 };
 
-/// A length in mm or a speed in mm/min that programs state with three decimals.
+/// A speed in mm/min or 1/min. A slow one with three decimals was probably meant as thousands: TOML reads 12.000 as 12.
+pub(in crate::config) const SPEED: ValueType<Option<f64>> = ValueType {
+    read: |value, reader| {
+        let speed = (MEASURE.read)(value, reader)?;
+        let is_grouped = |speed| has_thousands(written_number(value).unwrap_or_default(), speed);
+        reader.require((!speed.is_some_and(is_grouped)).then_some(speed), &messages::SPEED, value)
+    },
+    show: MEASURE.show,
+    schema: MEASURE.schema,
+};
+
+/// A length in mm that programs state with three decimals.
 pub(in crate::config) const MEASURE: ValueType<Option<f64>> = ValueType {
     read: |value, reader| {
         let measure = number(value).filter(|number| MEASURE_BOUNDS.contains(number));
@@ -128,6 +139,15 @@ fn switch(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<b
     reader.require(value.get_ref().as_bool(), &messages::SWITCH, value)
 }
 
+/// Whether a speed was probably written with a separator of thousands, such as 1.200.
+pub(super) fn has_thousands(written: &str, speed: f64) -> bool {
+    let decimals = written.split_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len());
+    decimals == 3 && SPEEDS_WITH_THOUSANDS.contains(&speed)
+}
+
+/// Speeds of which three decimals were probably meant as thousands.
+const SPEEDS_WITH_THOUSANDS: Range<f64> = 1.0..100.0;
+
 /// Parses a number as written in drawings: an optional sign, digits, at most one decimal point or comma. (book: language/letters)
 pub(in crate::config) fn number_from_text(text: &str) -> Option<f64> {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
@@ -138,12 +158,15 @@ pub(in crate::config) fn number_from_text(text: &str) -> Option<f64> {
 }
 
 fn number(value: &Spanned<DeValue<'_>>) -> Option<f64> {
+    written_number(value)?.replace('_', "").parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+fn written_number<'v>(value: &'v Spanned<DeValue<'_>>) -> Option<&'v str> {
     let value = value.get_ref();
-    let text = match value.as_float() {
-        Some(float) => float.as_str(),
-        None => value.as_integer().filter(|integer| integer.radix() == 10)?.as_str(),
-    };
-    text.replace('_', "").parse().ok().filter(|number: &f64| number.is_finite())
+    match value.as_float() {
+        Some(float) => Some(float.as_str()),
+        None => Some(value.as_integer().filter(|integer| integer.radix() == 10)?.as_str()),
+    }
 }
 
 fn whole_number(value: &Spanned<DeValue<'_>>) -> Option<u64> {

@@ -74,7 +74,7 @@ pub mod general {
     use crate::config::arguments::{GivenOption, OptionReader, SettingOption};
     use crate::config::kinds::{
         DIRECTORIES, DIRECTORY, MEASURE, NOT_NEGATIVE, OPTIONAL_REGEX, PART_TOLERANCE, PIECE, REGEX,
-        RESTRICTIONS, SWITCH, choice,
+        RESTRICTIONS, SPEED, SWITCH, choice,
     };
     use crate::config::table_kinds::POST;
     use crate::config::types::{Directories, PartHolding, PostChoice, Restriction, SpindleControl};
@@ -112,17 +112,17 @@ pub mod general {
 
     overridable! {
         /// mm/min: F of paths that give none; needed to emit, not to check
-        feed: Option<f64> = "feed", MEASURE, None, "150", Check,
-            option 0 replace_value: GivenOption::positive_number, Text("MM/MIN"), "Milling feed of paths that give none", "Fräsvorschub für Pfade, die keinen angeben";
+        feed: Option<f64> = "feed", SPEED, None, "150", Check,
+            option 0 replace_value: GivenOption::speed, Text("MM/MIN"), "Milling feed of paths that give none", "Fräsvorschub für Pfade, die keinen angeben";
         /// mm/min: speed of rapid moves, for times; needed to emit
-        rapid: Option<f64> = "rapid", MEASURE, None, "1000", Emit,
-            option 1 replace_value: GivenOption::positive_number, Text("MM/MIN"), "Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten";
+        rapid: Option<f64> = "rapid", SPEED, None, "1000", Emit,
+            option 1 replace_value: GivenOption::speed, Text("MM/MIN"), "Speed of rapid moves, for the times shown", "Eilganggeschwindigkeit, für die angezeigten Zeiten";
         /// mm: S of an emitted path that gives none; needed to emit
         sweep_height: Option<f64> = "sweep-height", MEASURE, None, "20", Check,
             option 2 replace_value: GivenOption::positive_number, Text("MM"), "Sweep height of an emitted path that gives none", "Leerfahrthöhe, wenn der geschriebene Pfad keine angibt";
         /// mm/min: Z of probes without a Z of their own; default: like feed
-        probe_feed: Option<f64> = "probe-feed", MEASURE, None, "40", Emit,
-            option 3 replace_value: GivenOption::positive_number, Text("MM/MIN"), "Probing feed of paths that give none", "Vorschub beim Antasten für Pfade, die keinen angeben";
+        probe_feed: Option<f64> = "probe-feed", SPEED, None, "40", Emit,
+            option 3 replace_value: GivenOption::speed, Text("MM/MIN"), "Probing feed of paths that give none", "Vorschub beim Antasten für Pfade, die keinen angeben";
         /// directories that `check` and `emit` use without arguments, and in which paths are found by name;
         /// includes subdirectories, respects .gitignore and .ignore
         library: Directories = "library", DIRECTORIES, Vec::new(), r#"["."]"#, Neither;
@@ -264,7 +264,7 @@ pub mod emit {
 
 /// `[machine]`: capabilities of the machine, for `emit`, `verify` and time estimates. (book: program/reading)
 pub mod machine {
-    use crate::config::kinds::{AXES, NOT_NEGATIVE, NUMBER_RANGE, POSITIVE, choice};
+    use crate::config::kinds::{AXES, NOT_NEGATIVE, NUMBER_RANGE, SPEED, choice};
     use crate::config::types::{DwellTime, NumberRange};
 
     section! {
@@ -279,7 +279,7 @@ pub mod machine {
         /// mm: the same for the Z axis
         z: Option<NumberRange> = "z", NUMBER_RANGE, None, "[0, 60]", Emit;
         /// mm/min: maximum feed
-        max_feed: Option<f64> = "maximum-feed", POSITIVE, None, "1500", Check;
+        max_feed: Option<f64> = "maximum-feed", SPEED, None, "1500", Check;
         /// mm: travel of X, Y and Z, wherever the part is clamped; x, y and z are more specific
         travel: Option<[f64; 3]> = "travel", AXES, None, "[300, 200, 60]", Emit;
         /// 1/min: the spindle's slowest and fastest speed

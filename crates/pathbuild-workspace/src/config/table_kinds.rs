@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use super::kinds::{
-    COUNT, NOT_NEGATIVE, NUMBER_RANGE, PATTERNS, POSITIVE, REGEX, SWITCH, TEXT, choice, choice_schema,
+    COUNT, NOT_NEGATIVE, NUMBER_RANGE, PATTERNS, POSITIVE, REGEX, SPEED, SWITCH, TEXT, choice, choice_schema,
     name_of, quoted, read_choice,
 };
 use crate::config::reader::{Table, TomlReader, ValueType};
@@ -132,7 +132,7 @@ pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
                 "paths": (REGEX.schema)(),
                 "shape": choice_schema::<CutterShape>(),
                 "number": (COUNT.schema)(),
-                "spindle": (POSITIVE.schema)(),
+                "spindle": (SPEED.schema)(),
                 "direction": choice_schema::<Turning>(),
                 "coolant": choice_schema::<Coolant>(),
                 "flutes": (COUNT.schema)(),
@@ -333,7 +333,7 @@ fn read_tool(name: &str, table: &mut Table<'_, '_, '_>) -> Option<Tool> {
     let shape =
         table.take("shape", &choice::<CutterShape>()).map_or(CutterShape::EndMill, |value| value.value);
     let number = table.take("number", &COUNT).and_then(|value| u32::try_from(value.value).ok());
-    let spindle = table.take("spindle", &POSITIVE).and_then(|value| value.value);
+    let spindle = table.take("spindle", &SPEED).and_then(|value| value.value);
     let direction = table.take("direction", &choice::<Turning>()).map(|value| value.value);
     let coolant = table.take("coolant", &choice::<Coolant>()).map(|value| value.value);
     let flutes = table.take("flutes", &COUNT).and_then(|value| u32::try_from(value.value).ok());
