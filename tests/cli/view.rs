@@ -627,6 +627,9 @@ fn pictures_are_the_same_bytes_on_every_run() {
     for part in ["id=\"kerf\"", "id=\"rapids\"", "id=\"bars\"", "2052.1P", "start X0 Y0", "20 mm"] {
         assert!(picture.contains(part), "{part}");
     }
+    // Texts lie above the width of the cutter, and below its path.
+    let layers = ["kerf", "texts", "cuts"].map(|layer| picture.find(&format!("id=\"{layer}\"")).unwrap());
+    assert!(layers.is_sorted(), "{layers:?}");
     assert!(place.run("view 8001.1P -o a.svg --lang de").stderr.contains("geschrieben"));
     assert!(place.read("a.svg").contains("Stützsteg"));
 }
@@ -1065,7 +1068,7 @@ fn what_the_cutter_takes_is_whole_in_a_picture() {
     assert!(y + width / 2.0 <= bottom, "{line} {width}: {bottom}");
     // The disc is as wide as the cutter, and its number is next to it.
     let [x, y, radius, _] =
-        below("cuts", "circle").into_iter().map(|it| it.1).find(|it| it[2] > 5.0).unwrap();
+        below("kerf", "circle").into_iter().map(|it| it.1).find(|it| it[2] > 5.0).unwrap();
     assert!((2.0 * radius - width).abs() < 0.02, "{radius} {width}");
     let numbers = below("order", "circle");
     assert_eq!(numbers.len(), 2);

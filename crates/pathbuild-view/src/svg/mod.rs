@@ -55,6 +55,10 @@ fn drawing(
     room: &mut OccupiedSpace,
 ) -> Vec<u32> {
     symbols::draw_below_moves(canvas, scene, frame, room);
+    let cuts: Vec<_> = scene.paths.iter().map(moves::cuts).collect();
+    for (path, cuts) in scene.paths.iter().zip(&cuts) {
+        moves::draw_kerf(canvas, path, cuts, &frame.of_path(path), depths);
+    }
     for path in &scene.paths {
         let place = frame.of_path(path);
         symbols::reserve_symbols(path, &place, room);
@@ -63,9 +67,9 @@ fn drawing(
         }
     }
     let mut hidden = Vec::new();
-    for path in &scene.paths {
+    for (path, cuts) in scene.paths.iter().zip(&cuts) {
         let place = frame.of_path(path);
-        moves::draw(canvas, path, &place, depths, shown);
+        moves::draw(canvas, path, cuts, &place, depths, shown);
         hidden.extend(symbols::draw_above_moves(canvas, path, &place, shown, room));
     }
     hidden

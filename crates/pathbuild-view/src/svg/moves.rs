@@ -16,20 +16,19 @@ const MIN_ARROW_LENGTH: f64 = 26.0;
 const PIECES_PER_ARC: u32 = 24;
 
 /// All moves along one line, regardless of direction. It has the direction of the first move and the depth of the deepest one.
-struct CutLine<'a> {
+pub(super) struct CutLine<'a> {
     way: &'a SceneMove,
     depth: Option<f64>,
 }
 
-/// Draws the moves of a path. Moves along the same line are drawn as one [`CutLine`].
-pub(super) fn draw(
+/// Draws the width of the cutter along cuts, and holes. Texts lie above it, because they are usually drawn on or beside their element.
+pub(super) fn draw_kerf(
     canvas: &mut Canvas,
     path: &ScenePath,
+    cuts: &[CutLine<'_>],
     place: &PageTransform,
     depths: &Depths,
-    shown: VisibleParts,
 ) {
-    let cuts = cuts(path);
     canvas.open("id=\"kerf\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
     if let Some(tool) = path.tool {
         let width = svg_number((tool * place.scale()).max(0.5));
@@ -40,12 +39,28 @@ pub(super) fn draw(
             );
         }
     }
+    for cut in cuts {
+        if let Some(radius) = hole_radius(cut.way, path, place) {
+            draw_disc(canvas, cut, radius, place, depths);
+        }
+    }
     canvas.close();
+}
+
+/// Draws the moves of a path. Moves along the same line are drawn as one [`CutLine`].
+pub(super) fn draw(
+    canvas: &mut Canvas,
+    path: &ScenePath,
+    cuts: &[CutLine<'_>],
+    place: &PageTransform,
+    depths: &Depths,
+    shown: VisibleParts,
+) {
     if shown.rapids {
         draw_rapids(canvas, path, place, shown);
     }
     canvas.open("id=\"cuts\" fill=\"none\" stroke-width=\"1.8\" stroke-linecap=\"round\"");
-    for movement in &cuts {
+    for movement in cuts {
         draw_cut(canvas, movement, path, place, depths);
     }
     canvas.close();
@@ -69,28 +84,29 @@ fn draw_cut(
     place: &PageTransform,
     depths: &Depths,
 ) {
-    let color = depths.color(cut.depth);
     let movement = cut.way;
     if movement.kind == MoveKind::Plunge {
-        let radius = match path.tool {
-            Some(tool) if is_hole(movement, path) => (tool / 2.0 * place.scale()).max(2.0),
-            _ => 1.8,
-        };
-        return canvas.circle(
-            place.to_page(movement.to()),
-            radius,
-            &format!("fill=\"{color}\" fill-opacity=\"0.8\""),
-        );
+        if hole_radius(movement, path, place).is_none() {
+            draw_disc(canvas, cut, 1.8, place, depths);
+        }
+        return;
     }
+    let color = depths.color(cut.depth);
     let dashes = if movement.kind == MoveKind::Mark { " stroke-dasharray=\"2 3\"" } else { "" };
     canvas.merged_path(&path_data(&movement.way, place), &format!("stroke=\"{color}\"{dashes}"));
 }
 
-/// Whether a plunge is drawn as a hole: its element is a circle, or it has no element.
-fn is_hole(movement: &SceneMove, path: &ScenePath) -> bool {
-    movement.element.is_none_or(|element| {
-        matches!(path.elements[element as usize].shape, crate::scene::Shape::Circle { .. })
-    })
+fn draw_disc(canvas: &mut Canvas, cut: &CutLine<'_>, radius: f64, place: &PageTransform, depths: &Depths) {
+    let style = format!("fill=\"{}\" fill-opacity=\"0.8\"", depths.color(cut.depth));
+    canvas.circle(place.to_page(cut.way.to()), radius, &style);
+}
+
+/// Returns the radius of a plunge that is drawn as a hole: its cutter is known, and its element is a circle, or it has no element.
+fn hole_radius(movement: &SceneMove, path: &ScenePath, place: &PageTransform) -> Option<f64> {
+    let is_circle =
+        |element: u32| matches!(path.elements[element as usize].shape, crate::scene::Shape::Circle { .. });
+    let is_hole = movement.kind == MoveKind::Plunge && movement.element.is_none_or(is_circle);
+    path.tool.filter(|_| is_hole).map(|tool| (tool / 2.0 * place.scale()).max(2.0))
 }
 
 fn final_depths(path: &ScenePath) -> Vec<Option<f64>> {
@@ -106,7 +122,7 @@ fn final_depths(path: &ScenePath) -> Vec<Option<f64>> {
 }
 
 /// Returns the cuts of a path, from shallow to deep.
-fn cuts(path: &ScenePath) -> Vec<CutLine<'_>> {
+pub(super) fn cuts(path: &ScenePath) -> Vec<CutLine<'_>> {
     let mut places: BTreeMap<Vec<i64>, usize> = BTreeMap::new();
     let mut cuts: Vec<CutLine<'_>> = Vec::new();
     for way in path.moves.iter().filter(|movement| movement.kind.cuts() && movement.is_placed()) {

@@ -22,16 +22,21 @@ const HALO: &str = "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.8\" 
 
 /// Draws the shapes below the moves: other layers and clamps.
 pub(super) fn draw_below_moves(canvas: &mut Canvas, scene: &Scene, frame: &Frame, room: &mut OccupiedSpace) {
-    let place = frame.of_drawing();
+    let (place, [_, [_, bottom]]) = (frame.of_drawing(), frame.area());
     canvas.open(&format!("id=\"other-layers\" fill=\"none\" stroke=\"{OTHER_COLOUR}\" stroke-width=\"0.7\""));
     for other in &scene.other_layers {
         match other {
             OtherShape::Shape { shape: piece, .. } => canvas.path(&shape(piece, &place), ""),
             OtherShape::Text { text, at, height, rotation, .. } => {
-                other_text(canvas, &place, text, *at, *height, *rotation);
+                let (size, mut at) = (height * place.scale(), place.to_page(*at));
                 if *rotation == 0.0 {
-                    room.occupy(text_rectangle(place.to_page(*at), height * place.scale(), text));
+                    // The legend would cover the lower half of a text across the lower edge.
+                    if at[1] < bottom {
+                        at[1] = at[1].min(bottom - size / 2.0);
+                    }
+                    room.occupy(text_rectangle(at, size, text));
                 }
+                other_text(canvas, at, size, *rotation, text);
             }
         }
     }
@@ -80,12 +85,10 @@ pub(super) fn outline(shapes: &[Shape], place: &PageTransform) -> String {
     data + "Z"
 }
 
-fn other_text(canvas: &mut Canvas, place: &PageTransform, text: &str, at: Point, height: f64, rotation: f64) {
-    let size = height * place.scale();
+fn other_text(canvas: &mut Canvas, [x, y]: Point, size: f64, rotation: f64, text: &str) {
     if size < MIN_LEGIBLE_SIZE {
         return;
     }
-    let [x, y] = place.to_page(at);
     let turn = if rotation == 0.0 {
         String::new()
     } else {
@@ -151,7 +154,7 @@ fn style_without_program(element: &Element) -> &'static str {
     }
 }
 
-/// Draws texts. They lie below moves and elements, which their halos would erase.
+/// Draws texts. They lie above the width of the cutter and holes, and below moves and elements, which their halos would erase.
 pub(super) fn draw_texts(
     canvas: &mut Canvas,
     path: &ScenePath,
@@ -326,7 +329,7 @@ pub(super) fn draw_order_numbers(
     let mut remaining = Vec::new();
     let mut placed: Vec<(u32, Point)> = Vec::new();
     for (order, element) in numbered {
-        match find_number(room, &places(&element.shape, place, kerf)) {
+        match find_number(room, order, &places(&element.shape, place, kerf)) {
             Some(at) => placed.push((order, at)),
             None => remaining.push((order, element)),
         }
@@ -339,7 +342,7 @@ pub(super) fn draw_order_numbers(
         // Check only the outer part of a leader line: near the element, it may touch another number.
         let outer = |at: &Point| [[0, 1].map(|axis| anchor[axis] + (at[axis] - anchor[axis]) / 3.0), *at];
         let around: Vec<Point> = around.filter(|at| !room.is_crossed_by(outer(at))).collect();
-        match find_number(room, &around) {
+        match find_number(room, order, &around) {
             Some(at) => {
                 canvas.line(at, anchor, &format!("stroke=\"{INK_COLOUR}\" stroke-width=\"0.6\""));
                 placed.push((order, at));
@@ -356,16 +359,37 @@ pub(super) fn draw_order_numbers(
 }
 
 /// Finds the first free position for a number, occupies it, and returns it.
-fn find_number(room: &mut OccupiedSpace, places: &[Point]) -> Option<Point> {
-    let taken: Vec<Rectangle> = places.iter().map(|at| square_around(*at, NUMBER_RADIUS + 1.0)).collect();
+fn find_number(room: &mut OccupiedSpace, order: u32, places: &[Point]) -> Option<Point> {
+    let half = [number_width(order) / 2.0 + 1.0, NUMBER_RADIUS + 1.0];
+    let corner = |[x, y]: &Point, sign: f64| [x + sign * half[0], y + sign * half[1]];
+    let taken: Vec<Rectangle> = places.iter().map(|at| [corner(at, -1.0), corner(at, 1.0)]).collect();
     room.occupy_first_free(&taken).map(|found| places[found])
 }
 
 fn number(canvas: &mut Canvas, order: u32, at: Point) {
     let style = format!("fill=\"#fff\" fill-opacity=\"0.85\" stroke=\"{INK_COLOUR}\" stroke-width=\"0.6\"");
-    canvas.circle(at, NUMBER_RADIUS, &style);
-    let size = if order > 99 { 7.0 } else { 8.5 };
+    let width = number_width(order);
+    if width > 2.0 * NUMBER_RADIUS {
+        canvas.raw(&format!(
+            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{NUMBER_RADIUS}\" {style}/>",
+            svg_number(at[0] - width / 2.0),
+            svg_number(at[1] - NUMBER_RADIUS),
+            svg_number(width),
+            svg_number(2.0 * NUMBER_RADIUS)
+        ));
+    } else {
+        canvas.circle(at, NUMBER_RADIUS, &style);
+    }
+    let size = if order > 99 { SMALL_NUMBER_SIZE } else { 8.5 };
     canvas.text([at[0], at[1] + size * 0.36], size, Anchor::Middle, "", &order.to_string());
+}
+
+/// Letter size in px of numbers with more than two digits.
+const SMALL_NUMBER_SIZE: f64 = 7.0;
+
+/// Returns the width of a number with its frame, which is a circle for up to three digits.
+fn number_width(order: u32) -> f64 {
+    if order > 999 { text_width(&order.to_string(), SMALL_NUMBER_SIZE) + 5.0 } else { 2.0 * NUMBER_RADIUS }
 }
 
 /// Returns the point of a shape that its number refers to: the middle of a curve, or the rightmost point of a circle.

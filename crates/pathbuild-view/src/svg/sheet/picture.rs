@@ -247,7 +247,9 @@ impl PlacedPicture {
             VisibleParts { rapids: false, order: false, arrows: false, texts: false, stock: false, lang };
         canvas.open("id=\"true-size\"");
         for path in &sheet.scene.paths {
-            moves::draw(canvas, path, &frame.of_path(path), &depths, shown);
+            let (cuts, place) = (moves::cuts(path), frame.of_path(path));
+            moves::draw_kerf(canvas, path, &cuts, &place, &depths);
+            moves::draw(canvas, path, &cuts, &place, &depths, shown);
         }
         let y = self.area.top + TOP_MARGIN + (high[1] - low[1]) * UNITS_PER_MM + 14.0;
         canvas.text([left, y], 10.0, Anchor::Start, &format!("fill=\"{TEXT_COLOUR}\""), "1:1");
