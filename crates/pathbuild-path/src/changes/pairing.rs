@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap, VecDeque};
 use std::hash::Hash;
 
 use nalgebra::Vector2;
+use pathbuild_diagnostic::Handle;
 
 use super::ElementKind;
 use super::item::{Item, is_equal, is_negligible, middle};
@@ -86,7 +87,7 @@ pub(super) fn pair<'i>(old: &'i [Item<'i>], new: &'i [Item<'i>], frame: &Frame) 
     pairing.pair_by_key(|_, place| Some(place));
     pairing.pair_by_rounded_place();
     if pairing.has_lasting_handles() {
-        pairing.pair_by_key(|item, _| item.handle.map(|handle| (item.kind, handle)));
+        pairing.pair_by_handle();
     }
     pairing.pair_by_key(|item, _| {
         matches!(item.kind, ElementKind::Start | ElementKind::End).then_some(item.kind)
@@ -161,12 +162,29 @@ impl<'i> Pairing<'i> {
         });
     }
 
-    /// Whether the CAD program has kept the handles of elements: at least half of the elements that were not moved have their old handle.
+    /// Whether the CAD program has kept the handles of elements: at least nine in ten elements that were not moved have their old handle. A program
+    /// that renumbers elements leaves those that are drawn before the first new one as they were.
     fn has_lasting_handles(&self) -> bool {
         let handles = self.both.iter().filter_map(|(old, new)| Some((old.handle?, new.handle?)));
         let (kept, all) =
             handles.fold((0, 0), |(kept, all), (old, new)| (kept + usize::from(old == new), all + 1));
-        all > 0 && 2 * kept >= all
+        all > 0 && 10 * kept >= 9 * all
+    }
+
+    /// Pairs elements with equal handles, unless they have another role and no end in common: then the CAD program has given the handle to another
+    /// element.
+    fn pair_by_handle(&mut self) {
+        let mut known: HashMap<(ElementKind, Handle), usize> = HashMap::new();
+        for (index, item) in self.new.iter().enumerate() {
+            known.extend(item.handle.map(|handle| ((item.kind, handle), index)));
+        }
+        let shift = self.shift;
+        self.pair_with(|new, old| {
+            let key = (old.kind, old.handle?);
+            let found = new[*known.get(&key)?];
+            let is_same = found.role == old.role || has_common_end(old, found, shift);
+            is_same.then(|| known.remove(&key)).flatten()
+        });
     }
 
     /// Pairs elements of the same form, role and text that are at different places.
@@ -293,6 +311,16 @@ fn ends(item: &Item<'_>, place: Place) -> Option<[Micrometres; 2]> {
         ends.sort_unstable();
         ends
     })
+}
+
+/// Whether two lines or arcs have an end in common after a shift of the old one, or two circles their centre.
+fn has_common_end(old: &Item<'_>, new: &Item<'_>, shift: Vector2<f64>) -> bool {
+    let points = |item: &Item<'_>, shift| {
+        let place = Place::of(item, shift);
+        ends(item, place).unwrap_or([place.first; 2])
+    };
+    let new = points(new, Vector2::zeros());
+    points(old, shift).iter().any(|point| new.contains(point))
 }
 
 fn micrometres(vector: Vector2<f64>) -> Micrometres {

@@ -274,3 +274,32 @@ fn a_circle_of_another_diameter_is_known_by_its_centre() {
         ["circle at (20, 0): diameter 6 became 8", "line from (0, 0) to (0, -30): added"]
     );
 }
+
+/// The CAD program gave the handle of the third line to a new one. Only an equal role or a common end shows that it is the old line, edited.
+#[test]
+fn a_handle_that_another_element_has_now_is_no_evidence() {
+    let edited = |line: &str| changes(ROUND, &ROUND.replace("sweep 40,20 0,20", line));
+    assert_eq!(
+        edited("mill 40,21 30,30"),
+        ["line from (40, 20) to (0, 20): removed", "line from (40, 21) to (30, 30): added"]
+    );
+    assert_eq!(
+        edited("mill 40,20 30,30"),
+        [
+            "line from (40, 20) to (30, 30): one end moved by (30, 10) mm",
+            "line from (40, 20) to (30, 30): line type changed from HIDDEN to CONTINUOUS"
+        ]
+    );
+    assert_eq!(edited("sweep 40,21 30,30"), ["line from (40, 21) to (30, 30): runs differently"]);
+}
+
+/// A line is drawn in the middle of the file, and the CAD program renumbers all elements after it: their handles say nothing.
+#[test]
+fn handles_of_a_program_that_renumbers_are_not_used() {
+    let old = "mill 0,0 10,0\nmill 10,0 20,0\nmill 20,0 30,0\nmill 30,0 40,0\nmill 40,0 50,20\nmill 50,20 60,0\nend 60,0\n";
+    let new = old.replace("mill 20,0", "mill 10,0 10,9\nmill 20,0").replace("50,20", "50,30");
+    assert_eq!(
+        changes(old, &new),
+        ["line from (10, 0) to (10, 9): added", "2 lines, the first at (40, 0): one end moved by (0, 10) mm"]
+    );
+}
