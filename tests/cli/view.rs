@@ -824,6 +824,17 @@ fn without_cutter_or_surface_there_is_no_stock() {
         let run = place.run(line);
         assert!(run.status != Some(0) && run.stderr.contains(said), "{run}");
     }
+    // The reason is also given beside errors; a drawing needs no options.
+    let broken = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0 \"X\"\nend 40,0";
+    let place = place
+        .file("b.nc", format!("(a (b))\n{program}"))
+        .file("1234.1P.dxf", sheet(broken).unwrap().to_dxf());
+    for (what, gives_advice) in [("b.nc", true), ("1234.1P", false)] {
+        let run = place.run(&format!("view {what} --stock -o b.svg"));
+        assert_eq!(run.status, Some(1), "{run}");
+        assert!(run.stderr.contains("nothing is cut"), "{run}");
+        assert_eq!(run.stderr.contains("give --cutter"), gives_advice, "{run}");
+    }
 }
 
 /// Whether a plate is cut through follows only from its thickness: it is known if the material lies on Z 0.

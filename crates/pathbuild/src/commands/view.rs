@@ -28,20 +28,21 @@ pub fn run(context: &Context, args: &ViewArgs) -> Result<ExitStatus, Failure> {
     let (scene, findings) = target.report.for_others(context, &target.file);
     context.show(&findings);
     if output.shown.stock && !has_stock(&scene) {
-        return Ok(report_missing_stock(context, &findings));
+        let is_program = !is_drawing(Utf8Path::new(&target.file));
+        return Ok(report_missing_stock(context, &findings, is_program));
     }
     Ok(deliver(context, output.file.as_deref(), output.format.bytes(scene, output.shown), &findings))
 }
 
-/// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown.
-fn report_missing_stock(context: &Context, findings: &Findings) -> ExitStatus {
-    if findings.errors() > 0 {
-        return ExitStatus::Errors;
-    }
-    context.usage(context.choose(
-        "view --stock: nothing is cut, or the cutter or the height of the material is unknown: give --cutter and --surface",
-        "view --stock: nichts wird gefräst, oder Fräser oder Materialhöhe sind unbekannt: --cutter und --surface angeben",
-    ))
+/// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown. The options are for programs only.
+fn report_missing_stock(context: &Context, findings: &Findings, is_program: bool) -> ExitStatus {
+    let reason = context.choose(
+        "view --stock: nothing is cut, or the cutter or the height of the material is unknown",
+        "view --stock: nichts wird gefräst, oder Fräser oder Materialhöhe sind unbekannt",
+    );
+    let advice = context.choose(": give --cutter and --surface", ": --cutter und --surface angeben");
+    let status = context.usage(&format!("{reason}{}", if is_program { advice } else { "" }));
+    if findings.errors() > 0 { ExitStatus::Errors } else { status }
 }
 
 /// The scene of the argument, ready to be shown.
