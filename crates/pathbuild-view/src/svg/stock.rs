@@ -419,9 +419,10 @@ pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, l
         StockChange::Removed => ("removed now, not before", "jetzt weggefräst, vorher nicht"),
         StockChange::Left => ("left now, removed before", "bleibt jetzt stehen, vorher weggefräst"),
     };
-    let y = frame.bottom() - 14.0;
-    canvas.path(&format!("M40 {}h12v10h-12Z", svg_number(y - 9.0)), &format!("fill=\"{color}\""));
-    canvas.text([57.0, y], 13.0, Anchor::Start, &format!("fill=\"{INK_COLOUR}\""), lang.choose(en, de));
+    // Both pictures lie side by side on the page, at half their size.
+    let y = frame.bottom() - 10.0;
+    canvas.path(&format!("M40 {}h20v18h-20Z", svg_number(y - 18.0)), &format!("fill=\"{color}\""));
+    canvas.text([70.0, y], 26.0, Anchor::Start, &format!("fill=\"{INK_COLOUR}\""), lang.choose(en, de));
     Some(canvas.finish())
 }
 

@@ -339,7 +339,11 @@ impl RapidValues {
             Origin::Table => "[tool]",
             Origin::Program => lang.choose("header", "Kopf"),
         };
-        let cutter = format!("{} mm ({})", diameters.join(", "), name(self.cutter_origin, "--cutter"));
+        let cutter = format!(
+            "{} mm ({})",
+            diameters.join(lang.choose(", ", " und ")),
+            name(self.cutter_origin, "--cutter")
+        );
         let material = lang.choose("and material up to", "und Material bis");
         let surface = Number(self.surface).prose(lang);
         format!("{cutter} {material} Z {surface} ({})", name(self.surface_origin, "--surface"))
