@@ -74,6 +74,12 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   assert.match(page.url(), /#file=.*path=8001\.1P/);
   await settled(page);
   await shot(page, "live-path");
+  // After Enter in the search, the keys of the picture work.
+  await page.keyboard.press("/");
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("Home");
+  assert.match(await text(page, "#where"), /^Move 0 of/);
+  assert.equal(await page.inputValue("#search"), "8001.1p");
   // Reloading shows the same.
   await page.reload();
   await page.waitForFunction(() => document.getElementById("title").textContent === "8001.1P");
@@ -190,6 +196,16 @@ const { server, address } = await serve(pathbuild, place, "127.0.0.1:0", ...dire
   assert.equal(await page.locator("#arrows").getAttribute("aria-pressed"), "false");
   assert.match(await text(page, "#where"), /^Move 3 of/);
   assert.equal((await text(page, "#details")).split("\n")[0], chosen.split("\n")[0]);
+  // The same move stays selected if the CAD program gives each handle to another element.
+  const renumbered = (by) => (drawing) => drawing.replace(/(\r\n  5\r\n)([0-9A-F]+)/g, (_, code, handle) => code + (parseInt(handle, 16) + by).toString(16).toUpperCase());
+  const handle = async () => /[A-Z]+ ([0-9A-F]+) ·/.exec(await text(page, "#details"))[1];
+  const before = await handle();
+  const next = (parseInt(before, 16) + 1).toString(16).toUpperCase();
+  save(file, renumbered(1));
+  await page.waitForFunction((next) => document.getElementById("details").textContent.includes(` ${next} ·`), next);
+  assert.match(await text(page, "#where"), /^Move 3 of/);
+  save(file, renumbered(-1));
+  await page.waitForFunction((before) => document.getElementById("details").textContent.includes(` ${before} ·`), before);
   // The current move stays the same one after a version with errors, and so do the facts about it.
   const has = ([least, most]) => page.waitForFunction(([least, most]) => ((all) => all >= least && all <= most)(Number(document.getElementById("slider").max)), [least, most]);
   save(file, (drawing) => drawing.replace("I0.25", "I0.5"));

@@ -42,7 +42,7 @@ const says = (page, id, words) => page.waitForFunction(([id, words]) => document
   assert.match(await text(page, "#findings"), /line 34 · PB740/);
   assert.match(await text(page, "#checks"), /rapid moves.*6 mm \(header\)[^]*travel/);
   assert.equal(await page.locator("#checks .assumed").count(), 1);
-  assert.match(await text(page, "#details"), /extent\s+X 10 … 85, Y 0 … 30, Z -4 … 1/);
+  assert.match(await text(page, "#details"), /extent\s+X .*of which cuts\s+X 10 … 85, Y 0 … 30, Z -4 … 1/s);
   assert.equal(await page.locator("#assumedTool").getAttribute("placeholder"), "6");
   assert.equal(await page.locator("#assumedSurface").getAttribute("placeholder"), "0");
   assert.ok(await page.locator("#stock").isVisible());

@@ -184,7 +184,8 @@ const text = (page, selector) => page.locator(selector).innerText();
   assert.equal(await text(page, "#rapids"), "Eilgänge");
   assert.deepEqual(await page.evaluate(() => [document.documentElement.lang, document.documentElement.dataset.theme]), ["de", "dark"]);
   await page.keyboard.press("3");
-  // On a picture as small as on a phone, some labels have no room.
+  // On a picture as small as on a phone, where the legend is hidden, some labels have no room.
+  await page.keyboard.press("g");
   await page.setViewportSize({ width: 390, height: 800 });
   const left = await apart(page);
   assert.ok(left > 5 && left < 60, `${left} labels`);
@@ -196,6 +197,7 @@ const text = (page, selector) => page.locator(selector).innerText();
   const { page, faults } = await open("mistakes/3001.1P.dxf", { viewport: { width: 390, height: 800 }, colorScheme: "dark" });
   assert.match(await text(page, "#findings"), /PB401/);
   assert.equal(await page.locator("#labels .finding").count(), 1);
+  assert.match(await page.locator("#labels .finding").getAttribute("aria-label"), /^(finding|Befund) 1: PB401: /);
   await page.waitForTimeout(200);
   await shot(page, "mistake-390");
   assert.deepEqual(faults, []);
@@ -386,6 +388,26 @@ const text = (page, selector) => page.locator(selector).innerText();
   assert.deepEqual(faults, []);
   await page.close();
 }
+{
+  // A picture that shows everything still does in a window of another size; one that was zoomed keeps its zoom.
+  const { page, faults } = await open("8001.1P");
+  const drawn = async () => {
+    await page.waitForTimeout(300);
+    return page.evaluate(() => [document.getElementById("scale").offsetWidth, document.querySelector("#labels .zero").style.transform].join());
+  };
+  await page.setViewportSize({ width: 640, height: 800 });
+  const fitted = await drawn();
+  await page.keyboard.press("f");
+  assert.equal(await drawn(), fitted);
+  const box = await page.locator("#picture").boundingBox();
+  await page.mouse.move(box.x + 50, box.y + 50);
+  await page.mouse.wheel(0, -300);
+  const zoomed = (await drawn()).split(",")[0];
+  await page.setViewportSize({ width: 1000, height: 700 });
+  assert.equal((await drawn()).split(",")[0], zoomed);
+  assert.deepEqual(faults, []);
+  await page.close();
+}
 if (!isFirefox) {
   // Playwright cannot have Firefox show a page as on paper.
   const { page, faults } = await open("8001.1P");
@@ -409,7 +431,8 @@ if (!isFirefox) {
 {
   // At a zoom of 200 %, the picture keeps its room, and the page scrolls to what is below.
   const { page, faults } = await open("8001.1P", { viewport: { width: 640, height: 400 } });
-  assert.ok((await page.locator("#picture").boundingBox()).height > 200);
+  const picture = await page.locator("#picture").boundingBox();
+  assert.ok(picture.height > 200 && picture.y + picture.height <= (await page.locator("footer").boundingBox()).y + 1, JSON.stringify(picture));
   await page.locator("#details").scrollIntoViewIfNeeded();
   assert.ok(await page.evaluate(() => scrollY > 50));
   assert.ok((await page.locator("#play").boundingBox()).y < 400);

@@ -157,10 +157,20 @@ function all(folder) {
   await page.waitForSelector("#filter-errors");
   await page.click("#download-all");
   await page.waitForFunction(() => /missing: /.test(document.getElementById("said").textContent));
-  for (const [field, value] of [["feed", "150"], ["sweep-height", "20"], ["rapid", "1000"]]) {
+  for (const [field, value] of [["feed", "150"], ["sweep-height", "20"]]) {
     await page.fill(`#${field}`, value);
     await page.locator(`#${field}`).blur();
   }
+  await checked(page, 2);
+  // Beside an open path, its values can still be typed in, and the field beside the picture is one of them.
+  await page.locator(".item", { hasText: "2050.1P" }).first().click();
+  await page.waitForSelector("#typeRapid:not([hidden])");
+  assert.ok(await page.locator("#feed").isVisible());
+  await page.fill("#assumedRapid", "1000");
+  await page.locator("#assumedRapid").blur();
+  await page.waitForSelector("#typeRapid", { state: "hidden" });
+  assert.equal(await page.inputValue("#rapid"), "1000");
+  await page.keyboard.press("Escape");
   await checked(page, 2);
   const programs = await downloaded(page, "#download-all");
   assert.deepEqual(Object.keys(programs), ["2050.1P_Milling.gcode"]);

@@ -2,9 +2,9 @@
 
 import { $, node } from "./dom.js";
 import { Step } from "./model.js";
-import { Parameter, Path, Scene, extentOfMove, isCut } from "./scene.js";
+import { Move, Parameter, Path, Scene, extentOfMove, isCut } from "./scene.js";
 import { Timeline } from "./timeline.js";
-import { Lang, mm, say, sayKind, sayOption } from "./words.js";
+import { Lang, Word, mm, say, sayKind, sayOption, wholeMm } from "./words.js";
 
 export type Facts = [name: string, value: string][];
 
@@ -43,16 +43,15 @@ export function factsOfScene(scene: Scene, timeline: Timeline, lang: Lang): Fact
   const list: Facts = [];
   for (const path of scene.paths) {
     list.push([say(path.name === path.file ? "program" : "path", lang), path.name === path.file ? path.name.replace(/^.*[\\/]/, "") : `${path.name} · ${path.file}`]);
-    const box = path.elements.length === 0 ? extent(path) : "";
     if (scene.program) list.push([say("readAs", lang), scene.program.read_as[lang]]);
-    if (box) list.push([say("extent", lang), box]);
+    for (const [word, box] of path.elements.length === 0 ? extents(path) : []) list.push([say(word, lang), box]);
     if (path.tools && path.tool === null) list.push([say("tools", lang), path.tools.map(({ diameter }) => mm(diameter)).join(", ")]);
     if (path.tool !== null) list.push([say("cutterO", lang), mm(path.tool)]);
     if (path.thickness !== null) list.push([say("thickness", lang), mm(path.thickness)]);
     if (path.material) list.push([say("materialM", lang), path.material]);
     const { totals } = path;
     if (totals && path.moves.length > 0) {
-      for (const kind of Object.keys(TOTALS) as (keyof typeof TOTALS)[]) list.push([say(TOTALS[kind], lang), `${totals[kind].toFixed(0)} mm`]);
+      for (const kind of Object.keys(TOTALS) as (keyof typeof TOTALS)[]) list.push([say(TOTALS[kind], lang), `${wholeMm(totals[kind])} mm`]);
       const { cutting, isKnown, total } = timeline;
       const isOnly = scene.paths.length === 1;
       if (totals.minutes !== null) list.push([say("time", lang), `${totals.minutes} min`]);
@@ -72,23 +71,26 @@ export function factsOfScene(scene: Scene, timeline: Timeline, lang: Lang): Fact
 /** Keys of the words for total lengths. */
 const TOTALS = { milling: "mill", drilling: "drilling", sweeps: "sweep" } as const;
 
-const extents = new WeakMap<Path, string>();
+const known = new WeakMap<Path, [Word, string][]>();
 
-/** Formats the extent of a program's cuts. It is stored, because computing it is slow for a long program. */
-function extent(path: Path): string {
-  const known = extents.get(path);
-  if (known !== undefined) return known;
+/** Formats the extents of a program's moves and of its cuts. They are stored, because computing them is slow for a long program. */
+function extents(path: Path): [Word, string][] {
+  const cuts = path.moves.filter(({ kind }) => isCut(kind));
+  const found = known.get(path) ?? [["extent", extent(path.moves)] as [Word, string], ["extentOfCuts", extent(cuts)] as [Word, string]].filter(([, box]) => box !== "");
+  known.set(path, found);
+  return found;
+}
+
+function extent(moves: Move[]): string {
   const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-  for (const move of path.moves.filter(({ kind }) => isCut(kind))) {
-    const box = extentOfMove(move);
-    for (const axis of box ? [0, 1, 2] : []) {
-      low[axis] = Math.min(low[axis], box![0][axis]);
-      high[axis] = Math.max(high[axis], box![1][axis]);
+  for (const move of moves) {
+    const box = extentOfMove(move) ?? [move.to, move.to];
+    for (const axis of [0, 1, 2].filter((axis) => move.to[axis] !== null)) {
+      low[axis] = Math.min(low[axis], box[0][axis]!);
+      high[axis] = Math.max(high[axis], box[1][axis]!);
     }
   }
-  const ranges = [0, 1, 2].filter((axis) => low[axis] <= high[axis]).map((axis) => `${"XYZ"[axis]} ${mm(low[axis])} … ${mm(high[axis])}`);
-  extents.set(path, ranges.join(", "));
-  return ranges.join(", ");
+  return [0, 1, 2].filter((axis) => low[axis] <= high[axis]).map((axis) => `${"XYZ"[axis]} ${mm(low[axis])} … ${mm(high[axis])}`).join(", ");
 }
 
 /** Shows these facts. */

@@ -83,7 +83,11 @@ class Page {
     search.addEventListener("input", () => this.relist());
     search.addEventListener("keydown", (event) => {
       if (event.key === "ArrowDown") this.list.enter();
-      else if (event.key === "Enter") this.list.openFirst();
+      else if (event.key === "Enter") {
+        this.list.openFirst();
+        // The keys of the picture take effect where nothing is typed.
+        search.blur();
+      }
       else if (event.key === "Escape") {
         search.value = "";
         this.relist();
@@ -195,7 +199,7 @@ class Page {
     const pending = all.filter((row) => row.state === undefined).length;
     const open = pending > 0 ? ` · ${count.format(pending)} ${say("unchecked", lang)}` : "";
     const nothing = rows.length > 0 || !this.isComplete ? "" : say(all.length === 0 ? "nothing" : "nothingFound", lang);
-    $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "path" : "paths", lang)}${open}${this.isWhole ? "" : " …"}`;
+    $("count").textContent = nothing || `${shown}${count.format(all.length)} ${say(all.length === 1 ? "path" : shown === "" ? "paths" : "ofPaths", lang)}${open}${this.isWhole ? "" : " …"}`;
     // Set the rows last: the count may take a line from the height of the list, which then scrolls to its selected row.
     this.list.set(rows, this.open);
   }

@@ -260,6 +260,12 @@ async function begin(): Promise<void> {
     if (source.files.size > 0) source.open(source.files, options());
   };
   for (const name of [...FIELDS, "post"]) $(name).addEventListener("change", again);
+  // Beside a path, the field for the missing speed of rapid moves is that of the settings; beside a program, it belongs to the program.
+  $("assumedRapid").addEventListener("change", (event) => {
+    if (!new URLSearchParams(location.hash.slice(1)).has("file")) return;
+    $<HTMLInputElement>("rapid").value = (event.target as HTMLInputElement).value;
+    again();
+  });
   $("download-all").addEventListener("click", () => void download(source, source.emitted()));
   $("configure").addEventListener("click", () => {
     toml.hidden = !toml.hidden;

@@ -248,3 +248,36 @@ export function pointsOfShape(shape: Shape, sagitta = Infinity): Point[] {
 export function isCut(kind: MoveKind): boolean {
   return kind === "mill" || kind === "mark" || kind === "plunge";
 }
+
+/** Returns the point halfway along an arc. */
+export function middleOfArc({ from, centre, clockwise, degrees }: Extract<Shape, { type: "arc" }>): Point {
+  const [x, y] = [from[0] - centre[0], from[1] - centre[1]];
+  const angle = ((clockwise ? -1 : 1) * degrees * Math.PI) / 360;
+  return [centre[0] + x * Math.cos(angle) - y * Math.sin(angle), centre[1] + x * Math.sin(angle) + y * Math.cos(angle)];
+}
+
+/** Distance in mm up to which two places are equal. */
+const SAME_PLACE = 1e-3;
+
+function isNear([x, y]: Point, other: Point): boolean {
+  return Math.hypot(x - other[0], y - other[1]) < SAME_PLACE;
+}
+
+function ends(shape: Shape): [Point, Point] {
+  return shape.type === "circle" ? [shape.centre, shape.centre] : [shape.from, shape.to];
+}
+
+/** Whether elements of two versions have the same shape at the same place, drawn in either direction. */
+export function isSamePlace({ shape: one }: Element, { shape: other }: Element): boolean {
+  const [[a, b], [c, d]] = [ends(one), ends(other)];
+  if (!(isNear(a, c) && isNear(b, d)) && !(isNear(a, d) && isNear(b, c))) return false;
+  if (one.type === "circle") return other.type === "circle" && Math.abs(one.radius - other.radius) < SAME_PLACE;
+  if (one.type === "arc") return other.type === "arc" && isNear(middleOfArc(one), middleOfArc(other));
+  return other.type === "line";
+}
+
+/** Whether elements of two versions have the same handle, and also the same kind or a common end: some CAD programs give a handle to another element. */
+export function isSameHandle(one: Element, other: Element): boolean {
+  const hasCommonEnd = () => ends(one.shape).some((end) => ends(other.shape).some((place) => isNear(end, place)));
+  return one.handle !== null && one.handle === other.handle && one.shape.type === other.shape.type && (one.kind === other.kind || hasCommonEnd());
+}

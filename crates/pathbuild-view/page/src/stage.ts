@@ -38,6 +38,7 @@ export interface View {
   position: THREE.Vector3;
   target: THREE.Vector3;
   zoom: number;
+  isFitted: boolean;
 }
 
 /** Width of cuts in px. */
@@ -71,6 +72,8 @@ export class Stage {
   private bars!: LineSegments2;
   private stock: StockPicture | null = null;
   private labels: Labels;
+  /** Whether the view is that of `fit`: then it is fitted again when the picture changes its size. */
+  private isFitted = false;
   /** Camera and picture size for which the labels were placed; `null` if none were placed. */
   private labelled: [THREE.Matrix4, number, number] | null = null;
   private isDue = false;
@@ -103,7 +106,10 @@ export class Stage {
     // Set before the controls are created, because they orbit around the up axis that the camera has at that time.
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("change", () => {
+      this.isFitted = false;
+      this.draw();
+    });
     this.controls.zoomToCursor = true;
     // The stock is a map of heights, which has no underside.
     this.controls.maxPolarAngle = MOST_TILT;
@@ -189,15 +195,16 @@ export class Stage {
 
   view(): View {
     const { position, zoom } = this.camera;
-    return { position: position.clone(), target: this.controls.target.clone(), zoom };
+    return { position: position.clone(), target: this.controls.target.clone(), zoom, isFitted: this.isFitted };
   }
 
-  restore({ position, target, zoom }: View): void {
+  restore({ position, target, zoom, isFitted }: View): void {
     this.camera.position.copy(position);
     this.controls.target.copy(target);
     this.camera.zoom = zoom;
     this.camera.updateProjectionMatrix();
     this.controls.update();
+    this.isFitted = isFitted;
     this.draw();
   }
 
@@ -230,6 +237,9 @@ export class Stage {
     for (const at of [this.camera.position, this.controls.target]) at.add(new THREE.Vector3(-aside[0] / zoom, -aside[1] / zoom, 0));
     this.camera.updateProjectionMatrix();
     this.controls.update();
+    this.isFitted = true;
+    // The legend still has the scale with which its size was found, and the labels are not placed again if the view is the same.
+    if (!space) this.hearScale(zoom);
     this.draw();
   }
 
@@ -410,6 +420,7 @@ export class Stage {
     Object.assign(this.camera, { left: -width / 2, right: width / 2, top: height / 2, bottom: -height / 2 });
     this.camera.updateProjectionMatrix();
     this.materials.forEach((material) => material.resolution.set(width, height));
+    if (this.isFitted) this.fit(this.controls.enableRotate);
     this.draw();
   }
 

@@ -6,9 +6,9 @@ import { sayKeys, toggleHelp } from "./help.js";
 import { Spot } from "./labels.js";
 import { sayLegend, sayScale, showLegend } from "./legend.js";
 import { Listing } from "./listing.js";
-import { Model, model } from "./model.js";
+import { Model, Step, model } from "./model.js";
 import { MOST_OPERATIONS, Operation, operations } from "./operations.js";
-import { Finding, Scene, cornersOf, isCut, pointsOfShape } from "./scene.js";
+import { Element, Finding, Path, Scene, cornersOf, isCut, isSameHandle, isSamePlace, middleOfArc, pointsOfShape } from "./scene.js";
 import { Stage, isThick } from "./stage.js";
 import { NOTHING } from "./stock/heights.js";
 import { Assumed } from "./stock/pieces.js";
@@ -18,7 +18,7 @@ import { remember, remembered } from "./remembered.js";
 import { FIELDS, ProgramSettings, fragmentOf } from "./programs.js";
 import { Timeline, clock, wayUpTo } from "./timeline.js";
 import { visible } from "./visible.js";
-import { Lang, Word, mm, say, sayKind } from "./words.js";
+import { Lang, Word, mm, say, sayKind, wholeMm } from "./words.js";
 
 const slider = $<HTMLInputElement>("slider");
 const speed = $<HTMLSelectElement>("speed");
@@ -91,7 +91,10 @@ function placeProgram(): void {
   placeFindings();
   const checks = program.checks.map(({ outcome, text: said }) => node("li", said[lang], outcome));
   $("checks").replaceChildren(...checks);
-  $<HTMLInputElement>("assumedTool").placeholder = [...new Set(program.cutters.map(({ diameter }) => mm(diameter)))].join(", ");
+  const tool = $<HTMLInputElement>("assumedTool");
+  tool.title = tool.placeholder = [...new Set(program.cutters.map(({ diameter }) => mm(diameter)))].join(", ");
+  // The arrows of a number field take the space of about three digits.
+  tool.style.width = `clamp(5em, ${tool.placeholder.length + 4}ch, 20em)`;
   $<HTMLInputElement>("assumedSurface").placeholder = program.surface === null ? "" : mm(program.surface);
   if (!program.dialects) return;
   const dialect = $<HTMLSelectElement>("assumedDialect");
@@ -144,33 +147,38 @@ export function hide(): void {
 /** The path and the element of a step, and the number of earlier steps on that element. After an edit, these values identify the step again. */
 interface Mark {
   path: string;
-  handle: string;
+  element: Element;
   turn: number;
 }
 
 function marked(at: number | null): Mark | null {
-  const own = at === null ? null : owner(at);
+  const own = at === null ? null : owner(made.steps[at]);
   if (own === null || at === null) return null;
-  let turn = 0;
-  for (let step = 0; step < at; step++) {
-    const other = owner(step);
-    if (other?.path === own.path && other.handle === own.handle) turn++;
-  }
+  const turn = made.steps.slice(0, at).filter((step) => owner(step)?.element === own.element).length;
   return { ...own, turn };
 }
 
-function owner(at: number): { path: string; handle: string } | null {
-  const { path, move } = made.steps[at];
+function owner({ path, move }: Step): { path: string; element: Element } | null {
   const element = move.element === undefined ? undefined : path.elements[move.element];
-  return element?.handle ? { path: path.embedded[element.path]?.name ?? path.name, handle: element.handle } : null;
+  return element ? { path: nameOf(path, element), element } : null;
 }
 
-function found({ path, handle, turn }: Mark): number | null {
-  for (let step = 0; step < made.steps.length; step++) {
-    const other = owner(step);
-    if (other?.path === path && other.handle === handle && turn-- === 0) return step;
+function nameOf(path: Path, element: Element): string {
+  return path.embedded[element.path]?.name ?? path.name;
+}
+
+/** Returns the step of a mark in the present version. Elements are paired as `diff` pairs them: by their place, then by their handle. */
+function found({ path: name, element: old, turn }: Mark): number | null {
+  const likeness = (element: Element) => 4 * Number(isSamePlace(old, element)) + 2 * Number(isSameHandle(old, element)) + Number(old.kind === element.kind);
+  let [best, most] = [null as Element | null, 1];
+  for (const path of scene.paths) {
+    for (const element of path.elements.filter((it) => nameOf(path, it) === name)) {
+      const like = likeness(element);
+      if (like > most) [best, most] = [element, like];
+    }
   }
-  return null;
+  const steps = made.steps.flatMap((step, index) => (best && owner(step)?.element === best ? [index] : []));
+  return steps[turn] ?? null;
 }
 
 /** The moves that were shown of the last version with moves. */
@@ -267,7 +275,7 @@ function placeWork(): void {
   if ($("work").hidden) return $("operations").replaceChildren();
   const rows = work.map((it, index) => {
     const what = [sayKind(it.kind, lang), it.name, scene.paths.length > 1 ? made.steps[it.moves[0]].path.name : ""].filter((part) => part !== "");
-    const row = tableRow("td", [String(index + 1), what.join(" · "), it.depth === null ? "" : mm(it.depth), it.length.toFixed(0), ...(timeline.isKnown ? [clock(it.seconds)] : [])]);
+    const row = tableRow("td", [String(index + 1), what.join(" · "), it.depth === null ? "" : mm(it.depth), wholeMm(it.length), ...(timeline.isKnown ? [clock(it.seconds)] : [])]);
     row.tabIndex = 0;
     row.addEventListener("click", () => choose(index));
     row.addEventListener("keydown", (event) => {
@@ -351,7 +359,7 @@ function spots(): void {
             ? [(shape.from[0] + shape.to[0]) / 2, (shape.from[1] + shape.to[1]) / 2]
             : shape.type === "circle"
               ? shape.centre
-              : middle(shape);
+              : middleOfArc(shape);
         // A number on the disc of a drilled hole would make it look like a ring.
         const reach = (path.tool ?? 0) / 2;
         const isHole = shape.type === "circle" && shape.radius <= 1.05 * reach;
@@ -377,6 +385,9 @@ function spots(): void {
     if (!finding.at) continue;
     const circle = node("button", String(finding.number), finding.is_error ? "finding" : "finding warning");
     circle.title = visible(`${finding.code}: ${finding.message[lang]}`);
+    circle.setAttribute("aria-label", `${say("finding", lang)} ${finding.number}: ${circle.title}`);
+    // The list of findings has the same buttons.
+    circle.tabIndex = -1;
     circle.addEventListener("click", () => goTo(finding));
     add(finding.at, 0, circle);
   }
@@ -390,15 +401,6 @@ function spots(): void {
 function everyNth<T>(all: T[], most: number): T[] {
   const step = Math.ceil(all.length / most);
   return all.filter((_, index) => most > 0 && index % step === 0);
-}
-
-function middle(shape: { from: [number, number]; centre: [number, number]; clockwise: boolean; degrees: number }): [number, number] {
-  const [x, y] = [shape.from[0] - shape.centre[0], shape.from[1] - shape.centre[1]];
-  const angle = ((shape.clockwise ? -1 : 1) * shape.degrees * Math.PI) / 360;
-  return [
-    shape.centre[0] + x * Math.cos(angle) - y * Math.sin(angle),
-    shape.centre[1] + x * Math.sin(angle) + y * Math.cos(angle),
-  ];
 }
 
 /** Moves the tool to the end of this many moves, and along a share of the next one. */

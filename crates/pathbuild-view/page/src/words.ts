@@ -25,6 +25,7 @@ const words = {
   time: ["time", "Zeit"],
   withoutRapids: ["without rapid moves", "ohne Eilgänge"],
   findings: ["Findings", "Befunde"],
+  finding: ["finding", "Befund"],
   element: ["Element", "Element"],
   layer: ["layer", "Layer"],
   line: ["line in the file", "Zeile in der Datei"],
@@ -83,6 +84,7 @@ const words = {
   lineShort: ["line", "Zeile"],
   readAs: ["read as", "gelesen als"],
   extent: ["extent", "Ausdehnung"],
+  extentOfCuts: ["of which cuts", "davon Schnitte"],
   waits: ["waits (not in the time)", "Halte (nicht in der Zeit)"],
   tools: ["tools", "Werkzeuge"],
   pickProgram: ["Open a program…", "Programm öffnen…"],
@@ -100,6 +102,7 @@ const words = {
   search: ["Search  ( / )", "Suche  ( / )"],
   statistics: ["Statistics", "Statistik"],
   paths: ["paths", "Pfade"],
+  ofPaths: ["paths", "Pfaden"],
   path: ["path", "Pfad"],
   drawing: ["drawing", "Zeichnung"],
   drawings: ["drawings", "Zeichnungen"],
@@ -203,6 +206,12 @@ export function sayKind(kind: string, lang: Lang): string {
 /** Returns the name, as shown to users, of an option or parameter that has no value. */
 export function sayOption(name: string, lang: Lang): string {
   return name === "feed" ? say("feedF", lang) : name === "rapid" ? say("sweep", lang) : name;
+}
+
+/** Formats a length in whole mm. As in the statistics of programs, a half is rounded to the even number. */
+export function wholeMm(value: number): string {
+  const down = Math.floor(value);
+  return String(value - down === 0.5 && down % 2 === 0 ? down : Math.round(value));
 }
 
 export function mm(value: number): string {
