@@ -197,11 +197,15 @@ impl<'t> ParameterText<'t> {
         characters.as_str()
     }
 
-    /// Returns the letters that pieces without a letter may stand for: B for `b2`, any letter for a lone `2`.
+    /// Returns the letters that pieces without a letter may stand for: B for `b2`, any letter for a lone `2`, none for `X9`.
     pub(crate) fn unread_letters(self) -> Letters {
         let meant = |piece: &LetterValue| {
             let first = self.letter(piece).unwrap_or_default();
-            Letter::new(first.to_ascii_uppercase()).map_or(Letters::ALL, |letter| Letters::of(&[letter]))
+            match Letter::new(first.to_ascii_uppercase()) {
+                Some(letter) => Letters::of(&[letter]),
+                None if first.is_ascii_alphabetic() => Letters::default(),
+                None => Letters::ALL,
+            }
         };
         let unread = self.pieces.iter().filter(|piece| piece.letter.is_none());
         unread.fold(Letters::default(), |all, piece| all.and(meant(piece)))

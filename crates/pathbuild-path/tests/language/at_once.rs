@@ -113,6 +113,8 @@ fn a_text_at_fault_makes_its_own_letters_unknown() {
     assert_eq!(with(""), ["PB201 B"]);
     assert_eq!(with("\"b2\""), ["PB202 b"]);
     assert_eq!(with("\"2\""), ["PB202 2"]);
+    // X is the letter of no parameter.
+    assert_eq!(with("\"X2\""), ["PB202 X", "PB201 B"]);
     assert_eq!(with("\"B 2\""), ["PB202"]);
     assert_eq!(with("\"B2mm\""), ["PB205 B"]);
     assert_eq!(with("\"F100\""), ["PB201 B"]);
