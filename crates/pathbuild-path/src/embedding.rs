@@ -591,19 +591,23 @@ impl<'a> SubpathChecker<'a> {
             .with("there", inner.tool)
     }
 
-    /// Returns the finding about an embedded path with a name that selects another tool of the same diameter. A path for which a tool is found by
-    /// diameter alone can be milled with any tool of that diameter.
+    /// Returns the finding about an embedded path that another tool of the same diameter mills, because the name of either path selects its tool. If
+    /// only the embedding path's name does, its tool may be chosen on purpose, unless just one of the tools is a slot cutter.
     fn other_tool_problem(&self, inner: &PathSignature) -> Option<Diagnostic> {
         let tool = |path: &PathSignature| self.language.tools.of(path.name.as_str(), path.tool);
         let (here, there) = (tool(self.outer)?, tool(inner)?);
+        let is_other = here.name != there.name && (here.is_named || there.is_named);
+        let message = if there.is_named { &messages::TOOL_OF_PROJECT } else { &messages::TOOL_OF_COMPONENT };
+        let is_doubt = !there.is_named && here.is_slot_cutter == there.is_slot_cutter;
         let problem = || {
-            Diagnostic::new(&messages::TOOL_OF_PROJECT)
+            let problem = Diagnostic::new(message)
                 .quoting("outer", self.outer.name.as_str())
                 .quoting("here", here.name.as_str())
                 .quoting("name", inner.name.as_str())
-                .quoting("there", there.name.as_str())
+                .quoting("there", there.name.as_str());
+            if is_doubt { as_warning(problem) } else { problem }
         };
-        (there.is_named && here.name != there.name).then(problem)
+        is_other.then(problem)
     }
 
     /// Returns the finding about a path that is drawn for a thinner sheet, although the drawings do not say that it lies in a sheet of its own: its

@@ -382,6 +382,13 @@ messages! {
         help_en: "embed the path in another project, whose name `paths` of {there} also matches, and write both projects into one program with --join: a project is milled with one cutter",
         help_de: "den Pfad in einem anderen Projekt einbetten, auf dessen Namen `paths` von {there} auch passt, und beide Projekte mit --join in ein Programm schreiben: ein Projekt wird mit einem einzigen Fräser gefräst",
     }
+    /// An embedding path with a name that selects another tool than the one that mills the embedded path by itself, of the same diameter.
+    TOOL_OF_COMPONENT: SubpathParameterDiffers {
+        en: "path {outer} is milled with the tool {here} ([tool] in pathbuild.toml), but path {name} by itself with the tool {there}, of the same diameter",
+        de: "Pfad {outer} wird mit dem Werkzeug {here} ([tool] in pathbuild.toml) gefräst, Pfad {name} für sich aber mit dem Werkzeug {there} desselben Durchmessers",
+        help_en: "if {here} suits both, let its `paths` match {name} as well; otherwise embed the path in a project that is milled with {there}",
+        help_de: "passt {here} für beide, soll sein `paths` auch auf {name} passen; sonst den Pfad in einem Projekt einbetten, das mit {there} gefräst wird",
+    }
     /// An embedding path with a greater thickness (T) than the embedded one, although both are of one sheet: the same M, and no H.
     THICKNESS_OF_PROJECT: SubpathParameterDiffers {
         en: "path {name} is drawn for a sheet of {there} mm, but path {outer} has T{here}: rapid moves go down to Z {there}, into its material",

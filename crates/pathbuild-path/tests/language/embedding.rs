@@ -153,6 +153,39 @@ fn the_tool_is_that_of_the_embedding_path() {
     assert!(text.contains("is drawn for a cutter of 2 mm"), "{text}");
 }
 
+/// There is a tool for 1234.1P, the embedding path, and another one for all other paths, both of the same diameter.
+#[test]
+fn a_project_may_have_its_own_cutter_of_the_same_shape() {
+    let found = |is_outer_slot, is_inner_slot, name: &'static str, is_compatible| {
+        let tools = PathTools::new(move |path, _| {
+            let is_outer = path == "1234.1P";
+            let name = if is_outer { name } else { "mill" };
+            let is_slot_cutter = if is_outer { is_outer_slot } else { is_inner_slot };
+            Some(PathTool {
+                name: name.into(),
+                is_named: is_outer,
+                chip_load: None,
+                cutting_length: None,
+                is_slot_cutter,
+            })
+        });
+        let outer = project("T5 O3 I1 B0 Mx", ">1111.1P O3");
+        let inner = path("T5 O3 I1 B0 Mx", "mill 0,0 20,0\nend 20,0");
+        let inner = signature(&inner.replace("1234.1P", "1111.1P"));
+        let language = Language { tools, ..language() };
+        let judge = SubpathChecker::new(&outer, &[], &language, is_compatible);
+        let found = judge.mismatches(&outer.subpaths[0], &inner);
+        found.into_iter().map(|problem| (problem.code().to_string(), problem.is_error())).collect::<Vec<_>>()
+    };
+    let (error, warning) = ([("PB506".to_owned(), true)], [("PB506".to_owned(), false)]);
+    assert_eq!(found(true, false, "own", false), error);
+    assert_eq!(found(false, true, "own", false), error);
+    assert_eq!(found(false, false, "own", false), warning);
+    assert_eq!(found(true, true, "own", false), warning);
+    assert_eq!(found(true, false, "own", true), warning);
+    assert_eq!(found(false, false, "mill", false), []);
+}
+
 /// An embedded path lies in the material of the embedding path, so it must not be thicker.
 #[test]
 fn t_of_a_segment_is_no_more_than_that_of_its_path() {
