@@ -248,7 +248,7 @@ codes! {
     761 InjectedFile "injected-file" Error "a file inserted by a control text is missing or outside the post's directory";
     762 RejectedWord "rejected-word" Error "the output has words or characters that the target's dialect rejects";
     763 LineTooLong "line-too-long" Error "a line of the output is longer than the target's dialect accepts";
-    764 UnknownTool "unknown-tool" Warning "the tool table has no cutter for a path";
+    764 UnknownTool "unknown-tool" Warning "the tool table has no cutter for a path, or several that fit it equally well";
     765 NothingToPost "nothing-to-post" Error "a program that a post cannot write";
     766 UnknownPost "unknown-post" Error "a post-processor that does not exist";
     767 PostDiffers "post-differs" Error "the output of a post has other moves than the program";

@@ -47,14 +47,49 @@ impl Job {
         (Self { name: name.into(), drawing: drawing.into(), operations, ..Self::default() }, fitter.warnings)
     }
 
-    /// Assigns the cutter of a path with diameter O to all operations, as in a job that is made from the path's program. Native programs
-    /// always say T1, whatever the cutter. Returns warnings about the tool.
-    pub fn set_cutter(&mut self, path: &str, diameter: f64, tools: &ToolTable) -> Vec<Diagnostic> {
+    /// Assigns the cutter of native programs to all operations, as in a job that is made from their paths. Native programs always say T1, whatever
+    /// the cutter. Returns warnings about the tool.
+    ///
+    /// # Errors
+    /// PB765 if the programs need different tools, or if one does not name its path and several tools have its O.
+    pub fn set_cutter(
+        &mut self,
+        programs: &[NativeCutter],
+        tools: &ToolTable,
+    ) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
         let mut fitter = ToolAssigner::new(tools);
-        let tool = fitter.assign_tool(path, diameter).tool;
-        self.operations.iter_mut().for_each(|operation| operation.tool = tool.clone());
-        fitter.warnings
+        let mut first = None;
+        for NativeCutter { line, path, diameter } in programs {
+            let alike = tools.positions_where(*diameter, |_| path.is_none());
+            if let [first, second, ..] = *alike {
+                let [first, second] = [first, second].map(|index| &*tools.entries[index].name);
+                let problem = Diagnostic::new(&posts::CUTTER_OF_UNNAMED_PATH).with("diameter", *diameter);
+                let problem = problem.quoting("first", first).quoting("second", second);
+                return Err(Box::new(problem.at_line(*line, None)));
+            }
+            let tool = fitter.assign_tool(path.as_deref().unwrap_or_default(), *diameter).tool;
+            let expected = &*first.get_or_insert_with(|| tool.clone());
+            if expected.index != tool.index {
+                let problem = Diagnostic::new(&posts::SEVERAL_NATIVE_PROGRAMS).quoting("tool", &*tool.name);
+                return Err(Box::new(problem.quoting("first", &*expected.name).at_line(*line, None)));
+            }
+        }
+        if let Some(tool) = first {
+            self.operations.iter_mut().for_each(|operation| operation.tool = tool.clone());
+        }
+        Ok(fitter.warnings)
     }
+}
+
+/// The cutter that the head of a native program states.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NativeCutter {
+    /// The line of the head.
+    pub line: u32,
+    /// The path of the program; `None` if the head does not name it.
+    pub path: Option<String>,
+    /// O in mm.
+    pub diameter: f64,
 }
 
 struct Builder<'a> {
@@ -233,7 +268,7 @@ fn drop_rapid_between_holes(steps: &mut Vec<JobStep>, next: &Hole) {
 /// The table of tools in the configuration (`[tool.NAME]` in pathbuild.toml): cutter, spindle and coolant for programs with a given O.
 #[derive(Clone, Debug, Default)]
 pub struct ToolTable {
-    /// The tools in the order of the configuration. The first one that matches is used.
+    /// The tools in the order of the configuration. The first one that matches is used, with a warning if another one matches as well.
     pub entries: Vec<ToolEntry>,
 }
 
@@ -308,10 +343,20 @@ impl ToolTable {
 
     /// Returns the index of the tool that [`find`](Self::find) returns.
     pub fn position(&self, path: &str, diameter: f64) -> Option<usize> {
-        let fits = |entry: &ToolEntry| near(entry.diameter, diameter);
+        self.positions(path, diameter).first().copied()
+    }
+
+    /// Returns the indices of all tools that fit a path equally well.
+    fn positions(&self, path: &str, diameter: f64) -> Vec<usize> {
         let is_named = |entry: &ToolEntry| entry.paths.as_ref().is_some_and(|paths| paths.is_match(path));
-        let named = self.entries.iter().position(|entry| fits(entry) && is_named(entry));
-        named.or_else(|| self.entries.iter().position(|entry| fits(entry) && entry.paths.is_none()))
+        let named = self.positions_where(diameter, is_named);
+        if named.is_empty() { self.positions_where(diameter, |entry| entry.paths.is_none()) } else { named }
+    }
+
+    fn positions_where(&self, diameter: f64, is_meant: impl Fn(&ToolEntry) -> bool) -> Vec<usize> {
+        let entries = self.entries.iter().enumerate();
+        let fitting = entries.filter(|(_, entry)| near(entry.diameter, diameter) && is_meant(entry));
+        fitting.map(|(index, _)| index).collect()
     }
 }
 
@@ -322,13 +367,22 @@ impl<'a> ToolAssigner<'a> {
 
     /// Returns the cutter and settings for a path with diameter O, and remembers the cutter for later paths.
     pub(super) fn assign_tool(&mut self, path: &str, diameter: f64) -> ToolAssignment {
-        let position = self.table.position(path, diameter);
+        let positions = self.table.positions(path, diameter);
+        let position = positions.first().copied();
         let entry = position.map(|index| &self.table.entries[index]);
         let key = position.map_or(Key::Diameter(diameter), Key::Entry);
         let tool = match self.fitted.iter().find(|(known, _)| known.is_same(key)) {
             Some((_, tool)) => tool.clone(),
             None => self.add(key, entry, path, diameter),
         };
+        if let [first, second, ..] = *positions {
+            let [first, second] = [first, second].map(|index| &*self.table.entries[index].name);
+            let problem = Diagnostic::new(&posts::TOOLS_ALIKE).with("diameter", diameter);
+            let problem = problem.quoting("first", first).quoting("second", second);
+            if !self.warnings.contains(&problem) {
+                self.warnings.push(problem);
+            }
+        }
         ToolAssignment {
             tool,
             spindle: entry.and_then(|entry| entry.spindle),

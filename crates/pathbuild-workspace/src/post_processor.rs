@@ -45,6 +45,8 @@ pub struct PostProcessor {
     /// Options for all programs. They do not contain the files that the definition inserts.
     pub(crate) options: PostOptions<'static>,
     system: Arc<dyn System>,
+    /// File of the configuration with the tools, if there is one.
+    configuration: Option<Utf8PathBuf>,
     /// Whether a program is refused if its definition requests a command, because the run is untrusted.
     runs_no_command: bool,
 }
@@ -154,6 +156,7 @@ impl PostProcessor {
             feed: general.feed.value,
             options,
             system: Arc::clone(shared_system),
+            configuration: settings.file.clone(),
             runs_no_command: settings.confined.is_some(),
         }
     }
@@ -174,6 +177,14 @@ impl PostProcessor {
     /// Returns the extension of output files, without the dot.
     pub fn extension(&self) -> &str {
         self.post.extension()
+    }
+
+    /// Places a finding about the table of tools in the configuration, so that it is reported once however many paths it concerns.
+    pub fn locate(&self, problem: Diagnostic) -> Diagnostic {
+        match &self.configuration {
+            Some(file) if problem.message == &posts::TOOLS_ALIKE => problem.in_file(file),
+            _ => problem,
+        }
     }
 
     /// Returns the dialect in which output is read back, if known.

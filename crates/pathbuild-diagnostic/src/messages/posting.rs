@@ -50,6 +50,13 @@ messages! {
         help_en: "add it as [tool.NAME] to pathbuild.toml",
         help_de: "als [tool.NAME] in pathbuild.toml aufnehmen",
     }
+    /// Two tools that fit a path equally well.
+    TOOLS_ALIKE: UnknownTool {
+        en: "the tools {first} and {second} both have the diameter {diameter} and fit the same paths: {first} is used, because it comes first",
+        de: "die Werkzeuge {first} und {second} haben beide den Durchmesser {diameter} und passen zu denselben Pfaden: verwendet wird {first}, weil es zuerst kommt",
+        help_en: "give one of them `paths`, a pattern for the names of its paths, or remove the one that is never used",
+        help_de: "einem davon `paths` geben, ein Muster für die Namen seiner Pfade, oder das nie verwendete entfernen",
+    }
     /// A tool number that is missing from the tool table, in a program that a post writes.
     TOOL_NUMBER_UNKNOWN: UnknownTool {
         en: "the tool table has no tool with the number {index}: the diameter of T{index} is unknown, and a post that writes it writes 0",
@@ -477,6 +484,20 @@ messages! {
         de: "{operation} geht gleich nach dem Wechsel zu T{index} bei Z {z} weiter, unter der Oberfläche bei {surface}: das neue Werkzeug würde eintauchen, wo das alte aufgehört hat",
         help_en: "put a rapid move to a place above the material between the tool change and the next cut",
         help_de: "zwischen Werkzeugwechsel und nächstem Schnitt einen Eilgang über das Material setzen",
+    }
+    /// A native program without the comment that names its path, if several tools have its O.
+    CUTTER_OF_UNNAMED_PATH: NothingToPost {
+        en: "several tools have the program's O = {diameter} ({first}, {second}), and the comment is missing that names its path and so decides between them",
+        de: "mehrere Werkzeuge haben das O = {diameter} des Programms ({first}, {second}), und der Kommentar fehlt, der seinen Pfad nennt und zwischen ihnen entscheidet",
+        help_en: "restore the comment `(Path NAME, drawing FILE)` below this line, or write the program from its drawing with `pathbuild emit`",
+        help_de: "den Kommentar `(Path NAME, drawing DATEI)` unter dieser Zeile wiederherstellen oder das Programm mit `pathbuild emit` aus seiner Zeichnung schreiben",
+    }
+    /// Native programs for different tools in one file.
+    SEVERAL_NATIVE_PROGRAMS: NothingToPost {
+        en: "here begins a program for the tool {tool}, but the file begins with one for the tool {first}",
+        de: "hier beginnt ein Programm für das Werkzeug {tool}, die Datei aber mit einem für das Werkzeug {first}",
+        help_en: "post each program from a file of its own, or write the paths into one program with tool changes: pathbuild emit PATHS --join NAME",
+        help_de: "jedes Programm aus einer eigenen Datei umschreiben oder die Pfade in ein Programm mit Werkzeugwechseln schreiben: pathbuild emit PFADE --join NAME",
     }
     /// A move to a machine position (G28, G30 or G53), in a program to be written through a post.
     JOB_NAMED_PLACE: NothingToPost {

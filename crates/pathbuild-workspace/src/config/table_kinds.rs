@@ -112,7 +112,10 @@ const UNCHECKED: ValueType<bool> = ValueType {
 pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
     read: |value, reader| {
         let mut tools: Vec<Tool> = Vec::new();
-        for entry in own_entries(value, reader)? {
+        let mut entries = own_entries(value, reader)?;
+        // Their order decides which one is used and which numbers they get. The parser sorts them by name.
+        entries.sort_by_key(|(name, _)| name.span().start);
+        for entry in entries {
             tools.extend(reader.read_within(entry.0.get_ref(), |reader| {
                 let tool = tool(entry, reader)?;
                 report_shared_number(&tool, entry, &tools, reader);

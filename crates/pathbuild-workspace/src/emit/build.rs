@@ -282,7 +282,10 @@ fn write_through_post(
     program.remarks = vec![provenance.into(), job.title.as_str().into()];
     let left_out = programs.iter().flat_map(|program| native::left_out_lines(program, lang));
     program.remarks.extend(left_out.map(Into::into));
-    let located = |problem: Diagnostic| if problem.file.is_none() { at(problem) } else { problem };
+    let located = |problem: Diagnostic| {
+        let problem = post_processor.locate(problem);
+        if problem.file.is_none() { at(problem) } else { problem }
+    };
     let output = post_processor.write(&program, Some(path), &mut delivered.inserted);
     let output = output.map_err(|problems| {
         problems.into_iter().map(|problem| about_job(problem, job)).collect::<Vec<_>>()

@@ -8,8 +8,10 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, HeaderReader};
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_motion::Step;
-use pathbuild_post::{BUILT_IN, Job, Output, Remark, ToolTable, altered_words, is_of_head, native_remark};
+use pathbuild_motion::{Action, Step};
+use pathbuild_post::{
+    BUILT_IN, Job, NativeCutter, Output, Remark, ToolTable, altered_words, is_of_head, native_remark,
+};
 use serde_json::json;
 
 use crate::args::{PostArgs, PostCommand};
@@ -229,9 +231,7 @@ fn output(
         (_, Some(_)) => |text| if is_of_head(text) { Remark::Goes } else { Remark::Stays },
         (_, None) => |_| Remark::Stays,
     };
-    let native_cutter = head.as_ref().filter(|_| program.dialect == Dialect::Native);
-    let native_cutter = native_cutter
-        .and_then(|(provenance, title)| Some((path_of_title(title)?.to_owned(), provenance.cutter?)));
+    let native_cutters = if program.dialect == Dialect::Native { native_cutters(&steps) } else { Vec::new() };
     let name = program.file.file_stem().unwrap_or_default();
     let mut job = Job::from_steps(name, &steps, program.dialect, &remark)?;
     let mut header = HeaderReader::default();
@@ -252,24 +252,50 @@ fn output(
         job.set_missing_feeds(feed);
     }
     let stated = header.finish(program.inch_word()).tools;
-    let unknown = complete_tools_of_job(&mut job, native_cutter, &post_processor.tools, &stated);
+    let unknown = complete_tools_of_job(&mut job, &native_cutters, &post_processor.tools, &stated)
+        .map_err(|problem| vec![*problem])?;
     let mut output = post_processor.write(&job, to, &mut Vec::new())?;
-    output.warnings.extend(unknown.into_iter().map(|warning| warning.in_file(&program.file)));
+    let located = |warning: Diagnostic| post_processor.locate(warning.in_file(&program.file));
+    output.warnings.extend(unknown.into_iter().map(located));
     Ok(output)
 }
 
+/// Returns the cutters that the heads of native programs state. A file has several heads if programs were joined by hand.
+fn native_cutters(steps: &[Step]) -> Vec<NativeCutter> {
+    let comments = steps.iter().filter_map(|step| match &step.action {
+        Action::Comment(text) => Some((step.line, &**text)),
+        _ => None,
+    });
+    let mut cutters: Vec<NativeCutter> = Vec::new();
+    let mut is_after_head = false;
+    for (line, text) in comments {
+        if let Some(cutter) = text.trim().parse().ok().and_then(|head: Provenance| head.cutter) {
+            cutters.push(NativeCutter { line, path: None, diameter: cutter });
+            is_after_head = true;
+        } else if let Some(cutter) = cutters.last_mut().filter(|_| is_after_head) {
+            cutter.path = path_of_title(text.trim()).map(str::to_owned);
+            is_after_head = false;
+        }
+    }
+    cutters
+}
+
 /// Completes the tools of a job from the tool table: by their numbers, or for a native program by the path and the cutter O in its header. Tools that
-/// the table lacks are as the program states them.
-/// Returns warnings about unknown tools.
+/// the table lacks are as the program states them. Returns warnings about the tools.
+///
+/// # Errors
+/// PB765 if the tool of a native program is unclear.
 fn complete_tools_of_job(
     job: &mut Job,
-    native_cutter: Option<(String, f64)>,
+    native_cutters: &[NativeCutter],
     tools: &ToolTable,
     stated: &[CuttingTool],
-) -> Vec<Diagnostic> {
+) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
     let tools = tools.with_numbers();
-    let Some((path, diameter)) = native_cutter else { return complete_tools(job, &tools, stated) };
-    let unknown = job.set_cutter(&path, diameter, &tools);
+    if native_cutters.is_empty() {
+        return Ok(complete_tools(job, &tools, stated));
+    }
+    let unknown = job.set_cutter(native_cutters, &tools)?;
     let by_number = complete_tools(job, &tools, &[]);
-    if unknown.is_empty() { by_number } else { unknown }
+    Ok(if unknown.is_empty() { by_number } else { unknown })
 }
