@@ -290,6 +290,39 @@ fn pecks_are_compared_where_they_are_written() {
     }
 }
 
+#[test]
+fn probes_that_differ_are_a_change() {
+    let probed = |text: &str| dxf("1001.1P", "1", &format!("{LINE}\n{text}"));
+    let compared = |old: &str, new: &str| two(probed(old), probed(new)).run("diff old new");
+    let changes = |old: &str, new: &str, line: &str| {
+        let run = compared(old, new);
+        assert_prints(&run, 0, &[&format!("  probe: {line}\n"), "1 of 1 path changed\n"]);
+    };
+    changes("", "probe 10,10 \"Z50\"", "X10 Y10 T5 F50 instead of none");
+    changes("probe 10,10 \"Z50\"", "", "none instead of X10 Y10 T5 F50");
+    changes("probe 10,10 \"Z50\"", "probe 10,10 \"Z50 T4\"", "X10 Y10 T4 F50 instead of X10 Y10 T5 F50");
+    changes("probe 10,10 \"Z50\"", "probe 10,11 \"Z50\"", "X10 Y11 T5 F50 instead of X10 Y10 T5 F50");
+    changes("probe 10,10 \"Z50\"", "probe 10,10 \"Z60\"", "X10 Y10 T5 F60 instead of X10 Y10 T5 F50");
+    let run = compared("probe 10,10 \"Z50\"", "probe 10,10 \"Z50 LA\"");
+    assert_prints(&run, 0, &["0 of 1 path changed\n"]);
+}
+
+/// The probes of a program are in its comments, with the heights that its formulas use.
+#[test]
+fn probes_of_two_programs_are_compared() {
+    let probed = |text: &str| dxf("1001.1P", "1", &format!("{LINE}\nprobe 10,10 \"{text}\""));
+    let place = two(probed("Z50"), probed("Z50 T4"));
+    for side in ["old", "new"] {
+        assert_eq!(place.run(&format!("emit {side}/parts/1001.1P.dxf --rapid 1000")).status, Some(0));
+    }
+    let [old, new] = ["old", "new"].map(|side| format!("{side}/parts/1001.1P_Clean.gcode"));
+    let same = place.read(&old);
+    let place = place.file("same.gcode", same);
+    assert_prints(&place.run(&format!("diff {old} same.gcode")), 0, &["0 of 1 path changed\n"]);
+    let run = place.run(&format!("diff {old} {new}"));
+    assert_prints(&run, 0, &["  probe: X10 Y10 T4 instead of X10 Y10 T5 (line 4)\n", "1 of 1 path changed"]);
+}
+
 /// The moves have another zero point, although they are the same in the coordinates of the program.
 #[test]
 fn a_zero_set_by_probing_is_a_change() {

@@ -118,7 +118,7 @@ fn version_in(program: &[u8]) -> Option<Range<usize>> {
 }
 
 /// Strips the block number and the comment marks from a line.
-fn without_comment_marks(line: &str) -> &str {
+pub(crate) fn without_comment_marks(line: &str) -> &str {
     let line = line.trim();
     let digits =
         line.strip_prefix(['N', 'n']).map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));

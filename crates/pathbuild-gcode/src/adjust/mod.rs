@@ -8,6 +8,7 @@ mod heights;
 mod scan;
 mod values;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use camino::Utf8Path;
@@ -15,7 +16,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes as messages;
 
 use crate::native::{f3, push_exact};
-use crate::provenance::is_same_program;
+use crate::provenance::{is_same_program, without_comment_marks};
 
 use check::{Check, MIN_DIFFERENCE, Values};
 use heights::HeightRules;
@@ -143,6 +144,25 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     let (max_correction, below_plate) = (f64::INFINITY, f64::INFINITY);
     let inputs = Inputs { program: clean, values: program, log: None, max_correction, below_plate };
     has_all.then(|| evaluate_formulas(&inputs, &values).ok()).flatten().map(|adjusted| adjusted.program)
+}
+
+/// Returns the measured heights that comments of a program list, by the numbers of their probes. Unlike in [`states_heights`], the program may have
+/// been converted by a post-processor, which writes the comments further down.
+pub fn listed_heights(program: &[u8]) -> BTreeMap<u32, f64> {
+    let text = String::from_utf8_lossy(program);
+    let comments = text.lines().map(without_comment_marks);
+    let entries = comments.filter_map(|comment| probe_entry(&comment.replacen("PROBE #", "Probe #", 1)));
+    entries.filter_map(|(number, probe)| Some((number, probe.measured?))).collect()
+}
+
+/// Returns the probes that comments of a program list, each with its line, its place and the height that was expected there.
+pub fn listed_probes(program: &[u8]) -> Vec<(u32, [f64; 2], f64)> {
+    let lines = (1..).zip(program.split(|byte| *byte == b'\n'));
+    let probe = |(line, text): (u32, &[u8])| {
+        let (_, probe) = entry_of_line(text)?;
+        Some((line, probe.at.map_or(probe.place, |at| [at.x, at.y]), probe.height))
+    };
+    lines.take_while(|(_, text)| is_header(text)).filter_map(probe).collect()
 }
 
 /// Whether the header of a program lists measured heights, that is, whether it was adjusted.

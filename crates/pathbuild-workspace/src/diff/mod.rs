@@ -427,6 +427,8 @@ impl CompiledSide<'_> {
         let writes_pecks = self.post_processor.is_some() && settings.general.cycles.value;
         let pecks = self.session.query_target(known.target, pecks)?;
         states.set_pecks(pecks.into_iter().map(|(_, depth)| depth.filter(|_| writes_pecks)));
+        let probes = |db: &Database| program(db, known.target).as_deref().map(|found| found.probes.clone());
+        states.set_probes(&self.session.query_target(known.target, probes)?.unwrap_or_default());
         Ok(states)
     }
 }

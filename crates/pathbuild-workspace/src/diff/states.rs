@@ -1,11 +1,13 @@
 //! Differences between two programs in what they state besides moves: tools, spindle, work offsets, stops and the like. (book: program/comparing)
 
 use pathbuild_diagnostic::{Number, Text};
+use pathbuild_gcode::adjust;
 use pathbuild_gcode::header::HeaderReader;
 use pathbuild_gcode::interpret::code_name;
 use pathbuild_motion::{
     Action, Change, Coolant, Corners, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem,
 };
+use pathbuild_toolpath::ProbePoint;
 
 use crate::program::Program;
 
@@ -138,6 +140,11 @@ impl MachineStates {
         if program.by_definition.is_some() {
             header.read_head_comments(&program.text);
         }
+        for (line, [x, y], height) in adjust::listed_probes(&program.text) {
+            let words = probe_words([x, y], height);
+            let probe = StatedWords { cut: 0, words, line };
+            states.stated[StateKind::Probe as usize].get_or_insert_default().push(probe);
+        }
         let tools = header.finish(program.inch_word()).tools;
         let cutters = tools.iter().map(|tool| Some((tool.line, cutter_words(tool.cutter?.diameter))));
         let cutters: Option<Vec<(u32, String)>> = cutters.collect();
@@ -171,6 +178,15 @@ impl MachineStates {
         let depth = |depth| format!("C{}", Number(depth));
         let words = pecks.map(|peck| (0, peck.map_or_else(String::new, depth))).collect();
         self.set(StateKind::Peck, words);
+    }
+
+    /// Sets the drawn probes, in the order in which they are probed.
+    pub(super) fn set_probes(&mut self, probes: &[ProbePoint]) {
+        let words = probes.iter().map(|probe| {
+            let feed = Number(probe.feed);
+            (0, format!("{} F{feed}", probe_words([probe.at.x, probe.at.y], probe.height)))
+        });
+        self.set(StateKind::Probe, words.collect());
     }
 
     /// Sets the words of a kind, in their order, with their lines; 0 stands for no line. Words that repeat the previous ones change nothing.
@@ -346,7 +362,17 @@ impl CurrentState {
 }
 
 fn cutter_words(diameter: f64) -> String {
-    format!("O{}", Number((diameter * 1000.0).round() / 1000.0))
+    format!("O{}", rounded(diameter))
+}
+
+/// The words for a probe: its place, and the expected height.
+fn probe_words([x, y]: [f64; 2], height: f64) -> String {
+    format!("X{} Y{} T{}", rounded(x), rounded(y), rounded(height))
+}
+
+/// Rounds a length to thousandths, as programs have them.
+fn rounded(length: f64) -> Number {
+    Number((length * 1000.0).round() / 1000.0)
 }
 
 fn corner_words(corners: Corners) -> String {

@@ -71,12 +71,14 @@ impl Session<'_> {
     }
 }
 
-/// Hashes everything in a program that can change what a machine does: its moves, and its pecks, which only post-processors write.
+/// Hashes everything in a program that can change what a machine does: its moves, its pecks, which only post-processors write, and the feeds of its
+/// probes.
 fn move_hash(program: &Program) -> Box<str> {
     let moves = Provenance::of_programs(&[program], &[], None).moves;
     let pecks: Vec<(u32, f64)> =
         program.pecks().into_iter().filter_map(|(step, peck)| Some((step, peck?))).collect();
-    if pecks.is_empty() { moves } else { format!("{moves} {pecks:?}").into() }
+    let feeds: Vec<f64> = program.probes.iter().map(|probe| probe.feed).collect();
+    if pecks.is_empty() && feeds.is_empty() { moves } else { format!("{moves} {pecks:?} {feeds:?}").into() }
 }
 
 /// Whether a limit or a bug kept a program from being built, which does not mean that the drawing is wrong.
