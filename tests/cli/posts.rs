@@ -880,3 +880,151 @@ fn bent_rapid_moves_are_judged_as_the_target_makes_them() {
         assert_eq!(written(from, "linuxcnc", "X20. Y50.", ""), (Some(0), true, 0), "{from}");
     }
 }
+
+/// Library with a joined program that has just been written, and the programs of its paths.
+fn joined() -> Place {
+    let place = Place::of(&LIBRARY.replace("probe 20,20 \"LA\"\n", ""));
+    assert_eq!(place.run("emit . --post linuxcnc").status, Some(0));
+    assert_eq!(place.run("emit 1300.1P 1234.1P --post linuxcnc --join both").status, Some(0));
+    place
+}
+
+/// Replaces a drawing of the library by the same one with other parameters.
+fn redrawn(place: Place, name: &str, from: &str, to: &str) -> Place {
+    let changed = Place::of(&LIBRARY.replace("probe 20,20 \"LA\"\n", "").replace(from, to));
+    let drawing = std::fs::read(changed.path().join(name)).unwrap();
+    place.file(name, drawing)
+}
+
+#[test]
+fn joined_programs_are_stale_if_their_paths_changed() {
+    let check = "emit . --post linuxcnc --check --format concise";
+    let place = joined();
+    assert_eq!(place.run(check).status, Some(0), "{}", place.run(check));
+    let native = place.run("emit . --check --format concise");
+    assert!(!native.stderr.contains("both_Milling.ngc"), "{native}");
+    let place = redrawn(place, "1300.dxf", "O3 I1 B4", "O3 I1 B3");
+    assert_eq!(place.run("emit . --post linuxcnc").status, Some(0));
+    for arguments in ["--post linuxcnc --check", "--post linuxcnc --check --moves", "--check"] {
+        let run = place.run(&format!("emit . {arguments} --format concise"));
+        let told = "both_Milling.ngc: error[PB520] both_Milling.ngc joins 1300.1P, 1234.1P, which";
+        assert!(run.status == Some(1) && run.stderr.contains(told), "{run}");
+    }
+    let copy = place.read("both_Milling.ngc");
+    let place = place.file("copy.ngc", copy);
+    let run = place.run("emit . --post linuxcnc --remove-stale --format concise");
+    assert!(run.stderr.contains("both_Milling.ngc: stale, removed"), "{run}");
+    assert!(
+        run.stderr.contains("copy.ngc: warning[PB520]") && place.path().join("copy.ngc").exists(),
+        "{run}"
+    );
+    assert_eq!(place.run("emit 1300.1P 1234.1P --post linuxcnc --join both").status, Some(0));
+    std::fs::remove_file(place.path().join("copy.ngc")).unwrap();
+    assert_eq!(place.run(check).status, Some(0), "{}", place.run(check));
+}
+
+/// The number of a tool is no move.
+#[test]
+fn joined_programs_are_stale_if_their_tools_changed() {
+    let place = joined();
+    let settings = place.read("pathbuild.toml").replace("number = 4", "number = 5");
+    let place = place.file("pathbuild.toml", settings);
+    assert_eq!(place.run("emit . --post linuxcnc").status, Some(0));
+    let is_told = |arguments: &str| {
+        let run = place.run(&format!("emit . --post linuxcnc --check --format concise {arguments}"));
+        run.stderr.contains("both_Milling.ngc: error[PB520]")
+    };
+    assert!(is_told("") && !is_told("--moves"));
+}
+
+#[test]
+fn joined_programs_of_broken_and_removed_paths_are_out_of_date() {
+    let place = redrawn(joined(), "1300.dxf", "O3 I1 B4", "O3 I1");
+    let run = place.run("emit . --post linuxcnc --remove-stale --format concise");
+    let told = "both_Milling.ngc: warning[PB522] path 1300.1P was not written, so both_Milling.ngc";
+    assert!(run.stderr.contains(told) && place.path().join("both_Milling.ngc").exists(), "{run}");
+    let place = place.file("1300.dxf", "nothing");
+    let run = place.run("emit . --post linuxcnc --remove-stale --format concise");
+    assert!(run.stderr.contains("both_Milling.ngc: warning[PB522]"), "{run}");
+    std::fs::remove_file(place.path().join("1300.dxf")).unwrap();
+    let run = place.run("emit . --post linuxcnc --check --format concise");
+    assert!(run.stderr.contains("both_Milling.ngc: error[PB520]"), "{run}");
+    // Without one of its paths, the joined program is not written again.
+    let text = place.read("both_Milling.ngc");
+    let run = place.run("emit 1300.1P 1234.1P --post linuxcnc --join both --format concise");
+    assert!(run.stderr.contains("PB503") && run.stderr.contains("both_Milling.ngc: warning[PB522]"), "{run}");
+    assert_eq!(place.read("both_Milling.ngc"), text);
+}
+
+#[test]
+fn a_joined_program_does_not_replace_that_of_a_path() {
+    let place = joined();
+    let text = place.read("1400.1T_Milling.ngc");
+    for (name, file) in [("1400.1T", "1400.1T"), ("1234", "1234")] {
+        let run = place.run(&format!("emit 1300.1P 1234.1P --post linuxcnc --join {name} --format concise"));
+        let told = format!("error[PB514] {file}_Milling.ngc is the file of path");
+        assert!(run.status == Some(1) && run.stderr.contains(&told), "{run}");
+        assert!(!run.stderr.contains("PB522"), "{run}");
+    }
+    assert_eq!(place.read("1400.1T_Milling.ngc"), text);
+    // The program of this path has the name of its drawing.
+    let run = place.run("emit 1300.1P 1234.1P --post linuxcnc --join 1234.1P");
+    assert_eq!(run.status, Some(0), "{run}");
+}
+
+#[test]
+fn tools_that_fit_equally_well_are_reported_once() {
+    let place = |paths: &str| {
+        let twin = format!("[tool.twin]\ndiameter = 2\nnumber = 9\nspindle = 9000\n{paths}\n[tool.3mm]");
+        Place::of(&LIBRARY.replace("[tool.3mm]", &twin))
+    };
+    let emit = |paths: &str, names: &str| {
+        place(paths).run(&format!("emit {names} --post linuxcnc --out-dir out --format concise"))
+    };
+    let told = "the tools 2mm and twin both have the diameter 2 and fit the same paths: 2mm is used";
+    let run = emit("", "1234.1P 1300.1P 1500.1P");
+    assert_eq!(run.stderr.matches("PB764").count(), 1, "{run}");
+    assert!(run.stderr.contains(&format!("pathbuild.toml: warning[PB764] {told}")), "{run}");
+    // The order of the file counts, not that of the names.
+    let zero = LIBRARY.replace("[tool.3mm]", "[tool.0]\ndiameter = 2\n[tool.3mm]");
+    let run = Place::of(&zero).run("emit 1234.1P --post linuxcnc --format concise");
+    assert!(run.stderr.contains("the tools 2mm and 0 both"), "{run}");
+    // More specific `paths` decide.
+    assert!(!emit("", "1400.1T").stderr.contains("PB764"));
+    assert!(!emit("", "1300.1P").stderr.contains("PB764"));
+    assert!(!emit("paths = '^1234'", "1234.1P 1500.1P").stderr.contains("PB764"));
+    let run = emit("paths = '^1400'", "1400.1T");
+    assert!(run.stderr.contains("the tools twin and slot"), "{run}");
+}
+
+/// Native programs say T1, so their tool is known only from the comments at their head.
+#[test]
+fn native_programs_without_a_path_or_for_two_tools_are_refused() {
+    let place = library("");
+    assert_eq!(place.run("emit 1234.1P 1300.1P 1400.1T 1500.1P --out-dir .").status, Some(0));
+    let [mill, other, wide, slot] =
+        ["1234", "1500", "1300X", "1400.1T"].map(|name| place.read(&format!("{name}_Milling.gcode")));
+    let post = |text: String| {
+        let text = text.replace("M30\n%\n%\n", "");
+        std::fs::write(place.path().join("a.gcode"), text).unwrap();
+        place.run("post a.gcode --post linuxcnc -o a.ngc --format concise")
+    };
+    let without_path = |text: &str| {
+        text.lines().filter(|line| !line.starts_with("(Path ")).map(|line| format!("{line}\n")).collect()
+    };
+    let run = post(without_path(&slot));
+    assert!(run.status == Some(1) && run.stderr.contains("error[PB765] several tools"), "{run}");
+    // There is one tool of 3 mm.
+    let run = post(without_path(&wide));
+    assert!(run.status == Some(0) && place.read("a.ngc").contains("T1 M6"), "{run}");
+    let joined = |first: &str, second: &str| {
+        let first = first.split("M30").next().unwrap();
+        post(format!("{first}{}", second.trim_start_matches("%\n")))
+    };
+    for (first, second) in [(&slot, &mill), (&mill, &slot), (&mill, &wide)] {
+        let run = joined(first, second);
+        assert!(run.status == Some(1) && run.stderr.contains("error[PB765] here begins"), "{run}");
+    }
+    let run = joined(&mill, &other);
+    assert!(!run.stderr.contains("PB765"), "{run}");
+}

@@ -66,6 +66,30 @@ fn an_adjusted_program_is_stale_once_its_drawing_gives_other_moves() {
     }
 }
 
+/// The programs that `post` makes for the machine lie beside the native ones.
+#[test]
+fn programs_converted_from_current_ones_are_not_stale() {
+    let place = adjusted().file("pathbuild.toml", "rapid = 1000\nfeed = 150\nspindle = \"manual\"\n");
+    for kind in ["Milling", "Probing"] {
+        succeed(&place.run(&format!("post a_{kind}.gcode --post linuxcnc -o a_{kind}.ngc")));
+    }
+    let check = || emit(&place, ". --check --format concise");
+    assert_eq!(check().status, Some(0), "{}", check());
+    succeed(&emit(&place, ". --remove-stale"));
+    assert!(place.path().join("a_Milling.ngc").exists() && place.path().join("a_Probing.ngc").exists());
+    // The converted program has the heights of an earlier measurement.
+    measure(&place, |_, _| 0.2);
+    succeed(&place.run("adjust a.dxf --max-correction 0.9"));
+    let run = check();
+    assert!(run.stderr.contains("a_Milling.ngc: error[PB520]"), "{run}");
+    assert!(run.stderr.contains("other measured heights") && !run.stderr.contains("a_Probing.ngc"), "{run}");
+    succeed(&place.run("post a_Milling.gcode --post linuxcnc -o a_Milling.ngc"));
+    assert_eq!(check().status, Some(0), "{}", check());
+    // Without the native program beside it, it may be anything.
+    std::fs::remove_file(place.path().join("a_Milling.gcode")).unwrap();
+    assert!(check().stderr.contains("a_Milling.ngc: error[PB520]"), "{}", check());
+}
+
 /// Stale programs are detected from cached results as well.
 #[test]
 fn what_is_known_of_a_program_tells_stale_ones_as_well() {

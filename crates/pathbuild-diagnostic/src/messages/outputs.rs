@@ -129,6 +129,13 @@ messages! {
         help_en: "give one of them an R (a suffix of the output's name), or use --out-dir in separate runs",
         help_de: "einem davon ein R geben (Zusatz zum Namen der Ausgabe) oder --out-dir in getrennten Läufen verwenden",
     }
+    /// A joined program with the file name of a path's program.
+    JOINED_LIKE_PATH: SameOutput {
+        en: "{name} is the file of path {path}, so joined paths cannot be written into it",
+        de: "{name} ist die Datei des Pfads {path}, deshalb können keine verbundenen Pfade hineingeschrieben werden",
+        help_en: "give --join a name that no path and no drawing has",
+        help_de: "mit --join einen Namen angeben, den kein Pfad und keine Zeichnung hat",
+    }
     /// An output file from an earlier run that no path would write now.
     STALE: StaleOutput {
         en: "{name} was written earlier, but no path would write it now",
@@ -212,6 +219,20 @@ messages! {
         de: "{name} hat andere Bewegungen als {program}: ein anderer Postprozessor hat es geschrieben, bevor der Pfad geändert wurde",
         help_en: "do not mill with it: emit it again with that post-processor, or remove it with emit --remove-stale",
         help_de: "nicht damit fräsen: mit jenem Postprozessor neu schreiben (emit) oder mit emit --remove-stale entfernen",
+    }
+    /// A program that was converted from an adjusted one before that got other heights.
+    STALE_CONVERTED: StaleOutput {
+        en: "{name} has other measured heights than {program}, from which it was converted",
+        de: "{name} hat andere gemessene Höhen als {program}, aus dem es umgeschrieben wurde",
+        help_en: "do not mill with it: convert {program} again with pathbuild post, or remove it with emit --remove-stale",
+        help_de: "nicht damit fräsen: {program} mit pathbuild post noch einmal umschreiben oder die Datei mit emit --remove-stale entfernen",
+    }
+    /// An outdated program that joins paths.
+    STALE_JOINED: StaleOutput {
+        en: "{name} joins {paths}, which yield another program now",
+        de: "{name} verbindet {paths}, die jetzt ein anderes Programm ergeben",
+        help_en: "do not mill with it: write it again with {command}, or remove it with emit --remove-stale",
+        help_de: "nicht damit fräsen: mit {command} neu schreiben oder mit emit --remove-stale entfernen",
     }
     /// A path that the Q-project does not embed.
     LACKS_PATH: QProjectLacksPath {

@@ -8,7 +8,7 @@ mod read_back;
 pub(crate) use number::push_exact;
 pub use number::{FIRST_PARAMETER, f3, unused_probes};
 pub use program::{
-    WriteOptions, drawing_of_title, has_title, is_compatible, is_joined_title, is_title, is_title_of,
+    WriteOptions, drawing_of_title, has_title, is_compatible, is_title, is_title_of, joined_paths,
     joined_title, left_out_lines, path_of_title, plain_title, probe_name, probing_program, title, too_large,
     values_file, write_program,
 };

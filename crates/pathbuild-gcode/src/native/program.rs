@@ -89,16 +89,19 @@ pub fn is_title_of(found: &str, drawing: &str) -> bool {
 /// Returns the title of a program that joins paths. It contains neither a comma nor a drawing's name, so that the program is not mistaken for a stale
 /// program of a single drawing.
 pub fn joined_title<'a>(name: &str, paths: impl Iterator<Item = &'a str>) -> String {
-    format!("{PATHS}{}{JOINED_AS}{name}", paths.collect::<Vec<_>>().join(" + ")).replace(',', " ")
+    format!("{PATHS}{}{JOINED_AS}{name}", paths.collect::<Vec<_>>().join(AND)).replace(',', " ")
 }
 
-/// Whether a title found in a program is a [`joined_title`].
-pub fn is_joined_title(found: &str) -> bool {
+/// Returns the names of the paths in a [`joined_title`], and the name as which they are joined, reduced as by [`plain_title`]; `None` for another
+/// title.
+pub fn joined_paths(found: &str) -> Option<(Vec<String>, String)> {
     let found = plain_title(found);
-    found.starts_with(&plain_title(PATHS)) && found.contains(JOINED_AS)
+    let (paths, name) = found.strip_prefix(&*plain_title(PATHS))?.split_once(JOINED_AS)?;
+    Some((paths.split(AND).map(str::to_owned).collect(), name.to_owned()))
 }
 
 const PATHS: &str = "Paths ";
+const AND: &str = " + ";
 const JOINED_AS: &str = " joined as ";
 const PATH: &str = "Path ";
 const OF_DRAWING: &str = ", drawing ";

@@ -152,6 +152,7 @@ impl Emitter<'_> {
                     "nichts zu schreiben: Zeichnungen, Pfade oder Verzeichnisse nennen oder `library` und `[emit] targets` in pathbuild.toml setzen",
                 )
             })?;
+        let lacks_paths = join.is_some() && diagnostics.iter().any(Diagnostic::is_error);
         let is_printed = task == Task::Print;
         if is_printed && join.is_none() && selection.targets.len() > 1 {
             let reason = workspace.choose(
@@ -163,6 +164,9 @@ impl Emitter<'_> {
         let sheet = task.sheets(&workspace.settings);
         let builder = JobBuilder { session, post_processor: self.post_processor, join, sheet };
         let mut plans = plan(&builder, task, memo, &selection.targets, &mut diagnostics)?;
+        if lacks_paths {
+            plans.iter_mut().filter_map(|plan| plan.value.job.as_mut()).for_each(Job::leave_out);
+        }
         diagnostics.extend(plans.iter().flat_map(|plan| plan.value.problems()).cloned());
         if is_printed
             && plans.iter().filter_map(|plan| plan.value.remaining_job()).any(|job| job.files.len() > 1)

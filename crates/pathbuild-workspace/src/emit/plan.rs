@@ -158,6 +158,10 @@ pub(super) fn plan(
         return Err(options::missing_values(workspace, ["rapid"]));
     }
     leave_out_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
+    if let Some(join) = join {
+        let jobs = plans.iter_mut().filter_map(|answer| answer.value.job.as_mut());
+        diagnostics.extend(jobs.filter_map(|job| leave_out_if_named_like_path(session, join, job)));
+    }
     // An earlier run may have left out jobs because their files clashed with those of jobs that do not exist any more.
     for (answer, targets) in plans.iter_mut().zip(&programs) {
         let is_open = answer.value.remaining_job().is_some_and(|job| job.outcome.is_none());
@@ -359,6 +363,33 @@ pub(super) fn leave_out_clashes<'p>(
     for index in clashing {
         jobs[index].leave_out();
     }
+}
+
+/// Leaves out the job of a joined program that has the name of a path's program (PB514).
+fn leave_out_if_named_like_path(session: &Session<'_>, name: &str, job: &mut Job) -> Option<Diagnostic> {
+    let db = session.db();
+    let named = session.select(&crate::Inputs { inputs: vec![name.to_owned()] });
+    let named = named.paths.into_iter().map(|path| path.file).chain(named.named);
+    let own = job.targets.iter().map(|target| target.file(db));
+    let files: HashSet<SourceFile> = own.chain(named).collect();
+    let mut clashing = Vec::new();
+    for file in files {
+        let (drawing, names) = (file.path(db), path_names(db, file));
+        let directory = output_directory(session.out_dir().as_deref(), drawing);
+        for name in names {
+            let is_alone = names.len() == 1;
+            let stem = if is_alone { drawing.file_stem().unwrap_or_default() } else { name.as_str() };
+            if join(&directory, stem).as_str().to_lowercase() == job.stem.as_str().to_lowercase() {
+                clashing.push(format!("{name} ({drawing})"));
+            }
+        }
+    }
+    let path = clashing.into_iter().min()?;
+    let output = job.files.first().and_then(|(_, file)| file.file_name());
+    let problem = Diagnostic::new(&messages::JOINED_LIKE_PATH).quoting("path", path);
+    let problem = problem.quoting("name", output.unwrap_or_default()).in_file(job.drawing(db).path(db));
+    job.leave_out();
+    Some(problem)
 }
 
 /// Returns the indices of the jobs that would write the same file, with PB514 for each clash. Case is ignored, as some file systems ignore it.

@@ -10,13 +10,15 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Names, join};
-use pathbuild_db::{Db, Target};
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_db::{Db, Role, SourceFile, Target, program};
 use pathbuild_diagnostic::messages::{files, outputs as messages};
-use pathbuild_gcode::adjust::{Source, is_adjusted_from, states_other_values};
+use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_gcode::adjust::{Source, is_adjusted_from, listed_heights, states_other_values};
 use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
+use pathbuild_path::PathName;
 
+use super::options::Provenances;
 use super::outcome::{ProgramOutcome, State, Task};
 use super::plan::{Job, output_directory, program_name};
 use crate::files::{PROGRAM_EXTENSIONS, is_program};
@@ -48,6 +50,12 @@ enum Reason {
     Edited { clean: Utf8PathBuf },
     /// The program was adjusted with heights other than those in the file `values`.
     OtherValues { values: Utf8PathBuf },
+    /// The program was converted from the adjusted `program` before that got other heights.
+    OtherHeights { program: Utf8PathBuf },
+    /// The program joins paths that yield another program now.
+    OtherJoined { paths: Vec<String> },
+    /// The program joins paths, of which `path` cannot be written now.
+    Unwritten { path: String },
     /// The program was written through another post-processor, and its moves differ from those of the current `program`.
     OtherMoves { program: Utf8PathBuf },
 }
@@ -73,6 +81,20 @@ impl StaleProgram {
             }
             Reason::OtherMoves { program } => {
                 Diagnostic::new(&messages::STALE_OTHER_MOVES).quoting("program", name(program))
+            }
+            Reason::OtherHeights { program } => {
+                Diagnostic::new(&messages::STALE_CONVERTED).quoting("program", name(program))
+            }
+            Reason::OtherJoined { paths } => {
+                let stem = self.path.file_stem().unwrap_or_default();
+                let join = PROGRAM_SUFFIXES.iter().chain([&SHEET_SUFFIX]);
+                let join = join.filter_map(|suffix| stem.strip_suffix(suffix)).next().unwrap_or(stem);
+                let command = format!("emit {} --join {join}", paths.join(" "));
+                let problem = Diagnostic::new(&messages::STALE_JOINED).quoting("command", command);
+                problem.with("paths", paths.iter().map(String::as_str).collect::<Value>())
+            }
+            Reason::Unwritten { path } => {
+                Diagnostic::new(&messages::OLDER_OUTPUT).quoting("path", path.as_str())
             }
         };
         problem.quoting("name", name(&self.path)).in_file(&self.path)
@@ -133,7 +155,11 @@ impl<'a> EarlierPrograms<'a> {
             // drawing may become readable again.
             let is_kept = matches!(
                 stale.reason,
-                Reason::Copied | Reason::OfOthers | Reason::Edited { .. } | Reason::Unread { .. }
+                Reason::Copied
+                    | Reason::OfOthers
+                    | Reason::Edited { .. }
+                    | Reason::Unread { .. }
+                    | Reason::Unwritten { .. }
             );
             if !is_removed || is_kept {
                 let finding = self.judge(&stale);
@@ -237,7 +263,8 @@ impl<'a> EarlierPrograms<'a> {
         let db = self.session.db();
         let directory = output_directory(self.session.out_dir().as_deref(), first.file(db).path(db));
         let program = join(&directory, program_name(name, post_processor));
-        provenance(self.session, &program).map(|_| program)
+        let (_, title) = provenance(self.session, &program)?;
+        native::joined_paths(&title).map(|_| program)
     }
 }
 
@@ -336,10 +363,20 @@ impl<'a> StaleSearch<'a> {
             Some(own) if is_of(own.job, self.run.session, &title) => {
                 own.stale_program(self.run.session, path, &found)
             }
+            _ if self.is_converted(&path, &found, &title) => self.if_other_heights(path),
             _ => self.of_other_post(&path, &found, &title).or_else(|| {
                 let directory = path.parent().unwrap_or(Utf8Path::new(""));
-                let reason = match self.writers.removal_reason(directory, &title, beside?.iter())? {
-                    Reason::Left if !has_name_of_title(&path, &title) => Reason::Copied,
+                let reason = match native::joined_paths(&title) {
+                    Some((names, join)) => {
+                        beside?;
+                        self.joined_reason(&path, &found, &names, &join)
+                    }
+                    None => self.writers.removal_reason(directory, &title, beside?.iter()),
+                };
+                let reason = match reason? {
+                    Reason::Left | Reason::OtherJoined { .. } if !has_name_of_title(&path, &title) => {
+                        Reason::Copied
+                    }
                     reason => reason,
                 };
                 Some(StaleProgram { path, reason })
@@ -358,6 +395,69 @@ impl<'a> StaleSearch<'a> {
         let is_meant = is_of(job, self.run.session, title) && now.moves != found.moves;
         let program = job.files.first()?.1.clone();
         is_meant.then(|| StaleProgram { path: path.to_owned(), reason: Reason::OtherMoves { program } })
+    }
+
+    /// Whether the program at `path` may have been converted from the current probing program or the adjusted program beside it, which `post` is for.
+    fn is_converted(&self, path: &Utf8Path, found: &Provenance, title: &str) -> bool {
+        let native = path.with_extension(NATIVE_EXTENSION);
+        let stem = CONVERTED.iter().find_map(|kind| native.as_str().strip_suffix(kind.suffix()));
+        let number = stem.and_then(|stem| self.by_stem.get(Utf8Path::new(stem)));
+        let Some(job) = number.map(|number| self.run.jobs[*number]) else { return false };
+        let now = job.outcome.as_ref().and_then(|outcome| outcome.provenance.as_ref());
+        self.run.post_processor.is_none()
+            && native != path
+            && job.files.iter().any(|(kind, _)| *kind == OutputKind::Clean)
+            && is_of(job, self.run.session, title)
+            && now.is_some_and(|now| now.moves == found.moves)
+            && provenance(self.run.session, &native).is_some_and(|(beside, _)| beside.is_same(found))
+    }
+
+    /// Returns a converted program as stale if it states other measured heights than the native one beside it.
+    fn if_other_heights(&self, path: Utf8PathBuf) -> Option<StaleProgram> {
+        let session = self.run.session;
+        let program = path.with_extension(NATIVE_EXTENSION);
+        let limit = session.workspace().settings.limits.file_size.value;
+        let heights = |file: &Utf8Path| Some(listed_heights(&session.db().system().read(file, limit).ok()?));
+        let (converted, now) = (heights(&path)?, heights(&program)?);
+        let is_other = !converted.is_empty() && converted != now;
+        is_other.then_some(StaleProgram { path, reason: Reason::OtherHeights { program } })
+    }
+
+    /// Returns the reason why the program at `path`, which joins the paths `names` as `join`, is stale; `None` if it is not, or if that is unknown.
+    fn joined_reason(
+        &self,
+        path: &Utf8Path,
+        found: &Provenance,
+        names: &[String],
+        join: &str,
+    ) -> Option<Reason> {
+        let EarlierPrograms { session, post_processor, task, .. } = *self.run;
+        // The program that the run itself writes is not stale.
+        if self.run.join.is_some_and(|own| plain_title(own) == join) {
+            return None;
+        }
+        let db = session.db();
+        let (mut programs, mut paths) = (Vec::new(), Vec::new());
+        for name in names {
+            let files = self.writers.drawings_of(session, name, path.parent()?);
+            let target = match &*files {
+                [] if self.writers.has_broken => return Some(Reason::Unwritten { path: name.clone() }),
+                [] => return self.writers.reason_if_gone(),
+                [(file, spelled)] => db.target(*file, spelled.as_str(), Role::Emitted),
+                _ => return None,
+            };
+            match session.query_target(target, |db| program(db, target).clone()).ok()? {
+                Some(program) => programs.push(program),
+                None => return Some(Reason::Unwritten { path: target.name(db).to_string() }),
+            }
+            paths.push(target.name(db).to_string());
+        }
+        let now = Provenances::new(&session.workspace().settings, post_processor).of(&programs);
+        let is_of_this_post = now.dialect == found.dialect
+            && post_processor.is_some_and(|post| path.extension() == Some(post.extension()));
+        let is_current = now.moves == found.moves
+            && (!is_of_this_post || task == Task::Compare { moves_only: true } || now.is_same(found));
+        (!is_current).then_some(Reason::OtherJoined { paths })
     }
 
     /// Finds the native job of the path that may have produced this file earlier.
@@ -424,17 +524,23 @@ fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
 
 const SHEET_SUFFIX: &str = "_Sheet";
 
+const NATIVE_EXTENSION: &str = "gcode";
+
+/// The kinds of native programs that are converted for the machine.
+const CONVERTED: [OutputKind; 2] = [OutputKind::Milling, OutputKind::Probing];
+
 const PROGRAM_SUFFIXES: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
 /// Whether a program is named after the drawing or path in this title, as `emit` names the programs of paths without R.
 fn has_name_of_title(program: &Utf8Path, title: &str) -> bool {
     let title = plain_title(title);
-    let Some(drawing) = native::drawing_of_title(&title) else { return false };
+    let joined = native::joined_paths(&title).map(|(_, name)| name);
+    let drawing = native::drawing_of_title(&title).and_then(|drawing| Utf8Path::new(drawing).file_stem());
     let path = title.split_once(' ').and_then(|(_, rest)| rest.split_once(',')).map(|(path, _)| path);
     let name = plain_title(program.file_stem().unwrap_or_default());
     let suffixes = PROGRAM_SUFFIXES.into_iter().chain([SHEET_SUFFIX]).map(str::to_lowercase);
     let stem = suffixes.into_iter().find_map(|suffix| name.strip_suffix(&*suffix));
-    stem.is_some() && [Utf8Path::new(drawing).file_stem(), path].contains(&stem)
+    stem.is_some() && [drawing, path, joined.as_deref()].contains(&stem)
 }
 
 /// Whether this is the file name of a program. The extension that a post definition chooses is recognised only while that definition is in use.
@@ -463,6 +569,10 @@ struct KnownTitles {
     others: BTreeSet<Title>,
     /// Names of the drawings in the search directories, which `emit` finds although they may not be in the library.
     searched: BTreeSet<String>,
+    /// The paths of covered drawings, by their names, normalised for comparison.
+    paths: Vec<(String, Utf8PathBuf, PathName)>,
+    /// Whether a covered drawing has errors, which may hide paths.
+    has_broken: bool,
     /// Whether the run knows all drawings of the library, or all drawings beside the program. If so, a drawing that it does not know does not exist
     /// any more.
     knows_all: bool,
@@ -493,9 +603,13 @@ impl KnownTitles {
         let path = |drawing: &Utf8Path, path: &str| (place(drawing), title(file_name(drawing), path));
         let generated: BTreeSet<Title> =
             jobs.iter().map(|job| path(job.drawing(db).path(db), &job.path)).collect();
-        let of_covered = all_covered.iter().flat_map(|drawing| {
-            drawing.value.names.iter().map(|name| path(drawing.drawing(), name.as_str()))
-        });
+        let names = |drawing: &'_ Answer<DrawingResult>| {
+            let file = drawing.drawing().to_owned();
+            let named = |name: &PathName| (plain_title(name.as_str()), file.clone(), name.clone());
+            drawing.value.names.iter().map(named).collect::<Vec<_>>()
+        };
+        let paths: Vec<_> = all_covered.iter().flat_map(names).collect();
+        let of_covered = paths.iter().map(|(_, drawing, name)| path(drawing, name.as_str()));
         let is_broken =
             |drawing: &&Answer<DrawingResult>| drawing.value.diagnostics.iter().any(Diagnostic::is_error);
         let (broken, sound): (Vec<_>, Vec<_>) = all_covered.iter().partition(is_broken);
@@ -514,6 +628,8 @@ impl KnownTitles {
             unread: unread.collect(),
             others: others.map(written).collect(),
             searched: searched_drawings(session),
+            has_broken: !broken.is_empty(),
+            paths,
             knows_all: if has_library {
                 problems.is_empty() && session.missing_directories().is_empty()
             } else {
@@ -546,8 +662,34 @@ impl KnownTitles {
             return Some(Reason::Left);
         }
         // Leave the program alone if its drawing exists although the run does not know it, for example because it is ignored.
-        let is_gone = self.knows_all && !is_beside && !self.searched.contains(&drawing.1);
-        is_gone.then_some(if self.is_shared { Reason::OfOthers } else { Reason::Left })
+        let is_there = is_beside || self.searched.contains(&drawing.1);
+        if is_there { None } else { self.reason_if_gone() }
+    }
+
+    /// Returns the reason why a program is stale if its drawing was not found.
+    fn reason_if_gone(&self) -> Option<Reason> {
+        self.knows_all.then_some(if self.is_shared { Reason::OfOthers } else { Reason::Left })
+    }
+
+    /// Returns the drawings that define a path, among those of the run, those beside the program and those where paths are looked up, with the path's
+    /// name as spelled there. `name` is normalised for comparison.
+    fn drawings_of(
+        &self,
+        session: &Session<'_>,
+        name: &str,
+        directory: &Utf8Path,
+    ) -> Vec<(SourceFile, PathName)> {
+        let covered = self.paths.iter().filter(|(plain, ..)| plain == name);
+        let covered: Vec<_> =
+            covered.map(|(_, drawing, spelled)| (session.file(drawing), spelled.clone())).collect();
+        if !covered.is_empty() {
+            return covered;
+        }
+        let mut directories = session.name_directories();
+        directories.push(directory.to_owned());
+        let name = PathName::new(name);
+        let files = session.definitions(&name, &directories);
+        files.into_iter().map(|file| (file, name.clone())).collect()
     }
 }
 

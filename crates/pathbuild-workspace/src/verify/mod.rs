@@ -455,7 +455,7 @@ impl<'v> Examination<'v> {
     /// Refuses to compare a program that joins several paths with one of them: each difference would be reported as a fault of the program.
     fn refuse_joined_paths(&self) -> Result<(), Vec<Diagnostic>> {
         let title = Provenance::of_head(&self.program.text).map(|(_, title)| title);
-        if self.verifier.against.is_none() || !title.is_some_and(|title| native::is_joined_title(&title)) {
+        if self.verifier.against.is_none() || title.and_then(|title| native::joined_paths(&title)).is_none() {
             return Ok(());
         }
         let mut problems = vec![Diagnostic::new(&say::JOINED_PROGRAM)];
