@@ -95,6 +95,26 @@ fn a_program_whose_cuts_all_end_above_the_surface_is_not_checked() {
     assert!(above.stderr.contains("PB777") && above.stderr.contains("PB523"), "{above}");
 }
 
+/// The file beside the programs has the limits of their machine. A directory with drawings alone has none.
+#[test]
+fn programs_below_a_configuration_of_their_own_are_not_passed_without_it() {
+    let place = Place::new()
+        .file("small/pathbuild.toml", "[machine]\nx = [0, 30]\n")
+        .file("small/a.nc", SOUND)
+        .file("parts/pathbuild.toml", "feed = 100\n")
+        .file("parts/1234.1P.dxf", "");
+    let verify = "verify . --dialect grbl --cutter 6 --surface 0";
+    let without = place.run(verify);
+    assert_eq!(without.status, Some(1), "{without}");
+    assert_eq!(without.stderr.matches("error[PB526]").count(), 1, "{without}");
+    let place = place.file("pathbuild.toml", "[machine]\nx = [0, 300]\n");
+    let with_another = place.run(verify);
+    assert_eq!(with_another.status, Some(1), "{with_another}");
+    assert!(with_another.stderr.contains("error[PB526]"), "{with_another}");
+    let own = place.run("verify small --dialect grbl --cutter 6 --surface 0");
+    assert!(own.stderr.contains("[PB748]") && !own.stderr.contains("PB526"), "{own}");
+}
+
 /// The configuration lowers the severity of the error, but the moves are still unknown.
 #[test]
 fn moves_after_a_word_that_is_not_followed_do_not_count_as_checked() {

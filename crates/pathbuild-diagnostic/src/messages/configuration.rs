@@ -253,8 +253,8 @@ messages! {
     }
     /// A configuration in a subdirectory, which has no effect because the run uses another one.
     UNUSED_CONFIGURATION: UnusedConfiguration {
-        en: "this configuration does not apply: the run uses {used} for the drawings here, too",
-        de: "diese Konfiguration gilt nicht: der Lauf verwendet {used} auch für die Zeichnungen hier",
+        en: "this configuration does not apply: the run uses {used} here, too",
+        de: "diese Konfiguration gilt nicht: der Lauf verwendet auch hier {used}",
         help_en: "check this directory in a run of its own, or remove the file",
         help_de: "dieses Verzeichnis in einem eigenen Lauf prüfen oder die Datei entfernen",
     }

@@ -1,10 +1,13 @@
 //! Verifies many programs in one run, and caches the results for later runs. (book: reference/commands, `verify`)
 
+use std::collections::HashSet;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::catch_bugs;
-use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::{Diagnostic, Severity};
 
 use super::{VerifiedProgram, Verifier, VerifyOptions};
+use crate::common_findings::unused_configurations;
 use crate::files::ExtraInput;
 use crate::memo::{Answer, Inputs, Memo, is_transient};
 use crate::program;
@@ -47,11 +50,30 @@ impl Request<'_> {
             programs.push((name.to_owned(), verifier.verify(name, text)));
         }
         let mut diagnostics = matches.problems;
+        diagnostics.extend(unused_configurations_of_programs(
+            session,
+            &matches.programs,
+            &matches.directories,
+        ));
         for (_, verified) in &mut programs {
             diagnostics.append(&mut verified.diagnostics);
         }
         Ok(Verification { programs, diagnostics: session.with_hints(diagnostics) })
     }
+}
+
+/// Returns PB526 as an error for each configuration beside or above programs that does not apply to them: the limits in it are those of the machine
+/// that these programs are for.
+fn unused_configurations_of_programs(
+    session: &Session<'_>,
+    programs: &[Utf8PathBuf],
+    directories: &[Utf8PathBuf],
+) -> impl Iterator<Item = Diagnostic> {
+    let above: HashSet<&Utf8Path> = programs.iter().flat_map(|program| program.ancestors().skip(1)).collect();
+    let directories: Vec<_> =
+        directories.iter().filter(|directory| above.contains(directory.as_path())).cloned().collect();
+    let unused = unused_configurations(session, &directories);
+    unused.into_iter().map(|problem| Diagnostic { severity: Severity::Error, ..problem })
 }
 
 impl Verifier<'_> {
