@@ -33,6 +33,9 @@ def targets():
     paths = {from_here(row["file"]): row["path"] for row in rows if row["type"] == "output"}
     for line in text.split("\n")[:-1]:
         outputs, sources = (names(side) for side in re.split(r"(?<!\\):", line, maxsplit=1))
+        # The empty rules of inputs are for make.
+        if not sources:
+            continue
         path = paths[outputs[0]]
         yield path, asked[path], outputs, [name for name in sources if name.lower().endswith(".dxf")]
 

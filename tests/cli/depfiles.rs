@@ -41,11 +41,13 @@ impl EmittedDrawing {
         drawing.set_modified(time).unwrap();
     }
 
-    /// Checks that a build does nothing for an old drawing, and something for a new one.
+    /// Checks that a build does nothing for an old drawing, and something for a new one and for one that was removed.
     fn is_found_by(&self, mut is_up_to_date: impl FnMut() -> bool) {
         self.save(SystemTime::now() - Duration::from_hours(1));
         assert!(is_up_to_date(), "{}", self.place.read("out.d"));
         self.save(SystemTime::now() + Duration::from_hours(1));
+        assert!(!is_up_to_date(), "{}", self.place.read("out.d"));
+        fs::remove_file(self.place.path().join(&self.drawing)).unwrap();
         assert!(!is_up_to_date(), "{}", self.place.read("out.d"));
     }
 }
@@ -142,5 +144,6 @@ fn ends_that_no_rule_can_have_are_refused() {
 fn no_name_makes_a_line_of_its_own() {
     let emitted = EmittedDrawing::new("a\nall: ;@echo\u{7f}\r/1301.1P");
     let rule = "a\\nall\\:\\ \\\\\\;@echo\\u{7f}\\r/1301.1P";
-    assert_eq!(emitted.place.read("out.d"), format!("{rule}_Milling.gcode: {rule}.dxf pathbuild.toml\n"));
+    let rules = format!("{rule}_Milling.gcode: {rule}.dxf pathbuild.toml\n{rule}.dxf:\npathbuild.toml:\n");
+    assert_eq!(emitted.place.read("out.d"), rules);
 }

@@ -485,6 +485,19 @@ fn deps_are_told_without_writing_programs() {
     assert_eq!(place.read("out.d"), place.read("written.d").replace("g/", "other/"));
 }
 
+/// Without its rule, make would take the program of a path that had errors once for up to date.
+#[test]
+fn deps_stay_as_they_were_if_a_path_has_errors() {
+    let place = || Place::of(LIBRARY).file("out.d", "of before");
+    let faulty = Place::of(&LIBRARY.replacen("O2", "Ox2", 1)).file("out.d", "of before");
+    let unreadable = place().file("components/1300.dxf", "no drawing");
+    for (place, arguments, status) in [(place(), "8001.1P", 0), (faulty, "8001.1P", 1), (unreadable, ".", 1)]
+    {
+        let run = place.run(&format!("emit {arguments} --deps out.d"));
+        assert_eq!((run.status, place.read("out.d") == "of before"), (Some(status), status == 1), "{run}");
+    }
+}
+
 #[test]
 fn deps_that_cannot_be_written_are_an_error() {
     assert_snapshot!(Place::of(LIBRARY).run("emit 1234.1P -q --deps components"));

@@ -608,7 +608,7 @@ fn deps_name_the_post_and_what_it_puts_in() {
     assert!(place.read("1234_Milling.nc").starts_with("(head)"));
     assert_eq!(
         place.read("out.d"),
-        "1234_Milling.nc: 1234.dxf pathbuild.toml posts/mine.toml posts/head.txt\n"
+        "1234_Milling.nc: 1234.dxf pathbuild.toml posts/mine.toml posts/head.txt\n1234.dxf:\npathbuild.toml:\nposts/head.txt:\nposts/mine.toml:\n"
     );
 }
 

@@ -203,13 +203,15 @@ fn the_summary_counts_and_agrees_in_number() {
 fn no_report_replaces_a_source_or_a_program() {
     let place =
         Place::new().file("pathbuild.toml", "library = [\".\"]\n").file("a.dxf", "x").file("a.nc", "M30\n");
+    let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0\nend 40,0\n";
+    let place = place.file("b/1234.1P.dxf", pathbuild_testkit::sheet(drawing).unwrap().to_dxf());
     let commands = [
         "check --report json=a.dxf",
         "check --report json=a.NC",
         "check --report html=pathbuild.toml",
         "check --baseline a.dxf --update-baseline",
         "verify a.nc --report json=a.nc",
-        "emit . --deps a.dxf",
+        "emit b --rapid 1000 --sweep-height 20 --deps a.dxf",
     ];
     for command in commands {
         let run = place.run(command);

@@ -1,5 +1,6 @@
 //! Dependency files for `make` and `ninja`. (book: reference/commands, `emit --deps`)
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::iter::repeat_n;
 
@@ -16,6 +17,8 @@ use crate::session::Session;
 
 /// Writes one rule per job: its output files depend on its drawings, the configuration, the post definition and the files that the post-processor
 /// inserted. If a name cannot be expressed, writes nothing and returns an error.
+///
+/// An empty rule for each input follows, as of `gcc -MP`: without one, `make` refuses to run the rule of a program once a drawing is renamed.
 pub(super) fn write<'p>(
     session: &Session<'_>,
     file: &Utf8Path,
@@ -24,7 +27,7 @@ pub(super) fn write<'p>(
 ) -> Option<Diagnostic> {
     let db = session.db();
     let configuration = session.workspace().settings.file.as_ref().map(|file| session.normal(file));
-    let mut text = String::new();
+    let (mut text, mut inputs) = (String::new(), BTreeSet::new());
     let post = post_processor.and_then(PostProcessor::file).map(|file| session.normal(file));
     let file = session.normal(file);
     if let Some(reason) = name_of_source_or_program(session.workspace(), &file) {
@@ -42,7 +45,9 @@ pub(super) fn write<'p>(
         }
         let all = |names: &[&Utf8Path]| names.iter().map(|name| escaped(name)).collect::<Vec<_>>().join(" ");
         _ = writeln!(text, "{}: {}", all(&outputs), all(&sources));
+        inputs.extend(sources.iter().map(|source| escaped(source)));
     }
+    text.extend(inputs.iter().flat_map(|input| [input, ":\n"]));
     let written = db.system().write(&file, text.as_bytes());
     written.err().map(|reason| write_error(file.as_str(), reason))
 }

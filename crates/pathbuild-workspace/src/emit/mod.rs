@@ -191,6 +191,9 @@ impl Emitter<'_> {
         let Request { task, join, deps, .. } = self.request;
         let workspace = session.workspace();
         report_cached(workspace, &selection, &plans);
+        // Rules without those of a path with errors would keep a build system from building its program again.
+        let has_all_rules = !workspace.has_error(&diagnostics)
+            && plans.iter().all(|plan| plan.value.remaining_job().is_some());
         if *task == (Task::Compare { moves_only: true }) {
             let request = Request { deps: None, removes_stale: false, ..self.request.clone() };
             let emit = |workspace: &Workspace| {
@@ -216,7 +219,7 @@ impl Emitter<'_> {
         diagnostics.extend(plans.iter().filter_map(|plan| plan.value.lowered_error(workspace)));
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
-        if let Some(file) = deps {
+        if let Some(file) = deps.as_ref().filter(|_| has_all_rules) {
             let jobs = plans.iter().filter_map(|plan| plan.value.remaining_job());
             diagnostics.extend(deps::write(session, file, jobs, self.post_processor));
         }
