@@ -5,6 +5,8 @@ use std::fs;
 use insta::assert_snapshot;
 use serde_json::Value;
 
+use pathbuild_testkit::sheet;
+
 use crate::support::{Place, program, runs};
 
 const LIBRARY: &str = r#"
@@ -94,6 +96,24 @@ fn a_pattern_that_nothing_matches_is_an_error() {
     let run = place.run("list 7*");
     assert_eq!(run.status, Some(1), "{run}");
     assert_eq!(place.run("list [").status, Some(2));
+}
+
+/// A library is listed as `check` reads it.
+#[test]
+fn a_library_is_listed_once_and_only_as_a_whole() {
+    let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n";
+    for (library, paths, code) in
+        [(r#"["a", "./a", "."]"#, 1, ""), (r#"["a", "gone"]"#, 1, "PB003"), (r#"["b"]"#, 0, "PB518")]
+    {
+        let place = Place::new().file("pathbuild.toml", format!("library = {library}\nfeed = 150\n"));
+        let place = place.file("a/1234.1P.dxf", sheet(drawing).unwrap().to_dxf()).file("b/notes.txt", "");
+        let run = place.run("list --format json");
+        let expected = (Some(i32::from(!code.is_empty())), paths);
+        assert_eq!((run.status, run.stdout.matches("\"path\":\"1234.1P\"").count()), expected, "{run}");
+        assert!(run.stdout.contains(code), "{run}");
+        let run = place.run("stats");
+        assert_eq!((run.status, usize::from(run.stdout.contains("drawings: 1,"))), expected, "{run}");
+    }
 }
 
 /// Without a library, the drawings below the working directory are listed.

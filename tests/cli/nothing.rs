@@ -40,7 +40,7 @@ fn a_directory_of_the_configuration_that_is_missing_is_an_error() {
             assert!(place.run(&command).stderr.contains("names gone, which is not a directory"), "{command}");
             assert_eq!(place.run(&command).status, Some(1));
         }
-        fs::create_dir(place.path().join("gone")).unwrap();
+        let place = place.file("gone/notes.txt", "");
         assert_found(&place, "check", 0, &[]);
     }
 }
@@ -120,6 +120,33 @@ fn a_library_needs_one_drawing() {
     assert_found(&place, "check", 0, &[]);
     fs::write(place.path().join("parts/.ignore"), "*.dxf").unwrap();
     assert_found(&place, "check", 1, &["518"]);
+}
+
+/// A share that is not mounted, or a submodule that was not checked out, is an empty directory. The programs of its drawings must stay.
+#[test]
+fn a_directory_of_the_library_is_not_empty() {
+    let configuration = "library = [\"parts\", \"share\"]\nout-dir = \"gcode\"\n[emit]\ntargets = [\"*\"]\n";
+    let place = place(&[
+        ("pathbuild.toml", configuration),
+        ("parts/1234.1P.dxf", PATH),
+        ("share/1235.1P.dxf", &PATH.replace("1234", "1235")),
+    ]);
+    let emit = format!("emit {OPTIONS}");
+    assert_found(&place, &emit, 0, &[]);
+    let share = place.path().join("share");
+    fs::remove_file(share.join("1235.1P.dxf")).unwrap();
+    for command in ["check", "list", "stats", "check 1234.1P", &format!("{emit} --remove-stale")] {
+        assert_found(&place, command, 1, &["518"]);
+    }
+    assert!(place.path().join("gcode/1235.1P_Milling.gcode").exists());
+    let place = place.file("share/notes.txt", "");
+    for command in ["check", "list", "stats", "check 1234.1P", &format!("{emit} --remove-stale")] {
+        assert_found(&place, command, 0, &[]);
+    }
+    assert!(!place.path().join("gcode/1235.1P_Milling.gcode").exists());
+    fs::remove_file(place.path().join("parts/1234.1P.dxf")).unwrap();
+    assert_found(&place, &format!("{emit} --remove-stale"), 1, &["518", "513"]);
+    assert!(place.path().join("gcode/1234.1P_Milling.gcode").exists());
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8PathBuf;
 use pathbuild_db::{Database, Role, SourceFile, Target, check_file, closure, path_names, program, summary};
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -14,7 +14,7 @@ use crate::config::types::Pattern;
 use crate::findings::Findings;
 use crate::inputs::Input;
 use crate::post_processor::{PostArguments, PostProcessor};
-use crate::session::{CheckedTarget, Session, no_drawing_error};
+use crate::session::{CheckedTarget, Session};
 use crate::workspace::{Failure, Workspace};
 use crate::{Inputs, emit};
 
@@ -213,15 +213,9 @@ impl ListArguments {
     /// Returns the given drawings and those in the given directories; without any, those of the library, or those below the working directory if
     /// there is no library.
     fn files(&self, session: &Session<'_>, problems: &mut Vec<Diagnostic>) -> Vec<SourceFile> {
-        if self.places.inputs.is_empty() {
-            let (files, found) = session.all_drawings();
-            problems.extend(found);
-            if files.is_empty() && problems.is_empty() && !session.has_library() {
-                problems.push(no_drawing_error(&[Utf8Path::new("")]));
-            }
-            return files;
-        }
-        let selection = session.select(&self.places);
+        let below = Inputs { inputs: vec![".".into()] };
+        let is_below = self.places.inputs.is_empty() && !session.has_library();
+        let selection = session.select(if is_below { &below } else { &self.places });
         problems.extend_from_slice(&selection.problems);
         selection.whole(session)
     }

@@ -631,7 +631,7 @@ impl KnownTitles {
             has_broken: !broken.is_empty(),
             paths,
             knows_all: if has_library {
-                problems.is_empty() && session.missing_directories().is_empty()
+                !library.is_empty() && problems.is_empty() && session.missing_directories().is_empty()
             } else {
                 out_dir.is_none()
             },

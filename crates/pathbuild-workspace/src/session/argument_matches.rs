@@ -5,14 +5,15 @@
 //! program from ten of them, so the drawings that are most likely embedded are read in the meantime.
 
 use std::collections::HashSet;
+use std::ops::ControlFlow;
 use std::thread::Builder;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
-use pathbuild_db::system::{FileKind, is_drawing, join};
+use pathbuild_db::system::{Entry, FileKind, is_drawing, join};
 use pathbuild_db::{
-    Db as _, Directory, PendingListing, SourceFile, candidate_files, check_file, drawing_names, likely_file,
-    prefetch, search_path,
+    Db as _, Directory, PendingListing, SourceFile, candidate_files, catch_bugs, check_file, drawing_names,
+    likely_file, prefetch, search_path,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
@@ -20,7 +21,7 @@ use pathbuild_path::PathName;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
-use super::{Session, library};
+use super::{Session, library, no_drawing_error};
 use crate::config::types::Pattern;
 use crate::inputs::{Input, Inputs};
 
@@ -260,6 +261,8 @@ impl Session<'_> {
         SearchedDirectory { path, drawings, directories, problems: walked.problems }
     }
 
+    /// Searches the directories of the library. One without any entry is an error (PB518): a share that is not mounted and a submodule that was not
+    /// checked out look like that.
     fn walk_library(&self, listings: &mut Listings) -> Vec<SearchedDirectory> {
         let library = self.context.settings.general.library.value.iter();
         let library: Vec<Utf8PathBuf> = library.map(|directory| self.normal(directory)).collect();
@@ -270,7 +273,23 @@ impl Session<'_> {
             library.iter().map(|directory| walk.search(directory)).collect()
         };
         let each = library.into_iter().zip(walked);
-        each.map(|(path, walked)| self.found_directory(path, walked, listings)).collect()
+        let found = each.map(|(path, walked)| self.found_directory(path, walked, listings));
+        let with_problem = |mut found: SearchedDirectory| {
+            if found.drawings.is_empty() && self.is_empty_directory(&found.path) {
+                found.problems.push(no_drawing_error(&[&found.path]));
+            }
+            found
+        };
+        found.map(with_problem).collect()
+    }
+
+    fn is_empty_directory(&self, directory: &Utf8Path) -> bool {
+        let mut is_empty = true;
+        let mut take = |_: Entry<'_>| {
+            is_empty = false;
+            ControlFlow::Break(())
+        };
+        matches!(catch_bugs(|| self.db.system().each_entry(directory, &mut take)), Ok(Ok(()))) && is_empty
     }
 
     /// Returns the directories in which names are searched for: the working directory, the search directories, and the directories of the library

@@ -451,8 +451,8 @@ impl Session<'_> {
         })
     }
 
-    /// Returns PB518 for each named directory without drawings. A new library may have empty directories, so for a library, PB518 is returned only if
-    /// all its directories are empty.
+    /// Returns PB518 for each named directory without drawings. A new library may have directories without drawings, so for a library, PB518 is
+    /// returned only if none of its directories has any.
     pub(super) fn without_drawings(is_library: bool, directories: &[&SearchedDirectory]) -> Vec<Diagnostic> {
         let empty = directories.iter().filter(|directory| directory.drawings.is_empty());
         let empty: Vec<&Utf8Path> = empty.map(|directory| directory.path.as_path()).collect();
