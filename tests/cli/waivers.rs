@@ -193,6 +193,35 @@ fn a_file_that_cannot_be_read_is_never_accepted() {
     assert!(run.status == Some(1) && run.stderr.contains("PB001"), "{run}");
 }
 
+/// What was not checked cannot be accepted, and the waivers of what is missing stay.
+#[test]
+fn what_was_not_checked_is_never_accepted() {
+    let configuration = "library = [\"parts\", \"share\"]\n";
+    let place = Place::new().file("pathbuild.toml", configuration).file("parts/1236.1P.dxf", dxf(GOOD));
+    let place = place.file("share/1235.1P.dxf", dxf(WARNED)).file("programs/notes.txt", "");
+    assert_eq!(place.run("check --accept PB114 --reason why").status, Some(0));
+    let baseline = place.read("pathbuild-baseline.txt");
+    let assert_refused = |place: &Place, command: &str, code: &str| {
+        for more in [" --update-baseline", &format!(" --accept {code} --reason why"), ""] {
+            let run = place.run(&format!("{command}{more}"));
+            assert!(run.status == Some(1) && run.stderr.contains(code), "{run}");
+            assert!(!run.stderr.contains("PB610"), "{run}");
+            assert_eq!(place.read("pathbuild-baseline.txt"), baseline, "{run}");
+        }
+    };
+    std::fs::remove_file(place.path().join("share/1235.1P.dxf")).unwrap();
+    assert_refused(&place, "check", "PB518");
+    std::fs::remove_dir(place.path().join("share")).unwrap();
+    assert_refused(&place, "check", "PB003");
+    let place = place.file("share/1235.1P.dxf", dxf(WARNED));
+    assert_refused(&place, "check 9*", "PB503");
+    assert_refused(&place, "check 9001.1P", "PB503");
+    assert_refused(&place, "verify programs", "PB518");
+    let place = place.file("pathbuild.toml", format!("{configuration}[limits]\nentities = 1\n"));
+    assert_eq!(place.run("check --update-baseline").status, Some(1));
+    assert_eq!(place.read("pathbuild-baseline.txt"), baseline);
+}
+
 /// After an earlier roughing cut is removed, a rapid move that entered the material by 0.05 mm enters it by 3 mm at the same position.
 #[test]
 fn an_accepted_rapid_move_holds_while_it_is_not_deeper() {

@@ -79,9 +79,15 @@ impl Baseline {
         Ok((baseline, faults))
     }
 
-    /// Whether a baseline may accept a finding: nothing is known about a file that cannot be read.
+    /// Whether a baseline may accept a finding. Errors that say that something was not checked are never accepted: those of a file, of a directory and
+    /// of a limit, and those about the arguments, which name no file.
     pub fn may_accept(finding: &Diagnostic) -> bool {
-        finding.code() != Code::UnreadableFile
+        let is_unchecked = match finding.code() {
+            Code::UnreadableFile => true,
+            Code::InvalidConfiguration | Code::NothingFound | Code::LimitReached => finding.is_error(),
+            _ => finding.is_error() && finding.file.is_none(),
+        };
+        !is_unchecked
     }
 
     /// Returns the text of a baseline that contains all these findings. Entries that still match keep their reasons and dates. Entries for files that
@@ -302,7 +308,11 @@ impl Workspace {
         if baseline.is_none() && !self.has_waivers() {
             return findings;
         }
-        let coverage = coverage();
+        let mut coverage = coverage();
+        if !findings.diagnostics.iter().all(Baseline::may_accept) {
+            // Files may be missing only because their directory is.
+            coverage = Coverage { files: coverage.files, ..Coverage::default() };
+        }
         let mut unused = self.unused_waivers(&findings, &coverage);
         if let Some(baseline) = baseline {
             unused.extend(baseline.unused(&findings.diagnostics, &Run::new(self, &coverage)));
