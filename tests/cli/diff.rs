@@ -92,7 +92,14 @@ fn errors_are_seen_and_make_the_status() {
     let (fine, broken) = (dxf("1001.1P", "1", LINE), dxf("1001.1P", "1", "mill 0,0 30,0"));
     assert_prints(&two(fine.clone(), broken.clone()).run("diff old new"), 1, &["has errors now"]);
     assert_prints(&two(broken.clone(), fine).run("diff old new"), 0, &["had errors, has none now"]);
-    assert_prints(&two(broken.clone(), broken).run("diff old new"), 1, &["has errors, before and now"]);
+    assert_prints(
+        &two(broken.clone(), broken.clone()).run("diff old new"),
+        1,
+        &["has errors, before and now"],
+    );
+    let place =
+        two(dxf("1002.1P", "1", LINE), dxf("1002.1P", "1", LINE)).file("new/parts/1001.1P.dxf", broken);
+    assert_prints(&place.run("diff old new"), 1, &["1001.1P · parts/1001.1P.dxf: new, has errors"]);
 }
 
 /// A path whose drawing cannot be read is not gone.
@@ -102,7 +109,7 @@ fn a_drawing_that_cannot_be_read_has_errors() {
     fs::write(place.path().join("new/parts/1001.1P.dxf"), "no drawing").unwrap();
     let run = place.run("diff old new");
     assert_prints(&run, 1, &["1001.1P · parts/1001.1P.dxf: has errors now", "1 with errors now\n"]);
-    assert_prints(&place.run("diff new old"), 1, &["1001.1P · parts/1001.1P.dxf: had errors, has none now"]);
+    assert_prints(&place.run("diff new old"), 0, &["1001.1P · parts/1001.1P.dxf: had errors, has none now"]);
     fs::remove_file(place.path().join("new/parts/1001.1P.dxf")).unwrap();
     assert!(place.run("diff old new").stdout.contains("1001.1P · parts/1001.1P.dxf: gone"));
 }

@@ -74,11 +74,11 @@ pub struct PathDiff {
 /// The kind of difference of a path between the sides.
 #[derive(Debug)]
 pub enum Outcome {
-    /// The path exists on the new side only.
+    /// The path exists on the new side only, without errors.
     Added,
     /// The path exists on the old side only.
     Removed,
-    /// The path has errors on the new side only.
+    /// The path has errors on the new side only; it may not exist on the old side.
     Broken,
     /// The path has errors on the old side only.
     Mended,
@@ -309,6 +309,7 @@ impl PathPair {
                 (None, Some(_)) => Outcome::Mended,
                 (None, None) => Outcome::StillBroken,
             },
+            (None, Some(path)) if path.moves.is_none() => Outcome::Broken,
             (None, Some(_)) => Outcome::Added,
             (Some(_), None) => Outcome::Removed,
             (None, None) => return None,

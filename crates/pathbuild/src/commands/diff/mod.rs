@@ -12,6 +12,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Heights, Options, Program as _, interpret};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
+use pathbuild_workspace::baseline::Baseline;
 use pathbuild_workspace::diff::{
     Comparison, MachineStates, Outcome, PathDiff, ProgramDiff, Tree, compare_moves, compare_trees,
 };
@@ -96,7 +97,12 @@ fn finish(context: &Context, output: &Output, comparison: &Comparison) -> ExitSt
         return context.fail(vec![*problem]);
     }
     let is_broken = |path: &PathDiff| matches!(path.outcome, Outcome::Broken | Outcome::StillBroken);
-    let has_errors = findings.diagnostics.iter().any(Diagnostic::is_error);
+    // Errors of old drawings do not decide the status, unless something was not compared because of them.
+    let decides = |problem: &&Diagnostic| {
+        !problem.file.as_deref().is_some_and(is_drawing) || !Baseline::may_accept(problem)
+    };
+    let [old, new] = &comparison.problems;
+    let has_errors = context.has_error(old.iter().filter(decides).chain(new));
     if has_errors || comparison.paths.iter().any(is_broken) {
         ExitStatus::Errors
     } else {
