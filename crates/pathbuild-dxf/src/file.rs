@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::messages::drawing::{
     NO_END_OF_FILE, NO_ENTITIES, SECTION_EXPECTED, SECTION_MISPLACED, SECTION_TWICE,
 };
-use pathbuild_diagnostic::messages::files::{EMPTY_FILE, NOT_DXF};
+use pathbuild_diagnostic::messages::files::{EMPTY_FILE, LFS_POINTER, NOT_DXF};
 use pathbuild_diagnostic::{Diagnostic, Text};
 
 use crate::binary::to_ascii;
@@ -176,6 +176,9 @@ impl<'a> File<'a> {
 const READ_SECTIONS: [&str; 4] = ["HEADER", "TABLES", "BLOCKS", "ENTITIES"];
 
 fn not_dxf(bytes: &[u8]) -> Fatal {
+    if bytes.starts_with(b"version https://git-lfs.github.com/spec/") {
+        return Box::new(Diagnostic::new(&LFS_POINTER).at_line(1, None));
+    }
     Box::new(Diagnostic::new(&NOT_DXF).with("found", kind_of_file(bytes)).at_line(1, None))
 }
 

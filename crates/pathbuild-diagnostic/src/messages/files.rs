@@ -76,6 +76,13 @@ messages! {
         help_en: "save the drawing as DXF (ASCII or binary, R10 or later); a DWG file renamed to .dxf is still DWG",
         help_de: "die Zeichnung als DXF speichern (ASCII oder binär, ab R10); eine in .dxf umbenannte DWG-Datei bleibt DWG",
     }
+    /// A file that stands for a drawing in Git LFS.
+    LFS_POINTER: InvalidDxf {
+        en: "this is not the drawing, but a pointer of Git LFS to it",
+        de: "das ist nicht die Zeichnung, sondern ein Zeiger von Git LFS auf sie",
+        help_en: "fetch the drawings with `git lfs pull` (in CI: `lfs: true` of actions/checkout, `git lfs install` for GitLab); a revision that `diff` reads has only the pointers: compare two checked-out directories",
+        help_de: "die Zeichnungen mit `git lfs pull` holen (in der CI: `lfs: true` von actions/checkout, `git lfs install` bei GitLab); eine Revision, die `diff` liest, hat nur die Zeiger: zwei ausgecheckte Verzeichnisse vergleichen",
+    }
     /// A drawing in other units than configured.
     WRONG_UNITS: WrongUnits {
         en: "the drawing's units are {unit}, not millimetres ($INSUNITS is {number})",

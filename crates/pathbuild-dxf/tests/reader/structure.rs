@@ -14,6 +14,17 @@ fn file_findings(file: impl AsRef<[u8]>) -> String {
 }
 
 #[test]
+fn pointers_of_git_lfs_are_named() {
+    let pointer =
+        |address: &str| file_findings(format!("version https://{address}\noid sha256:4d7a\nsize 12345\n"));
+    assert_eq!(
+        pointer("git-lfs.github.com/spec/v1"),
+        "PB002 1 this is not the drawing, but a pointer of Git LFS to it"
+    );
+    assert_eq!(pointer("example.com/spec/v1"), "PB002 1 this is not a DXF file: a text without sections");
+}
+
+#[test]
 fn files_without_structure_are_no_dxf() {
     assert_eq!(file_findings(""), "PB002 0 the file is empty");
     assert_eq!(file_findings("   \r\n\n "), "PB002 1 this is not a DXF file: nothing but blanks");
