@@ -190,6 +190,55 @@ fn a_clone_that_does_not_reach_the_revision_is_called_shallow() {
     assert!(!run.stderr.contains("shallow"), "a whole clone is not: {run}");
 }
 
+/// A report without findings would tell that all earlier ones are mended.
+#[test]
+fn reports_of_a_run_that_did_nothing_say_so() {
+    let place = library();
+    for format in ["json", "sarif", "gitlab", "junit", "github"] {
+        for arguments in ["--changed-since nope", "--changed-since HEAD"] {
+            let is_refused = arguments.ends_with("nope");
+            let run = place.run(&format!("check {arguments} --format {format}"));
+            assert_eq!(run.status, Some(if is_refused { 2 } else { 0 }), "{run}");
+            assert_eq!(run.stdout.contains("nothing was done: git: "), is_refused, "{run}");
+            assert_eq!(
+                run.stdout.contains("\"executionSuccessful\": true"),
+                format == "sarif" && !is_refused
+            );
+        }
+        let report = format!("check --changed-since nope --report {format}=report");
+        assert_eq!(place.run(&report).status, Some(2));
+        assert!(place.read("report").contains("nothing was done: git: "));
+    }
+}
+
+/// Git names the command that makes it accept a repository of another user.
+#[cfg(unix)]
+#[test]
+fn a_repository_of_another_user_is_named_with_the_remedy() {
+    let place = library();
+    let Ok(chown) = Command::new("chown").args(["-R", "65534", "."]).current_dir(place.path()).status()
+    else {
+        return;
+    };
+    for command in ["check --changed-since HEAD", "diff HEAD"] {
+        let run = place.run(command);
+        let is_told = run.stderr.contains("git config --global --add safe.directory");
+        assert_eq!((run.status == Some(2), is_told), (chown.success(), chown.success()), "{run}");
+    }
+}
+
+/// A shared configuration does not change the names of files in the repository.
+#[test]
+fn files_are_named_from_the_root_of_the_repository() {
+    let place = Place::new().file("company/x.toml", "").file("outside/pathbuild.toml", "");
+    let place =
+        place.file("outside/repository/.git/HEAD", "").file("outside/repository/a/1235.1P.dxf", "no drawing");
+    for more in [&["--config", "../../company/x.toml"][..], &[]] {
+        let run = place.run_in("outside/repository", &[&["check", "a", "--format", "gitlab"], more].concat());
+        assert!(run.stdout.contains("\"path\": \"a/1235.1P.dxf\""), "{run}");
+    }
+}
+
 /// Summaries of `check` for each extent of a change: nothing, one drawing, or everything.
 const NOTHING: &str = "0 paths in 0 drawings";
 const ONE: &str = "1 path in 1 drawing";

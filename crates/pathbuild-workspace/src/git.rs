@@ -6,7 +6,6 @@ use std::process::{ChildStdout, Command, Stdio};
 use std::thread;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::Text;
 
 use crate::config;
@@ -97,8 +96,7 @@ impl<'a> Repository<'a> {
         let real = |place: &Utf8Path| workspace.system.canonical(&workspace.working_directory.join(place));
         let place = real(place);
         let directory = config::repository(&*workspace.system, &place);
-        let is_found = workspace.system.kind(&directory.join(".git")) != FileKind::Missing;
-        let root = if is_found { directory.to_owned() } else { real(Utf8Path::new("")) };
+        let root = directory.map_or_else(|| real(Utf8Path::new("")), Utf8Path::to_owned);
         let repository = Self { workspace, root };
         if workspace.settings.confined.is_some() && repository.leads_out() {
             return Err(workspace.phrase(
@@ -242,9 +240,14 @@ impl<'a> Repository<'a> {
         Err(self.failure_message(&String::from_utf8_lossy(&output.stderr)))
     }
 
+    /// Returns the first line of Git's message, and the command by which Git accepts a repository of another user, if the message names it.
     fn failure_message(&self, message: &str) -> String {
         let nothing = self.workspace.choose("it failed", "fehlgeschlagen");
-        format!("git: {}", message.lines().next().unwrap_or(nothing))
+        let first = message.lines().next().unwrap_or(nothing);
+        match message.lines().find(|line| line.contains("git config") && line.contains("safe.directory")) {
+            Some(command) => format!("git: {first}; {}", command.trim()),
+            None => format!("git: {first}"),
+        }
     }
 
     /// Runs Git with input, and passes its output to `take`. Returns the result of `take` and whether Git succeeded.

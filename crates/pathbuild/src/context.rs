@@ -8,6 +8,7 @@ use std::sync::atomic::Ordering;
 use camino::Utf8Path;
 use pathbuild_api::{Error, Finding, Library};
 use pathbuild_db::system::OsSystem;
+use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::findings::Findings;
@@ -224,7 +225,10 @@ impl Context {
     /// Returns the view for machine-readable formats, in which file names are relative to the repository's root.
     fn machine_view(&self) -> View {
         let directory = self.settings.directory().unwrap_or(&self.working_directory);
-        View { root: Some(config::repository(&OsSystem, directory).to_owned()), ..self.plain_view() }
+        // A configuration outside of any repository may serve drawings in the repository of the working directory.
+        let of_configuration = config::repository(&OsSystem, directory);
+        let root = of_configuration.or_else(|| config::repository(&OsSystem, &self.working_directory));
+        View { root: Some(root.unwrap_or(directory).to_owned()), ..self.plain_view() }
     }
 
     /// Returns the view for text files, without colours and wrapping.
@@ -298,8 +302,16 @@ impl Context {
         self.usage(&(reason + advice))
     }
 
-    /// Reports a usage error.
+    /// Reports a usage error: on stderr, and as a finding in machine-readable output and reports, which would otherwise tell of a run without
+    /// findings.
     pub fn usage(&self, reason: &str) -> ExitStatus {
+        let refused = Diagnostic::new(&messages::REFUSED).quoting("reason", reason);
+        let findings = Findings::new(vec![refused]);
+        if self.format.is_for_machines() {
+            self.show(&findings);
+        } else {
+            self.show_some(&findings, &Findings::default());
+        }
         german::print_usage_error(reason, self.lang(), &self.printer)
     }
 

@@ -119,7 +119,7 @@ fn execute(cli: &Cli) -> ExitStatus {
     }
     let (context, faults) = Context::of(cli);
     if let Some(refusal) = context.refusal() {
-        let status = context.usage(&refusal);
+        let status = german::print_usage_error(&refusal, context.lang(), &context.printer);
         return context.printer.finish(status);
     }
     context.begin();

@@ -9,6 +9,7 @@ use crate::commands::watch;
 use crate::context::Context;
 use crate::environment::{user_configuration, working_directory};
 use crate::exit::ExitStatus;
+use crate::german;
 use crate::serving::Server;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::shown;
@@ -31,7 +32,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
         let sources = Sources::of(&Context::of(cli).0);
         let (context, faults) = Context::of(cli);
         if let Some(refusal) = context.refusal() {
-            let status = context.usage(&refusal);
+            let status = german::print_usage_error(&refusal, context.lang(), &context.printer);
             return context.printer.finish(status);
         }
         if !has_begun && server.is_none() {

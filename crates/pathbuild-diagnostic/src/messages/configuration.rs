@@ -3,6 +3,13 @@
 use crate::words::words;
 
 messages! {
+    /// A run that did nothing because its arguments, or the state of the repository, do not allow it.
+    REFUSED: InvalidConfiguration {
+        en: "nothing was done: {reason}",
+        de: "nichts wurde getan: {reason}",
+        help_en: "correct this and start pathbuild again",
+        help_de: "das beheben und pathbuild noch einmal starten",
+    }
     /// A configuration that does not exist or cannot be read.
     CONFIGURATION_UNREADABLE: InvalidConfiguration {
         en: "cannot read the configuration: {reason}",

@@ -241,10 +241,10 @@ impl Discovery<'_> {
     }
 }
 
-/// Returns the root of the Git repository that contains a directory, or the directory itself if there is none.
-pub fn repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
+/// Returns the root of the Git repository that contains a directory, if there is one.
+pub fn repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> Option<&'a Utf8Path> {
     let is_repository = |directory: &&Utf8Path| system.kind(&directory.join(".git")) != FileKind::Missing;
-    directory.ancestors().find(is_repository).unwrap_or(directory)
+    directory.ancestors().find(is_repository)
 }
 
 /// Returns the repository outside which an untrusted run must not access files. If the path of the directory goes through symbolic links, this is the
@@ -257,7 +257,7 @@ pub(super) fn confining_repository<'a>(system: &dyn System, directory: &'a Utf8P
     let is_repository = |place: &&Utf8Path| system.kind(&place.join(".git")) != FileKind::Missing;
     let outermost = directory.ancestors().filter(is_link).last();
     let around = outermost.and_then(|link| link.ancestors().skip(1).find(is_repository));
-    around.unwrap_or_else(|| repository(system, directory))
+    around.or_else(|| repository(system, directory)).unwrap_or(directory)
 }
 
 fn misplaced_input(place: &Utf8Path, other: &Utf8Path, used: Option<&Utf8Path>) -> Diagnostic {

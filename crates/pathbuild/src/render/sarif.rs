@@ -7,6 +7,7 @@ use pathbuild_diagnostic::{Code, Diagnostic};
 use serde_json::{Value as Json, json};
 
 use super::{View, view};
+use pathbuild_workspace::files::FILE_NAME;
 use pathbuild_workspace::findings::{Findings, Fingerprint};
 use pathbuild_workspace::waivers::Waiver;
 
@@ -35,7 +36,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
             } },
             "automationDetails": { "id": "pathbuild/" },
             "columnKind": "unicodeCodePoints",
-            "invocations": [invocation(left_out, view)],
+            "invocations": [invocation(findings, left_out, view)],
             "results": results.iter().map(|shown| result(shown, &rules, view)).collect::<Vec<_>>(),
         }],
     });
@@ -85,8 +86,9 @@ fn description(page: &str) -> String {
     text.join(" ")
 }
 
-fn invocation(left_out: usize, view: &View) -> Json {
-    let mut invocation = json!({ "executionSuccessful": true });
+fn invocation(findings: &Findings, left_out: usize, view: &View) -> Json {
+    let stops = |found: &Diagnostic| found.is_error() && found.code() == Code::InvalidConfiguration;
+    let mut invocation = json!({ "executionSuccessful": !findings.diagnostics.iter().any(stops) });
     if left_out > 0 {
         let text = view.choose("further results left out: {n}", "weitere Ergebnisse, weggelassen: {n}");
         let text = text.replace("{n}", &left_out.to_string());
@@ -104,7 +106,7 @@ fn result(shown: &ShownFinding<'_>, rules: &[Code], view: &View) -> Json {
         "ruleIndex": rules.binary_search(&diagnostic.code()).unwrap_or_default(),
         "level": diagnostic.severity.name(),
         "message": { "text": view::message(diagnostic, view) },
-        "locations": location(diagnostic, view).map_or_else(Vec::new, |location| vec![location]),
+        "locations": [location(diagnostic, view)],
         "relatedLocations": diagnostic.trace.iter().map(|step| json!({
             "message": { "text": view::embedding(step, view) },
             "physicalLocation": { "artifactLocation": artifact(&view.raw_name(&step.file)) },
@@ -129,8 +131,10 @@ fn result(shown: &ShownFinding<'_>, rules: &[Code], view: &View) -> Json {
     result
 }
 
-fn location(diagnostic: &Diagnostic, view: &View) -> Option<Json> {
-    let file = view.raw_file(diagnostic)?;
+/// Returns the location of a finding. One without a file refers to the configuration, because GitHub refuses reports with a result that has no
+/// location.
+fn location(diagnostic: &Diagnostic, view: &View) -> Json {
+    let file = view.raw_file(diagnostic).unwrap_or(FILE_NAME.into());
     let mut region = json!({ "startLine": diagnostic.place.line.unwrap_or(1) });
     if let Some(column) = diagnostic.place.column {
         region["startColumn"] = json!(column);
@@ -140,7 +144,7 @@ fn location(diagnostic: &Diagnostic, view: &View) -> Option<Json> {
     if let Some(path) = &diagnostic.path {
         location["logicalLocations"] = json!([{ "name": path, "kind": "function" }]);
     }
-    Some(location)
+    location
 }
 
 fn artifact(file: &str) -> Json {
