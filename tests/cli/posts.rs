@@ -1010,7 +1010,7 @@ fn native_programs_without_a_path_or_for_two_tools_are_refused() {
         place.run("post a.gcode --post linuxcnc -o a.ngc --format concise")
     };
     let without_path = |text: &str| {
-        text.lines().filter(|line| !line.starts_with("(Path ")).map(|line| format!("{line}\n")).collect()
+        text.split_inclusive('\n').filter(|line| !line.starts_with("(Path ")).collect()
     };
     let run = post(without_path(&slot));
     assert!(run.status == Some(1) && run.stderr.contains("error[PB765] several tools"), "{run}");

@@ -371,9 +371,8 @@ fn leave_out_if_named_like_path(session: &Session<'_>, name: &str, job: &mut Job
     let named = session.select(&crate::Inputs { inputs: vec![name.to_owned()] });
     let named = named.paths.into_iter().map(|path| path.file).chain(named.named);
     let own = job.targets.iter().map(|target| target.file(db));
-    let files: HashSet<SourceFile> = own.chain(named).collect();
     let mut clashing = Vec::new();
-    for file in files {
+    for file in own.chain(named) {
         let (drawing, names) = (file.path(db), path_names(db, file));
         let directory = output_directory(session.out_dir().as_deref(), drawing);
         for name in names {

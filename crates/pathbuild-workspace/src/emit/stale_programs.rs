@@ -87,8 +87,8 @@ impl StaleProgram {
             }
             Reason::OtherJoined { paths } => {
                 let stem = self.path.file_stem().unwrap_or_default();
-                let join = PROGRAM_SUFFIXES.iter().chain([&SHEET_SUFFIX]);
-                let join = join.filter_map(|suffix| stem.strip_suffix(suffix)).next().unwrap_or(stem);
+                let mut suffixes = PROGRAM_SUFFIXES.into_iter().chain([SHEET_SUFFIX]);
+                let join = suffixes.find_map(|suffix| stem.strip_suffix(suffix)).unwrap_or(stem);
                 let command = format!("emit {} --join {join}", paths.join(" "));
                 let problem = Diagnostic::new(&messages::STALE_JOINED).quoting("command", command);
                 problem.with("paths", paths.iter().map(String::as_str).collect::<Value>())
