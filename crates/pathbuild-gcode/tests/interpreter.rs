@@ -211,6 +211,17 @@ fn a_radius_that_is_too_short_is_no_half_circle() {
     assert_eq!(found("9.999"), FINE);
 }
 
+/// The number of a layer is a number of its own after M06.
+#[test]
+fn a_layer_of_xpertmill_is_named_by_a_number_without_a_letter() {
+    let layer = |words: &str| faults(Xpertmill, &format!("G71\nM06 02\nS1\nG00 Z5\n{words}\nS1\nM30"));
+    assert_eq!(layer("M06 03"), [""; 0]);
+    assert_eq!(layer("M06"), ["5 missing-word"]);
+    assert_eq!(layer("M06 T3"), ["5 unknown-word", "5 missing-word"]);
+    assert_eq!(layer("T3"), ["5 unknown-word"]);
+    assert_eq!(layer("m06 03"), ["5 unknown-word"], "a lower-case letter");
+}
+
 /// The S of a layer starts its spindle, and nothing stops it: with S0, the tool would cut with the spindle stopped.
 #[test]
 fn a_layer_of_xpertmill_needs_a_speed_above_zero() {

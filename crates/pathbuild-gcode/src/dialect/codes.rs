@@ -155,7 +155,7 @@ pub(super) static GRBL: Words = Words {
 };
 
 pub(super) static XPERTMILL: Words = Words {
-    letters: Letters::new(b"FGIJMRSTXYZ"),
+    letters: Letters::new(b"FGIJMRSXYZ"),
     g: &[0, 10, 20, 30, 700, 710],
     m: &[60, 300],
     m_ignored: &[30, 40, 50, 70, 80, 90],

@@ -438,6 +438,7 @@ pub(super) static XPERTMILL: Rules = Rules {
         block_numbers: None,
         decimal_comma: true,
         bare_tool_number: true,
+        small_letters: false,
         ..BASE_SPELLING
     },
     words: &codes::XPERTMILL,

@@ -24,7 +24,9 @@ pub(super) const CALLS: &[u16] = &[970, 980, 990];
 impl Interpreter<'_> {
     pub(super) fn apply_tool_words(&mut self, block: &Block<'_>) {
         let change = self.words.m_code(&[60]);
-        if let Some(slot) = self.words.values.take_slot(b'T') {
+        let tool = self.words.values.take_slot(b'T');
+        let is_named = tool.is_some();
+        if let Some(slot) = tool {
             match whole_number(slot.value) {
                 Some(number) => {
                     self.state.tool = Some(number);
@@ -36,7 +38,7 @@ impl Interpreter<'_> {
             }
         }
         let Some((_, span)) = change else { return };
-        if self.rules.layers && self.state.tool.is_none() {
+        if self.rules.layers && !is_named {
             return self.report(block, &say::NEEDS, span, |d| {
                 d.quoting("word", "M6").with("missing", &limits::NUMBER_OF_LAYER)
             });

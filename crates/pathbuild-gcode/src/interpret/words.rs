@@ -131,7 +131,9 @@ impl Interpreter<'_> {
         if self.rules.least_increments {
             self.check_point(block, letter, slot);
         }
-        if !self.rules.words.letters.contains(letter) {
+        // The number of a layer is a T without the letter.
+        let has_letter = block.slice(slot.span).first().is_some_and(u8::is_ascii_alphabetic);
+        if has_letter && !self.rules.words.letters.contains(letter) {
             return self.report_unknown(
                 block,
                 &say::LETTER_NOT_KNOWN,
