@@ -40,7 +40,7 @@ impl Job {
     }
 
     /// Checks that the job can be written: it has operations, all its numbers are finite, and no operation begins to cut within the material right
-    /// after a tool change.
+    /// after a tool change, or after a stop with the spindle off.
     pub(super) fn check(&self) -> Result<(), Box<Diagnostic>> {
         if self.operations.is_empty() {
             return Err(Box::new(Diagnostic::new(&posts::JOB_EMPTY)));
@@ -53,18 +53,23 @@ impl Job {
         self.check_changes()
     }
 
-    /// Checks that no operation with a newly inserted tool, the first one included, has to begin its cuts within the material.
+    /// Checks that no operation with a newly inserted tool, the first one included, or with a spindle that must be started again, has to begin its
+    /// cuts within the material.
     fn check_changes(&self) -> Result<(), Box<Diagnostic>> {
-        let mut before = None;
+        let mut before: Option<&Operation> = None;
         for operation in &self.operations {
-            let is_new = before != Some(operation.tool.index);
-            before = Some(operation.tool.index);
+            let is_new = before.is_none_or(|before| before.tool.index != operation.tool.index);
+            let is_stopped =
+                before.is_some_and(Operation::switches_spindle_off) && operation.begins_with_cut();
+            before = Some(operation);
             match operation.entry {
                 Entry::At([.., z])
-                    if is_new && z < operation.surface.min(operation.clearance) && operation.cuts() =>
+                    if (is_new || is_stopped)
+                        && z < operation.surface.min(operation.clearance)
+                        && operation.cuts() =>
                 {
-                    let diagnostic =
-                        Diagnostic::new(&posts::CUT_AFTER_CHANGE).quoting("operation", &*operation.name);
+                    let message = if is_new { &posts::CUT_AFTER_CHANGE } else { &posts::CUT_AFTER_STOP };
+                    let diagnostic = Diagnostic::new(message).quoting("operation", &*operation.name);
                     let diagnostic = diagnostic.with("z", z).with("surface", operation.surface);
                     return Err(Box::new(diagnostic.with("index", u64::from(operation.tool.index))));
                 }
@@ -208,6 +213,19 @@ impl Operation {
     /// Creates an operation without moves. All other settings are unspecified or zero.
     pub fn new(name: &str, tool: Tool) -> Self {
         Self { name: name.into(), part: name.into(), tool, ..Self::default() }
+    }
+
+    fn switches_spindle_off(&self) -> bool {
+        self.steps.iter().any(|step| matches!(step, JobStep::SpindleOff { .. }))
+    }
+
+    fn begins_with_cut(&self) -> bool {
+        let is_cut = |step: &JobStep| match step {
+            JobStep::Move(movement) => Some(movement.pace != Pace::Rapid),
+            JobStep::Hole(_) => Some(true),
+            _ => None,
+        };
+        self.steps.iter().find_map(is_cut) == Some(true)
     }
 
     /// Returns the first position reached by the moves. Each coordinate comes from the first move that specifies it, or else from the

@@ -499,6 +499,13 @@ messages! {
         help_en: "post each program from a file of its own, or write the paths into one program with tool changes: pathbuild emit PATHS --join NAME",
         help_de: "jedes Programm aus einer eigenen Datei umschreiben oder die Pfade in ein Programm mit Werkzeugwechseln schreiben: pathbuild emit PFADE --join NAME",
     }
+    /// A stop with the cutter in the material and the spindle off.
+    CUT_AFTER_STOP: NothingToPost {
+        en: "{operation} goes on at Z {z}, below the surface at {surface}, after a stop or a dwell with the spindle off: a post starts the spindle above the material and would plunge there once more",
+        de: "{operation} geht nach einem Halt oder einer Wartezeit mit stehender Spindel bei Z {z} weiter, unter der Oberfläche bei {surface}: ein Postprozessor startet die Spindel über dem Material und würde dort noch einmal eintauchen",
+        help_en: "raise the cutter above the material before the spindle is switched off",
+        help_de: "den Fräser über das Material heben, bevor die Spindel ausgeschaltet wird",
+    }
     /// A move to a machine position (G28, G30 or G53), in a program to be written through a post.
     JOB_NAMED_PLACE: NothingToPost {
         en: "a move to a position that only the machine knows cannot be written through a post",

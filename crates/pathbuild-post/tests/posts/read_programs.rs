@@ -287,6 +287,28 @@ fn a_definition_whose_spindle_turns_at_such_a_stop_is_refused() {
 }
 
 #[test]
+fn the_cutter_is_raised_before_the_spindle_is_switched_off() {
+    let text = |z: &str, wait: &str| {
+        format!(
+            "G21 G90 G17\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z{z} F100\nG1 X10\n{wait}\nM3\nG1 X20\nG0 Z5\nM5\nM30\n"
+        )
+    };
+    for post in ["linuxcnc", "grbl", "mach3"] {
+        for wait in ["M5\nM0", "M5\nG4 P2"] {
+            let errors = posted(&text("-1", wait), Dialect::LinuxCnc, post).unwrap_err();
+            assert!(
+                errors[0].starts_with("PB765 1001 goes on at Z -1, below the surface at 0"),
+                "{errors:?}"
+            );
+            assert!(posted(&text("0", wait), Dialect::LinuxCnc, post).is_ok());
+            let raised = text("-1", wait).replace("G1 X20", "G0 Z5\nG0 X20\nG1 Z-1");
+            assert!(posted(&raised, Dialect::LinuxCnc, post).is_ok());
+        }
+        assert!(posted(&text("-1", "M0"), Dialect::LinuxCnc, post).is_ok(), "the spindle turns");
+    }
+}
+
+#[test]
 fn a_post_that_cannot_switch_the_spindle_off_refuses_such_a_wait() {
     let text = |wait: &str| {
         format!(
