@@ -366,7 +366,8 @@ fn clamps_of_one_drawing_hold_for_joined_paths_of_others() {
     // All rapid moves between the paths are at the greater S.
     assert_eq!(codes(&emit("9", "10", "5")), [""; 0]);
     let thicker = emit("9", "21", "6");
-    assert_eq!(codes(&thicker), ["211"]);
+    // In the thicker sheet, the rapid moves down to the thinner one go into the material.
+    assert_eq!(codes(&thicker), ["741", "211"], "{thicker}");
     assert!(thicker.stderr.contains("1300.1P.dxf") && thicker.stderr.contains("path 1300.1P"), "{thicker}");
 }
 

@@ -54,6 +54,30 @@ fn a_sweep_into_raised_material_names_its_element() {
     assert_eq!(place("1.9").run("emit 8001.1P").status, Some(0));
 }
 
+/// Two grooves that cross, one of them in a sheet that lies 3 mm higher: the other one would be milled through that sheet, whichever comes first.
+#[test]
+fn what_is_milled_through_raised_material_names_its_element() {
+    let emit = |first: &str, second: &str| {
+        let place = Place::of(&format!(
+            "== pathbuild.toml ==\nfeed = 150\nrapid = 1000\n== 8001.dxf ==\nlayer 8001.1P\nstart 0,0 \"O2 T2 Mx S20\"\n\
+             sweep 0,0 10,10\nsubpath 10,10 30,10 \"{first}\"\nsweep 30,10 20,10\nsubpath 20,10 20,50 \"{second}\"\n\
+             end 20,50\n== 2001.dxf ==\nlayer 2001.1P\nstart 0,0 \"O2 T2 Mx I1\"\nmill 0,0 20,0 \"B0.5\"\nend 20,0\n\
+             == 2002.dxf ==\nlayer 2002.1P\nstart 0,0 \"O2 T2 Mx I1\"\nmill 0,0 40,0 \"B0.5\"\nend 40,0\n",
+        ));
+        let run = place.run("emit 8001.1P --format concise");
+        assert_eq!(run.status, Some(1), "{run}");
+        run.stderr.lines().map(|line| line.split_once("error[").unwrap().1.to_owned()).collect::<Vec<_>>()
+    };
+    let plunge = emit(">2001.1P H3", ">2002.1P");
+    assert!(plunge[0].starts_with("PB741] the rapid move down to Z 2 at this element"), "{plunge:?}");
+    let cut = emit(">2001.1P", ">2002.1P H3");
+    assert!(
+        cut[0].starts_with("PB793] this cut at Z 1 goes through material that still reaches up to Z 5"),
+        "{cut:?}"
+    );
+    assert_eq!((plunge.len(), cut.len()), (1, 1));
+}
+
 #[test]
 fn half_circles_are_milled_however_they_are_turned() {
     let place = Place::new().file("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\n");

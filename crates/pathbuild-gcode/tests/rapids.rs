@@ -1,6 +1,9 @@
 //! Tests rapid moves into material, in programs made from drawings. (book: program/reading)
 
-use pathbuild_gcode::verify::rapids_into_material;
+use std::sync::Arc;
+
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::verify::{rapids_into_joined_material, rapids_into_material};
 use pathbuild_toolpath::{
     Comment, Count, ElementKind, Height, MoveClass, PlannedMove, Program, ProgramStep, Xy,
 };
@@ -123,5 +126,70 @@ fn each_rapid_move_into_material_is_told_however_many_there_are() {
     for count in [16_u8, 17] {
         let dip = |number: u8| [sweep(10.0 * f64::from(number), 10.0), lift(6.0), lift(4.9), lift(20.0)];
         assert_eq!(found((0..count).flat_map(dip).collect()), vec!["PB741"; usize::from(count)]);
+    }
+}
+
+/// Returns a groove of 20 mm from (0, `y`), of 2 mm width, in material up to `surface`.
+fn groove(surface: f64, y: f64, bottom: f64) -> Vec<ProgramStep> {
+    let way = [sweep(0.0, y), lift(surface), mill(0.0, y, bottom), mill(20.0, y, bottom), lift(20.0)];
+    std::iter::once(element(surface, 2.0)).chain(way).collect()
+}
+
+#[test]
+fn the_highest_surface_counts_in_the_way_of_every_cut() {
+    for is_high_first in [false, true] {
+        let both = |y: f64, bottom: f64| {
+            let (high, low) = (groove(5.0, 0.0, bottom), groove(2.0, y, 1.5));
+            found(if is_high_first { [high, low].concat() } else { [low, high].concat() })
+        };
+        assert_eq!(both(1.9, 4.5), ["PB741"], "{is_high_first}: the cuts behind it follow from it");
+        assert_eq!(both(2.1, 4.5), [""; 0], "{is_high_first}");
+        let is_cleared = both(0.0, 2.0).is_empty();
+        assert_eq!(is_cleared, is_high_first, "what the higher one has milled is free");
+    }
+}
+
+#[test]
+fn a_cut_does_not_go_through_a_higher_surface() {
+    // The lower groove begins `x` mm before the higher one, which crosses it.
+    let crossing = |x: f64| {
+        let way = [sweep(x, -20.0), lift(5.0), mill(x, -20.0, 4.5), mill(x, 20.0, 4.5), lift(20.0)];
+        std::iter::once(element(5.0, 2.0)).chain(way).collect::<Vec<_>>()
+    };
+    for (x, expected) in [(21.9, Some("PB793")), (22.1, None), (-2.1, None), (10.0, Some("PB793"))] {
+        for parts in [[groove(2.0, 0.0, 1.5), crossing(x)], [crossing(x), groove(2.0, 0.0, 1.5)]] {
+            assert_eq!(found(parts.concat()), Vec::from_iter(expected), "{x}");
+        }
+    }
+}
+
+#[test]
+fn a_higher_sheet_elsewhere_is_no_obstacle_in_any_order() {
+    let (high, sweep_at) =
+        (groove(5.0, 80.0, 4.5), |z| vec![sweep(0.0, 0.0), lift(z), sweep(10.0, 0.0), lift(20.0)]);
+    let low = groove(2.0, 10.0, 1.5);
+    for z in [4.0, 2.0] {
+        assert_eq!(found([high.clone(), sweep_at(z), low.clone()].concat()), [""; 0]);
+        assert_eq!(found([sweep_at(z), low.clone(), high.clone()].concat()), [""; 0]);
+    }
+    assert_eq!(found([high, sweep_at(1.9), low].concat()), ["PB741"]);
+}
+
+#[test]
+fn joined_programs_share_their_material() {
+    let program = |steps, thickness, sweep_height| {
+        Arc::new(Program { tool: 2.0, sweep_height, thickness, steps, ..Program::default() })
+    };
+    let raised = program(groove(12.0, 5.0, 11.0), 2.0, 20.0);
+    let crossing = |height: f64| program(vec![sweep(10.0, -20.0), sweep(10.0, 20.0)], 2.0, height);
+    for (height, expected) in [(12.0, None), (11.9, Some("PB740"))] {
+        for (first, programs) in [(1, [&raised, &crossing(height)]), (0, [&crossing(height), &raised])] {
+            let found = rapids_into_joined_material(&programs.map(Arc::clone));
+            let code = found.first().map(|(_, problem)| problem.code().to_string());
+            assert_eq!(code.as_deref(), expected);
+            let is_at_crossing =
+                |(program, problem): &(usize, Diagnostic)| *program == first && problem.place.line == Some(2);
+            assert!(found.iter().all(is_at_crossing), "{found:?}");
+        }
     }
 }

@@ -151,7 +151,7 @@ impl<'db> FoldPaths for ClosurePaths<'db> {
 
 impl TracedProgram {
     /// Places a finding about a step of the program, by its number from 1, at the element to which the step belongs. The point and the heights of
-    /// PB740 become those of that element's drawing.
+    /// PB740, PB741 and PB793 become those of that element's drawing.
     pub fn at_element_of_step(&self, db: &dyn Db, step: u32, mut found: Diagnostic) -> Diagnostic {
         let last = self.trace.steps.len().saturating_sub(1);
         let Some(origin) = self.trace.steps.get((step as usize).saturating_sub(1).min(last)) else {
@@ -160,8 +160,11 @@ impl TracedProgram {
         let around = &self.trace.occurrences[origin.occurrence as usize];
         if found.message == &messages::RAPID_IN_MATERIAL && origin.element.is_some() {
             found.message = &messages::SWEEP_IN_MATERIAL;
+        } else if found.message == &messages::RAPID_PLUNGE {
+            found.message = &messages::PLUNGE_IN_DRAWING;
         }
-        let has_places = found.code() == Code::RapidInMaterial;
+        let has_places =
+            matches!(found.code(), Code::RapidInMaterial | Code::RapidPlunge | Code::CutInHigherMaterial);
         for (name, value) in found.arguments.iter_mut().filter(|_| has_places) {
             match (*name, &*value) {
                 ("z" | "height", Value::Number(height)) => *value = (height.0 - around.raised).into(),

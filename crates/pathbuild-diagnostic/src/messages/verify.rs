@@ -484,6 +484,20 @@ messages! {
         help_en: "go down with G1 and a feed (stock known to within {resolution} mm)",
         help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",
     }
+    /// A cut through material that another path of the program mills from higher up.
+    CUT_IN_HIGHER_MATERIAL: CutInHigherMaterial {
+        en: "this cut at Z {z} goes through material that still reaches up to Z {height}, near {point}: higher than its own path says",
+        de: "dieser Schnitt auf Z {z} geht durch Material, das bei {point} noch bis Z {height} steht: höher, als sein eigener Pfad angibt",
+        help_en: "check H, T and the place of both paths that mill there; if both are right, mill the higher one first (N)",
+        help_de: "H, T und die Stelle beider Pfade prüfen, die dort fräsen; stimmen sie, den höheren zuerst fräsen (N)",
+    }
+    /// A rapid move of a drawn path down into material.
+    PLUNGE_IN_DRAWING: RapidPlunge {
+        en: "the rapid move down to Z {z} at this element goes into material that still reaches up to Z {height}, near {point}",
+        de: "der Eilgang bei diesem Element hinunter auf Z {z} geht in Material, das noch bis Z {height} steht, bei {point}",
+        help_en: "look there for an element of another height, and check H, T and the place of both paths; if both are right, mill the higher one first (N), down to Z {z} (stock known to within {resolution} mm)",
+        help_de: "dort nach einem Element anderer Höhe suchen und bei beiden Pfaden H, T und die Stelle prüfen; stimmen beide, den höheren zuerst fräsen (N), bis Z {z} hinunter (Material auf {resolution} mm genau bekannt)",
+    }
     /// A program that moves in the plane before it raises the cutter.
     START_NOT_RAISED: StartNotRaised {
         en: "the program moves in the plane before it raises the cutter",

@@ -42,6 +42,15 @@ impl HeightMap {
 
     /// Adds material up to `surface` within the capsule. Where material is already known, the lower of the two heights applies.
     pub(super) fn add(&mut self, capsule: &Capsule, surface: f64) {
+        self.merge(capsule, surface, f32::min);
+    }
+
+    /// Like [`add`](Self::add), but the higher of the two heights applies.
+    pub(super) fn raise(&mut self, capsule: &Capsule, surface: f64) {
+        self.merge(capsule, surface, f32::max);
+    }
+
+    fn merge(&mut self, capsule: &Capsule, surface: f64, merged: fn(f32, f32) -> f32) {
         let surface = rounded(surface);
         let (first, last) = self.centres_within(capsule.rows());
         for row in first..=last {
@@ -53,7 +62,7 @@ impl HeightMap {
                 let key = (row.div_euclid(CELLS_PER_SIDE), tile_column);
                 let tile = self.tiles.entry(key).or_insert_with(|| Box::new([f32::NAN; CELLS]));
                 for height in &mut tile[cells(row, column, last, tile_column)] {
-                    *height = if height.is_nan() { surface } else { height.min(surface) };
+                    *height = if height.is_nan() { surface } else { merged(*height, surface) };
                 }
             }
         }

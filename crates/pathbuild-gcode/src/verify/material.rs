@@ -37,16 +37,18 @@ const FINE_RESOLUTION: f64 = 0.02;
 /// Upper bound on the cells visited at a resolution finer than that of the stock, so that the check takes a fraction of a second.
 const FINE_VISITED_CELLS: f64 = 1e8;
 
-/// Upper bound on the visits per cell within O of a cut: one to add the material, half a visit on average to cut it, because a cut is only half as
-/// wide, and the cost of the rows.
+/// Upper bound on the visits per cell within O of a cut: one to add the material, half a visit on average to raise and to cut it, because a cut is
+/// only half as wide, and the cost of the rows.
 const VISITS_PER_CELL: f64 = 3.0;
 
-/// Applies the moves of a program to the stock and reports rapid moves that hit material.
+/// Applies the moves of a program to the stock and reports rapid moves that hit material, and cuts through material above their own surface.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
     apply_moves(program, stock, problems, &mut |bench, line, movement, problems| {
         bench.check_excursion(line, movement, problems);
         if movement.pace == Pace::Rapid {
             bench.check_rapid(line, movement, problems);
+        } else {
+            bench.check_cut(line, movement, problems);
         }
     });
 }
@@ -63,7 +65,7 @@ pub fn rapid_hits(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<u32> 
     lines
 }
 
-/// Applies the moves of a program to the stock. Each move is passed to the caller before it cuts. The program is processed three times: to find the
+/// Applies the moves of a program to the stock. Each move is passed to the caller before it cuts. The program is processed several times: to find the
 /// size of the map, to find where there is material, and to remove it.
 fn apply_moves(
     program: &(impl Program + ?Sized),
@@ -93,6 +95,9 @@ fn apply_moves(
         });
     };
     each(&mut |bench, line, movement| bench.add_material(line, movement));
+    if !stock.is_level() {
+        each(&mut |bench, line, movement| bench.raise_material(line, movement));
+    }
     each(&mut |bench, line, movement| {
         look(bench, line, movement, problems);
         if movement.pace != Pace::Rapid {
@@ -213,15 +218,20 @@ impl MaterialEstimate {
 struct KnownMaterial<'s> {
     stock: &'s Stock,
     is_flat: bool,
+    /// The lowest surface of the stock in mm: at a place of unknown material, a higher one may be that of another sheet.
+    lowest: Option<f64>,
     resolution: f64,
     map: HeightMap,
     excursions: Excursions,
+    /// Whether the last rapid move hit material. The cuts after it then go through the same material.
+    has_hit: bool,
 }
 
 impl<'s> KnownMaterial<'s> {
     fn new(stock: &'s Stock, resolution: f64, cells: u64) -> Self {
         let map = HeightMap::new(resolution, cells);
-        Self { stock, is_flat: stock.is_flat(), resolution, map, excursions: Excursions::default() }
+        let (is_flat, lowest) = (stock.is_flat(), stock.lowest());
+        Self { stock, is_flat, lowest, resolution, map, excursions: Excursions::default(), has_hit: false }
     }
 
     /// Adds the material within O of a cutting move. Where the surface is unknown, material is only added along the rapid moves to be checked.
@@ -243,6 +253,18 @@ impl<'s> KnownMaterial<'s> {
         }
     }
 
+    /// Raises the material in a cutting move's own way, so that the highest surface of all cuts that go through a place applies there, in any order.
+    /// Beside a cut, where a lower sheet may lie, the lowest one applies.
+    fn raise_material(&mut self, line: u32, movement: &Move) {
+        let Some(piece) = cutting_piece(line, movement, self.stock).filter(|piece| piece.surface.is_finite())
+        else {
+            return;
+        };
+        for part in self.parts(movement).filter(|part| part.lowest() < piece.surface) {
+            self.map.raise(&capsule(&part, piece.cutter.removed / 2.0), piece.surface);
+        }
+    }
+
     /// Reports rapid moves down and up again without any other move between them, as if a hole were drilled or a slot milled with them. Where the
     /// material is known, the map decides instead.
     fn check_excursion(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
@@ -252,7 +274,7 @@ impl<'s> KnownMaterial<'s> {
             let tip = Capsule::new(place, place, piece.cutter.diameter / 2.0);
             self.map.highest_above(&tip, f64::NEG_INFINITY).is_none()
         };
-        if let Some(ended) = self.excursions.step(line, movement, Some(piece.surface), is_unknown) {
+        if let Some(ended) = self.excursions.step(line, movement, self.lowest, is_unknown) {
             problems.add_at_line(&say::RAPID_DIP, ended.line, |d| {
                 d.with("z", ended.z()).with("surface", ended.surface).at_point(ended.place())
             });
@@ -270,7 +292,9 @@ impl<'s> KnownMaterial<'s> {
     }
 
     fn check_rapid(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
-        let Some(Hit { message, z, height, at: [x, y] }) = self.first_hit(line, movement) else { return };
+        let hit = self.first_hit(line, movement);
+        self.has_hit = hit.is_some();
+        let Some(Hit { message, z, height, at: [x, y] }) = hit else { return };
         // A strip of material of this width contains the centres of cells, wherever it is.
         let resolution = self.resolution + 2.0 * self.slack();
         problems.add_at_line(message, line, |diagnostic| {
@@ -281,6 +305,26 @@ impl<'s> KnownMaterial<'s> {
                 .with("resolution", resolution)
                 .at_point(Point::new(x, y))
         });
+    }
+
+    /// Reports cuts through material that is above their own surface, because another cut of the program goes through it from higher up.
+    fn check_cut(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
+        let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
+        if self.has_hit || self.stock.highest().is_none_or(|highest| piece.surface >= highest) {
+            return;
+        }
+        let radius =
+            (piece.cutter.removed / 2.0 - self.slack()).max(CENTRE_LINE_HALF_WIDTH * self.resolution);
+        let hit = self.parts(movement).find_map(|part| {
+            let hit = self.map.highest_above(&capsule(&part, radius), piece.surface + RESIDUE_HEIGHT)?;
+            Some((part.lowest(), hit))
+        });
+        if let Some((z, (height, [x, y]))) = hit {
+            problems.add_at_line(&say::CUT_IN_HIGHER_MATERIAL, line, |d| {
+                let d = d.with("z", z).with("height", height).with("point", Point::new(x, y));
+                d.at_point(Point::new(x, y))
+            });
+        }
     }
 
     /// Returns the first material that a rapid move hits.
@@ -618,6 +662,11 @@ impl Stock {
     /// Returns the height in mm of the highest surface; `None` if there is no stock.
     pub fn highest(&self) -> Option<f64> {
         self.highest
+    }
+
+    /// Returns the height in mm of the lowest surface; `None` if there is no stock.
+    pub(super) fn lowest(&self) -> Option<f64> {
+        self.pieces.iter().map(|piece| piece.surface).reduce(f64::min)
     }
 
     /// Returns the stock that applies in a line; `None` before the first span.

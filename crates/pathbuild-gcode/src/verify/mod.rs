@@ -44,7 +44,7 @@ pub use direction::DirectionRules;
 pub use lengths::LengthRules;
 pub use machine::{Machine, MachineRules, Travel, text_beyond_machine};
 pub use material::{Cutter, Stock, StockSpan, rapid_hits};
-pub use rapids::{beyond_machine, rapids_into_material};
+pub use rapids::{beyond_machine, rapids_into_joined_material, rapids_into_material};
 pub use rules::Rules;
 pub use stated_statistics::StatedStatistics;
 pub use tip_height::TipHeight;

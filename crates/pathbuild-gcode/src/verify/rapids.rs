@@ -9,10 +9,12 @@ mod tests;
 use std::cell::LazyCell;
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::{Move, MoveShape, Pace, Position, Step};
 use pathbuild_toolpath as toolpath;
+use pathbuild_toolpath::{Comment, Count, ElementKind, Height, MoveClass, PlannedMove, ProgramStep, Xy};
 
 use super::excursion::Excursions;
 use super::height_map::RESIDUE_HEIGHT;
@@ -38,7 +40,7 @@ pub fn beyond_machine(drawn: &toolpath::Program, machine: &Machine) -> Vec<Diagn
     rules.finish()
 }
 
-/// Returns the rapid moves into material in a drawing's program, by step number.
+/// Returns the rapid moves into material in a drawing's program, and the cuts through material above their own surface, by step number.
 pub fn rapids_into_material(drawn: &toolpath::Program) -> Vec<Diagnostic> {
     let stock = Stock::of(drawn);
     let suspects = suspects(drawn, &stock);
@@ -51,14 +53,52 @@ pub fn rapids_into_material(drawn: &toolpath::Program) -> Vec<Diagnostic> {
     problems.into_diagnostics()
 }
 
-/// Returns the rapid moves whose path the preceding cuts may not have cleared.
+/// Returns the rapid moves into material in programs that are milled one after the other, by the index of their program and its step number. Each
+/// program by itself must have none.
+pub fn rapids_into_joined_material(programs: &[Arc<toolpath::Program>]) -> Vec<(usize, Diagnostic)> {
+    let clearance = programs.iter().map(|program| program.sweep_height).fold(f64::NEG_INFINITY, f64::max);
+    let mut joined = toolpath::Program { sweep_height: clearance, ..toolpath::Program::default() };
+    let origin = Xy::origin();
+    let mut starts = Vec::with_capacity(programs.len());
+    for program in programs {
+        let element = Comment::Element {
+            kind: ElementKind::Sweep,
+            at: origin,
+            bottom: program.thickness,
+            surface: program.thickness,
+            cutter: program.tool,
+            peck: None,
+        };
+        let lift = |z| PlannedMove::Lift { z: Height { z, at: origin } };
+        let approach = [lift(clearance), PlannedMove::Sweep { to: origin }, lift(program.start_height())];
+        let count = Count { class: MoveClass::Sweep, length: 0.0, feed: None };
+        joined.steps.push(ProgramStep::Comment(element));
+        joined.steps.extend(approach.map(|to| ProgramStep::Move { to, count }));
+        starts.push(u32::try_from(joined.steps.len()).unwrap_or(u32::MAX));
+        joined.steps.extend(&program.steps);
+    }
+    (joined.thickness, joined.tool) =
+        programs.first().map_or((0.0, 0.0), |first| (first.thickness, first.tool));
+    if Stock::of(&joined).is_level() {
+        return Vec::new();
+    }
+    let located = rapids_into_material(&joined).into_iter().map(|mut problem| {
+        let step = problem.place.line.unwrap_or_default();
+        let program = starts.partition_point(|start| *start < step).saturating_sub(1);
+        problem.place.line = Some(step.saturating_sub(starts[program]).max(1));
+        (program, problem)
+    });
+    located.collect()
+}
+
+/// Returns the rapid moves whose path the preceding cuts may not have cleared, and the cuts near a higher surface than their own.
 fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
     let tops = LazyCell::new(|| CutGrid::of(drawn, stock));
     let mut recent: VecDeque<(u32, Move)> = VecDeque::with_capacity(MAX_EXAMINED_CUTS);
     let (mut excursions, mut found) = (Excursions::default(), Vec::new());
+    let lowest = stock.lowest();
     for (line, movement) in drawn.moves() {
-        let surface = stock.at(line).map(|piece| piece.surface);
-        let ended = excursions.step(line, &movement, surface, |_| true);
+        let ended = excursions.step(line, &movement, lowest, |_| true);
         found.extend(ended.into_iter().flat_map(|excursion| excursion.moves));
         if movement.pace == Pace::Rapid {
             let has_room = || {
@@ -78,14 +118,20 @@ fn suspects(drawn: &toolpath::Program, stock: &Stock) -> Vec<Move> {
             if !has_room() {
                 found.push(movement);
             }
-            if found.len() > MAX_SUSPECTS {
-                break;
-            }
         } else {
+            if let Some(piece) = cutting_piece(line, &movement, stock)
+                && stock.highest().is_some_and(|highest| piece.surface < highest)
+                && tops.highest_within(sides(&movement), piece.cutter.diameter / 2.0) > piece.surface
+            {
+                found.push(movement);
+            }
             if recent.len() == MAX_EXAMINED_CUTS {
                 recent.pop_front();
             }
             recent.push_back((line, movement));
+        }
+        if found.len() > MAX_SUSPECTS {
+            break;
         }
     }
     found
@@ -235,6 +281,16 @@ impl CutGrid {
             }
         }
         highest
+    }
+
+    /// Returns the highest surface within `radius` mm of a box; `-inf` where there is no material.
+    fn highest_within(&self, sides: Sides, radius: f64) -> f64 {
+        let [across, up] = sides.map(|(low, high)| (low - radius, high + radius));
+        let rows = self.indices(1, up);
+        let cells = rows.flat_map(|row| {
+            self.indices(0, across).map(move |column| self.heights[row * CELLS_PER_SIDE + column])
+        });
+        cells.fold(f64::NEG_INFINITY, f64::max)
     }
 
     fn raise(&mut self, [across, up]: [(f64, f64); 2], surface: f64) {

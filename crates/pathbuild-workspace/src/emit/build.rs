@@ -14,7 +14,9 @@ use pathbuild_diagnostic::messages::{files, parameters, paths as messages, posts
 use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity, Value, words};
 use pathbuild_gcode::native::{self, probe_name};
 use pathbuild_gcode::read::LONGEST_LINE;
-use pathbuild_gcode::verify::{Machine, beyond_machine, rapids_into_material, text_beyond_machine};
+use pathbuild_gcode::verify::{
+    Machine, beyond_machine, rapids_into_joined_material, rapids_into_material, text_beyond_machine,
+};
 use pathbuild_path::approx::near;
 use pathbuild_path::{Curve, KeepOutMap, Line, TipMove, Xy};
 use pathbuild_post::Job as PostJob;
@@ -158,6 +160,8 @@ fn problems_of_joining(
     }
     let mut found = joining_doubts(db, job, programs);
     found.extend(moves_into_clamps(db, job, programs));
+    let rapids = rapids_into_joined_material(programs).into_iter();
+    found.extend(rapids.map(|(program, problem)| at_element_of_step(db, job.targets[program], problem)));
     found.extend(check_joined_parts(db, &job.targets));
     found.into_iter().partition(Diagnostic::is_error)
 }
