@@ -983,6 +983,32 @@ fn texts_of(svg: &str) -> Vec<([f64; 4], String)> {
     document.descendants().filter(is_label).map(label).collect()
 }
 
+/// A text of another layer is shown as a whole above the legend, if its centre is there.
+#[test]
+fn the_legend_does_not_cut_texts_of_other_layers() {
+    let path = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0\nend 40,0\nlayer REMARKS\n";
+    let texts: String = (0..20)
+        .map(|row| format!("text 10,-{}.{} \"remark\" height 2\n", 4 + row / 4, row % 4 * 25))
+        .collect();
+    let place = Place::new().file("1234.1P.dxf", sheet(&format!("{path}{texts}")).unwrap().to_dxf());
+    place.run("view 1234.1P -o a.svg --rapid 900 --sweep-height 9");
+    let svg = place.read("a.svg");
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let number =
+        |node: roxmltree::Node<'_, '_>, name: &str| node.attribute(name).unwrap().parse::<f64>().unwrap();
+    let mut rectangles = document.descendants().filter(|node| node.has_tag_name("rect"));
+    let legend =
+        rectangles.find(|node| node.attribute("width") == Some("1160") && node.has_attribute("y")).unwrap();
+    let legend = number(legend, "y");
+    let remarks = document.descendants().filter(|node| node.text() == Some("remark") && node.is_element());
+    let rows: Vec<[f64; 2]> = remarks.map(|node| [number(node, "y"), number(node, "font-size")]).collect();
+    assert_eq!(rows.len(), 20);
+    let lower_edges = rows.iter().filter(|[y, _]| *y < legend).map(|[y, size]| y + size / 2.0);
+    assert!(lower_edges.clone().all(|edge| edge < legend + 0.01), "{legend}: {rows:?}");
+    assert!(lower_edges.filter(|edge| (edge - legend).abs() < 0.01).count() > 1, "{legend}: {rows:?}");
+    assert!(rows.iter().any(|[y, _]| *y > legend), "{legend}: {rows:?}");
+}
+
 /// Numbers, start, parameters and names are legible: they do not overlap.
 #[test]
 fn texts_of_a_picture_are_apart() {
