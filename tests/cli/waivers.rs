@@ -79,6 +79,26 @@ fn accepting_again_replaces_the_reason_and_keeps_the_rest() {
     assert_eq!(text.lines().filter(|line| !line.starts_with('#')).count(), 2, "{text}");
 }
 
+/// A comparison of the file shows what was accepted, and nothing else.
+#[test]
+fn updating_a_part_of_a_baseline_keeps_the_order_of_its_lines() {
+    let place = Place::new().file("pathbuild.toml", "library = [\".\"]");
+    let place = place.file("a/1235.1P.dxf", dxf(WARNED)).file("b/1236.1P.dxf", dxf(WRONG));
+    let update = |arguments: &str| {
+        assert_eq!(place.run(&format!("check {arguments} --update-baseline")).status, Some(0));
+        place.read("pathbuild-baseline.txt")
+    };
+    let whole = update("");
+    assert!(whole.find("a/1235.1P.dxf").unwrap() < whole.find("b/1236.1P.dxf").unwrap(), "{whole}");
+    assert_eq!((update("a"), update("b"), update("")), (whole.clone(), whole.clone(), whole.clone()));
+    std::fs::remove_file(place.path().join("pathbuild-baseline.txt")).unwrap();
+    let (second, both) = (update("b"), update("a"));
+    assert!(both.starts_with(&second) && both.len() == whole.len(), "{both}");
+    let marked = format!("\u{feff}{both}");
+    std::fs::write(place.path().join("pathbuild-baseline.txt"), marked).unwrap();
+    assert_eq!(update(""), both, "editors may begin a file with a byte order mark");
+}
+
 /// Its reasons and dates would be lost.
 #[test]
 fn a_baseline_that_cannot_be_read_is_not_rewritten() {

@@ -74,6 +74,8 @@ impl Baseline {
                 _ => Diagnostic::new(&messages::BASELINE_UNREADABLE).in_file(file).with("reason", reason),
             }]
         })?;
+        // Some editors begin a file with a byte order mark.
+        let text = text.trim_start_matches('\u{feff}').to_owned();
         let mut baseline = Self { text, ..Self::new(file) };
         let faults = baseline.parse();
         Ok((baseline, faults))
@@ -91,7 +93,7 @@ impl Baseline {
     }
 
     /// Returns the text of a baseline that contains all these findings. Entries that still match keep their reasons and dates. Entries for files that
-    /// the run did not cover stay as they are.
+    /// the run did not cover stay as they are. Lines keep their order, so that a version control system shows what was added or removed.
     pub fn rewritten_text(
         &self,
         findings: &[Diagnostic],
@@ -99,18 +101,23 @@ impl Baseline {
         coverage: &Coverage,
     ) -> String {
         let run = Run::new(workspace, coverage);
-        let mut text = HEADER_TEXT.to_owned();
+        let mut lines: Vec<(u32, String)> = Vec::new();
         let mut found = BTreeSet::new();
         for (diagnostic, key) in findings.iter().zip(self.keys(findings, &workspace.working_directory)) {
             let none = Waiver::default();
             let known = self.entries(diagnostic, &key, workspace);
             let waiver = known.last().map_or(&none, |entry| &entry.waiver);
-            text.push_str(&self.line(&key.fingerprint, waiver, diagnostic, &workspace.working_directory));
+            let place = known.last().map_or(u32::MAX, |entry| entry.waiver.line);
+            lines
+                .push((place, self.line(&key.fingerprint, waiver, diagnostic, &workspace.working_directory)));
             found.extend(known.iter().map(|entry| entry.waiver.line));
         }
         let others = self.entries.values().flatten();
         let others = others.filter(|entry| !found.contains(&entry.waiver.line) && !run.covers(self, entry));
-        text.extend(others.flat_map(|entry| [&*entry.line, "\n"]));
+        lines.extend(others.map(|entry| (entry.waiver.line, format!("{}\n", entry.line))));
+        lines.sort_by_key(|(place, _)| *place);
+        let mut text = HEADER_TEXT.to_owned();
+        text.extend(lines.into_iter().map(|(_, line)| line));
         shown::lines(&text).into_owned()
     }
 
