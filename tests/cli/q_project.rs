@@ -397,3 +397,13 @@ fn a_drawing_of_the_user_is_not_overwritten() {
     let place = place.file(name, &ours);
     assert_eq!(place.run_with(&["q-project", "gear 1234.dxf"]).status, Some(0));
 }
+
+#[test]
+fn a_drawing_that_is_missing_is_named_before_its_path() {
+    let place = Place::of(DRAWING);
+    let run = place.run("q-project nope.dxf");
+    assert!(run.status == Some(1) && run.stderr.contains("PB001"), "{run}");
+    std::fs::rename(place.path().join("gear 1234.dxf"), place.path().join("nope.dxf")).unwrap();
+    let run = place.run("q-project nope.dxf");
+    assert!(run.status == Some(2) && run.stderr.contains("--path-name"), "{run}");
+}

@@ -27,6 +27,13 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     }
     let mut session = Session::new(context);
     let drawing = session.file(&args.drawing);
+    let is_unread = |problem: &&Diagnostic| problem.code() == Code::UnreadableFile;
+    let unread: Vec<Diagnostic> = session.with_stable_files(|session| {
+        check_file(session.db(), drawing).iter().filter(is_unread).cloned().collect()
+    });
+    if !unread.is_empty() {
+        return context.fail(session.with_hints(unread));
+    }
     let name = session.with_stable_files(|session| path_name(session, drawing, args.path_name.as_deref()));
     let name = match name {
         Ok(name) => name,
