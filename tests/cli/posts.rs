@@ -1009,9 +1009,8 @@ fn native_programs_without_a_path_or_for_two_tools_are_refused() {
         std::fs::write(place.path().join("a.gcode"), text).unwrap();
         place.run("post a.gcode --post linuxcnc -o a.ngc --format concise")
     };
-    let without_path = |text: &str| {
-        text.split_inclusive('\n').filter(|line| !line.starts_with("(Path ")).collect()
-    };
+    let without_path =
+        |text: &str| text.split_inclusive('\n').filter(|line| !line.starts_with("(Path ")).collect();
     let run = post(without_path(&slot));
     assert!(run.status == Some(1) && run.stderr.contains("error[PB765] several tools"), "{run}");
     // There is one tool of 3 mm.
