@@ -28,14 +28,16 @@ const MAX_EXAMINED_CANDIDATES: usize = 1_000_000;
 /// Maximum number of characters after a path name that are taken for a typing error.
 const MAX_SLIP_CHARACTERS: usize = 2;
 
-/// Words that follow the name of a layer in that of a layer with another version of it, in English and German.
-const VERSIONS: [&str; 6] = ["old", "new", "copy", "alt", "neu", "Kopie"];
+/// Words that precede or follow the name of a layer in that of a layer with another version of it, in English and German.
+const VERSIONS: [&str; 8] = ["old", "new", "copy", "copy of", "alt", "neu", "Kopie", "Kopie von"];
 
 /// Whether the undecoded bytes of a text may be a parameter text that [`stray_findings`] reports. If not, it is certain that nothing is reported.
 pub fn may_be_stray_text(text: &[u8]) -> bool {
     let is_weighty =
         |byte: u8| byte == b'Z' || matches!(byte.to_ascii_uppercase(), b'B' | b'D' | b'F' | b'I' | b'W');
-    let is_value = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b',' | b'=');
+    // Bytes beyond ASCII, and a code such as `\\U+2212`, may be a dash instead of a minus.
+    let is_value =
+        |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b',' | b'=' | b'\\' | 128..);
     // A colon begins a variable, as in `:D0.5`, which is never reported; a backslash begins a format code of MTEXT, as in `\\W0.8;`, or a
     // line break: `\\P`. A bar separates the properties of a font: `\\fArial|b0|i0;`.
     let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'\\' | b':' | b'|');
@@ -67,13 +69,20 @@ fn may_be_probe_text(text: &[u8]) -> bool {
     text.len() <= MAX_PROBE_TEXT && words.peek().is_some() && words.all(is_parameter)
 }
 
-/// Returns a text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, spaces and
-/// colons before values, signs between or around parameters, units, and marks at the end.
+/// Returns a text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, dashes instead of
+/// a minus, spaces, colons and equals signs before numbers, signs or nothing between parameters, signs around them, units, and marks at the end.
 fn without_mistakes(text: &str) -> String {
+    let text = look_alikes::with_keyboard_characters(text);
     let mut meant = String::with_capacity(text.len());
     let mut rest = text.chars().peekable();
     let mut is_begin = true;
     while let Some(character) = rest.next() {
+        let begins_value = |next: &char| next.is_ascii_digit() || matches!(next, '-' | '.');
+        let follows_number = meant.ends_with(|last: char| last.is_ascii_digit());
+        if follows_number && character.is_ascii_uppercase() && rest.peek().is_some_and(begins_value) {
+            meant.push(' ');
+            is_begin = true;
+        }
         let is_lone_letter = is_begin && character.is_ascii_alphabetic();
         let is_between = matches!(character, ',' | ';' | '/')
             && rest.clone().find(|next| *next != ' ').is_some_and(char::is_alphabetic);
@@ -82,7 +91,14 @@ fn without_mistakes(text: &str) -> String {
         is_begin = is_separator || character.is_whitespace();
         meant.push(if is_separator { ' ' } else { character.to_ascii_uppercase() });
         if is_lone_letter {
-            while rest.next_if(|next| matches!(next, ' ' | ':') || is_special_space(*next)).is_some() {}
+            let is_number =
+                rest.clone().find(|next| !matches!(next, ' ' | '=')).is_some_and(|it| begins_value(&it));
+            while rest
+                .next_if(|next| {
+                    matches!(next, ' ' | ':') || is_special_space(*next) || *next == '=' && is_number
+                })
+                .is_some()
+            {}
         }
     }
     let words = meant.split(' ').filter(|word| !matches!(*word, "MM" | "-"));
@@ -107,27 +123,35 @@ pub struct NearNames {
     by_folded: HashMap<String, PathName>,
     /// Paths by their names without the letters at the end, such as `1234.1` for `1234.1P`, normalized as well.
     without_letters: HashMap<String, PathName>,
+    /// Paths by their names without one of the characters, normalized as well.
+    without_character: HashMap<String, PathName>,
     /// The words for versions, normalized like the names.
-    versions: [String; 6],
+    versions: [String; 8],
 }
 
 impl NearNames {
     /// Collects the names of a drawing's paths.
     pub fn new<'n>(paths: impl Iterator<Item = &'n PathName>) -> Self {
-        let (mut by_folded, mut without_letters) = (HashMap::new(), HashMap::new());
+        let (mut by_folded, mut without_letters, mut without_character) =
+            (HashMap::new(), HashMap::new(), HashMap::new());
         for path in paths {
             let name = case_folded(path.as_str());
             let shorter = name.trim_end_matches(char::is_alphabetic);
             if !shorter.is_empty() {
                 without_letters.insert(shorter.to_owned(), path.clone());
             }
+            for (at, character) in name.char_indices() {
+                let rest = [&name[..at], &name[at + character.len_utf8()..]].concat();
+                without_character.insert(rest, path.clone());
+            }
             by_folded.insert(name, path.clone());
         }
-        Self { by_folded, without_letters, versions: VERSIONS.map(case_folded) }
+        Self { by_folded, without_letters, without_character, versions: VERSIONS.map(case_folded) }
     }
 
     /// Returns the path with a name that resembles the name of another layer: the layer has the path's name, followed by a tilde and any text, by at
-    /// most two more characters, or by a word for another version, or it lacks the letters at the end. Case and all characters but letters and digits
+    /// most two more characters, or by a word for another version, or has that word in front, or it lacks the letters at the end or any one
+    /// character. Case and all characters but letters and digits
     /// are ignored; letters that look like digits are treated as those digits.
     pub fn path(&self, layer: &str) -> Option<&PathName> {
         let layer = case_folded(layer);
@@ -135,11 +159,15 @@ impl NearNames {
         let ends = layer.char_indices().rev().map(|(at, _)| at);
         let mut ends = std::iter::once(layer.len()).chain(ends).take(MAX_SLIP_CHARACTERS + 1);
         let version = || {
-            let before = |word: &String| self.by_folded.get(layer.strip_suffix(word.as_str())?);
-            self.versions.iter().find_map(before)
+            let name = |word: &String| {
+                let others = [layer.strip_suffix(word.as_str()), layer.strip_prefix(word.as_str())];
+                others.into_iter().flatten().find_map(|name| self.by_folded.get(name))
+            };
+            self.versions.iter().find_map(name)
         };
         let longer = before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end])));
-        longer.or_else(version).or_else(|| self.without_letters.get(&layer))
+        let shorter = || self.without_letters.get(&layer).or_else(|| self.without_character.get(&layer));
+        longer.or_else(version).or_else(shorter)
     }
 
     /// Returns the path with the longest name with which the name of another layer begins.

@@ -57,6 +57,12 @@ fn a_parameter_text_over_an_element_on_another_layer_has_no_effect() {
         "B 1 mm",
         "B1mm F100",
         "B:1",
+        "B = 1",
+        "B=1",
+        "B0.5F120",
+        "I1B0.5",
+        "B\u{2212}1",
+        "B\u{2013}0.2",
         "B1/F100",
         "B1 (F100)",
         "(B1)",
@@ -97,6 +103,9 @@ fn a_parameter_text_over_an_element_on_another_layer_has_no_effect() {
         "F",
         "n 3",
         "d 5",
+        "B2x4F",
+        "2B3",
+        "R5F",
     ] {
         assert_eq!(strays(&text("Notes", string, "20,0")), [""; 0], "{string}");
     }
@@ -170,6 +179,11 @@ fn a_layer_that_is_nearly_a_path_s_is_named() {
         "1234\u{b7}1P",
         "\u{ff11}23\u{ff14}.1P",
         "1234.1",
+        "Kopie von 1234.1P",
+        "copy of 1234.1P",
+        "alt_1234.1P",
+        "1234.P",
+        "124.1P",
     ] {
         assert_eq!(circle(layer), ["PB120"], "{layer}");
     }
@@ -177,6 +191,8 @@ fn a_layer_that_is_nearly_a_path_s_is_named() {
         "1234",
         "1234.1P (23)x",
         "1234.1P Text",
+        "Text 1234.1P",
+        "12.1P",
         "1234.1P alter",
         "1235.1P alt",
         "alt",
@@ -283,6 +299,9 @@ fn the_first_look_at_bytes_is_certain() {
         "\\LB1\\l",
         "{\\OB1}",
         "B:1",
+        "B = 1",
+        "B\u{2212}1",
+        "B\\U+22121",
     ] {
         assert!(may_be_stray_text(text.as_bytes()), "{text}");
     }
