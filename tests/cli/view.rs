@@ -987,9 +987,8 @@ fn texts_of(svg: &str) -> Vec<([f64; 4], String)> {
 #[test]
 fn the_legend_does_not_cut_texts_of_other_layers() {
     let path = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0\nend 40,0\nlayer REMARKS\n";
-    let texts: String = (0..20)
-        .map(|row| format!("text 10,-{}.{} \"remark\" height 2\n", 4 + row / 4, row % 4 * 25))
-        .collect();
+    let text = |row: u32| format!("text 10,-{}.{} \"remark\" height 2", 4 + row / 4, row % 4 * 25);
+    let texts = (0..20).map(text).collect::<Vec<_>>().join("\n");
     let place = Place::new().file("1234.1P.dxf", sheet(&format!("{path}{texts}")).unwrap().to_dxf());
     place.run("view 1234.1P -o a.svg --rapid 900 --sweep-height 9");
     let svg = place.read("a.svg");
