@@ -277,7 +277,7 @@ codes! {
     790 DoubtfulChipLoad "doubtful-chip-load" Warning "a chip load outside the limits of `[tool]`";
     791 StopAtDepth "stop-at-depth" Warning "a stop for the operator with the cutter in the material";
     792 CutDeeperThanEdges "cut-deeper-than-edges" Warning "a cut deeper than the cutting edges of its tool are long";
-    793 CutInHigherMaterial "cut-in-higher-material" Error "a cut through material that is higher than its own path says";
+    793 CutInHigherMaterial "cut-in-higher-material" Warning "a cut through material that is higher than its own path says";
 }
 
 impl Code {

@@ -260,7 +260,8 @@ fn probed(place: &Place) -> Vec<Good> {
     let run = place.run(&format!("emit {PROBED} --out-dir {directory} --no-cache"));
     assert_eq!(run.status, Some(0), "{run}");
     let values = format!("{directory}/{PROBED}_Z.txt");
-    let mut off = [-0.04, 0.02, 0.05, -0.01].into_iter().cycle();
+    // Nowhere higher than drawn: there, cuts down to the plate would end above it, which is a finding.
+    let mut off = [-0.04, -0.02, -0.05, -0.01].into_iter().cycle();
     let measured = |line: &str| {
         let drawn = line
             .split("/T=")

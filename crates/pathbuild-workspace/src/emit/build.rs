@@ -9,7 +9,7 @@ use pathbuild_db::{
     Collision, Database, PlacedKeepOut, Target, check_joined_parts, closure, locate, placed_keep_outs,
     program, summary, traced_program,
 };
-use pathbuild_diagnostic::messages::gcode::FEED_TOO_HIGH;
+use pathbuild_diagnostic::messages::gcode::{CUT_IN_HIGHER_MATERIAL, FEED_TOO_HIGH};
 use pathbuild_diagnostic::messages::{files, parameters, paths as messages, posts, probes};
 use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity, Value, words};
 use pathbuild_gcode::native::{self, probe_name};
@@ -126,7 +126,7 @@ fn file_too_large(db: &Database, job: &Job, output: &Output, writing: &WriteSett
 }
 
 /// Returns errors that keep a program from being written, which are rapid moves into material and moves beyond the machine's capabilities, and
-/// warnings about feeds beyond the rates of an axis. A feed above `maximum-feed` is a warning about the element that gives it (PB211).
+/// warnings about cuts in higher material and feeds beyond the rates of an axis. A feed above `maximum-feed` is a warning about the element that gives it (PB211).
 fn move_problems(
     db: &Database,
     target: Target,
@@ -135,7 +135,9 @@ fn move_problems(
 ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let mut problems = rapids_into_material(program);
     problems.extend(machine.into_iter().flat_map(|machine| beyond_machine(program, machine)));
-    problems.retain(|problem| problem.is_error() || problem.message.key == FEED_TOO_HIGH.key);
+    let is_shown =
+        |key: &str| [&FEED_TOO_HIGH, &CUT_IN_HIGHER_MATERIAL].iter().any(|message| message.key == key);
+    problems.retain(|problem| problem.is_error() || is_shown(problem.message.key));
     let located = problems.into_iter().map(|problem| at_element_of_step(db, target, problem));
     located.partition(Diagnostic::is_error)
 }
