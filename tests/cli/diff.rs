@@ -510,6 +510,32 @@ fn revisions_are_compared_with_each_other_and_with_what_lies_there() {
     assert_eq!(String::from_utf8_lossy(&status.stdout), " M pathbuild.toml\n");
 }
 
+/// The programs of a revision are written with the files that the post-processor inserts.
+#[test]
+fn a_revision_has_the_files_that_the_post_processor_inserts() {
+    let post = pathbuild_post::BUILT_IN.iter().find(|post| post.name == "xpertmill").unwrap().text;
+    let inserting = post.replace("program-start = '''\n", "program-start = '''\n\\\\\\~*head.nc*\n");
+    assert_ne!(inserting, post);
+    let configuration = |speed: u32| {
+        format!(
+            "feed = 150\nrapid = 1000\nlibrary = [\"parts\"]\npost = \"posts/my.toml\"\n[tool.a]\ndiameter = 2\nspindle = {speed}\n"
+        )
+    };
+    let place = Place::new()
+        .file("pathbuild.toml", configuration(10000))
+        .file("posts/my.toml", inserting)
+        .file("posts/head.nc", "// head\n")
+        .file("parts/1001.1P.dxf", dxf("1001.1P", "1", LINE));
+    git(&place, &["init", "-q"]);
+    git(&place, &["add", "-A"]);
+    git(&place, &["commit", "-q", "-m", "all"]);
+    assert_prints(&place.run("diff HEAD"), 0, &["0 of 1 path changed\n"]);
+    let place = place.file("pathbuild.toml", configuration(24000));
+    assert_prints(&place.run("diff HEAD"), 0, &["spindle: S24000 instead of S10000"]);
+    git(&place, &["commit", "-q", "-a", "-m", "faster"]);
+    assert_prints(&place.run("diff HEAD~1 HEAD"), 0, &["spindle: S24000 instead of S10000"]);
+}
+
 /// A drawing is compared with its own state in the revision, and not with all other drawings of that time.
 #[test]
 fn a_drawing_is_compared_with_its_state_in_a_revision() {

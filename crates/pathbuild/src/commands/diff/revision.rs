@@ -10,6 +10,7 @@ use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
 use pathbuild_workspace::files::FILE_NAME;
 use pathbuild_workspace::git::{self, Entry, EntryKind, Repository};
+use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use tempfile::TempDir;
 
 use crate::context::Context;
@@ -104,7 +105,9 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     // An empty configuration ends the search for one, because the directories above are unrelated.
     File::create_new(place.join(FILE_NAME)).map_err(|error| error.to_string())?;
     let largest = context.settings.limits.file_size.value.max(MIN_SIZE_LIMIT);
-    let mut checkout = Checkout { repository: &repository, whole: &whole, largest, left_out: Vec::new() };
+    let post_files = post_files(context);
+    let mut checkout =
+        Checkout { repository: &repository, whole: &whole, largest, post_files, left_out: Vec::new() };
     checkout.write_all(&entries)?;
     report_left_out(context, &checkout.left_out);
     let directory = context.system.canonical(&context.working_directory);
@@ -119,6 +122,14 @@ pub(super) fn check_out(context: &Context, name: &str) -> Result<Revision, Strin
     fs::create_dir_all(&root).map_err(|error| error.to_string())?;
     let roots = [whole, repository.root.clone()];
     Ok(Revision { name: name.to_owned(), root, submodules, roots, empty, _files: files })
+}
+
+/// Returns the names of the files that the configured post-processor inserts into programs, without directories. In the revision, they may lie in other
+/// directories.
+fn post_files(context: &Context) -> BTreeSet<String> {
+    let post_processor = PostProcessor::for_run(context, None, PostArguments::default()).ok().flatten();
+    let sources = post_processor.map(|post_processor| post_processor.sources()).unwrap_or_default();
+    sources.iter().filter_map(|file| file.file_name()).map(str::to_owned).collect()
 }
 
 impl Revision {
@@ -164,6 +175,8 @@ struct Checkout<'a> {
     /// Maximum size of a file in bytes. A larger file is created with its length but without its content, so that reading it fails with the
     /// error that it is too large.
     largest: u64,
+    /// Names of the files that the post-processor inserts, without directories.
+    post_files: BTreeSet<String>,
     /// Names of drawings that could not be written.
     left_out: Vec<String>,
 }
@@ -185,8 +198,12 @@ impl Checkout<'_> {
             is_drawing(Utf8Path::new(&entry.name)) && !target.as_deref().is_some_and(is_needed)
         };
         let is_all_needed = links.iter().any(leads_elsewhere);
-        let files: Vec<&Entry> =
-            of_kind(EntryKind::File).filter(|entry| is_all_needed || is_needed(&entry.name)).collect();
+        let is_of_post = |entry: &Entry| {
+            Utf8Path::new(&entry.name).file_name().is_some_and(|name| self.post_files.contains(name))
+        };
+        let files: Vec<&Entry> = of_kind(EntryKind::File)
+            .filter(|entry| is_all_needed || is_needed(&entry.name) || is_of_post(entry))
+            .collect();
         self.files(&files)?;
         for (entry, target) in &links {
             self.link(entry, target.as_deref());
@@ -253,8 +270,8 @@ fn link_to(_: &str, _: &Utf8Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Whether a file is a drawing or affects how drawings are read. Other files, of which a large repository may contain many, are not
-/// checked out.
+/// Whether its name alone shows that a file is needed: a drawing, a configuration or definition of a post-processor, or an ignore file. Most other
+/// files, of which a large repository may contain many, are not checked out.
 fn is_needed(name: &str) -> bool {
     let name = Utf8Path::new(name);
     let is_text =
