@@ -39,7 +39,7 @@ pub struct Path {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Element {
-    /// Name of the path on whose layer the element lies.
+    /// Name of the path with the element on its layer.
     pub path: String,
     /// File of the drawing that contains that path.
     pub file: String,

@@ -154,7 +154,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         let Some(traits) = self.read_common_properties(records, kind, space)? else { return Ok(None) };
         let visibility = self.fields.check_visibility();
         let shape = match (kind, visibility) {
-            // The block may draw on a wanted layer even if the insertion is on another one.
+            // The array of insertions keeps a bad visibility: whether it matters depends on the layers that the block draws on.
             (RecordKind::Insert, _) => self.shape(kind),
             (_, Err(bad)) => Err(bad.into()),
             (RecordKind::Polyline, _) => self.polyline(records)?,
@@ -483,7 +483,6 @@ pub(crate) struct Item<'a> {
     pub(crate) shape: Result<Shape<'a>, EntityError<'a>>,
 }
 
-/// The properties that all entities have.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CommonProperties {
     pub(crate) layer: LayerId,

@@ -338,7 +338,7 @@ const RADII: [f64; 9] = [0.5, 0.75, 1.0, 3.0, 1.0004, 1.001, 2.0, 7.5, 0.0];
 
 const ANGLES: [f64; 9] = [0.0, 90.0, 180.0, 270.0, 360.0, 450.0, 36.87, -90.0, 1e-7];
 
-/// Returns a drawing determined by the bytes.
+/// Returns a drawing of lines, arcs, circles and texts on a grid, as the choices determine it.
 fn grid_drawing(choices: &mut Choices<'_>) -> String {
     let mut text = String::from("0\nSECTION\n2\nENTITIES\n");
     // A start and an end make a valid path likely.

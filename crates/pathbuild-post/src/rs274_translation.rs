@@ -26,7 +26,7 @@ pub(crate) struct Rs274Translation {
     modes: ModeWords,
     /// Lines that are no G-code; `None` if the definition says that it writes such lines.
     unreadable: Option<Vec<Diagnostic>>,
-    /// Whether any line so far has words.
+    /// Whether any line has had words.
     has_words: bool,
     /// Whether a `%` follows the first words. Some controls end the program there.
     has_ended: bool,
@@ -272,7 +272,7 @@ impl Rs274Translation {
         self.text.insert_str(begin, &missing);
     }
 
-    /// Whether a line defines the blank (workpiece). On a Heidenhain control, a line with G30, the plane and all axes begins the definition, and the
+    /// Follows the definition of the blank (workpiece), and returns whether the line belongs to it. On a Heidenhain control, a line with G30, the plane and all axes begins the definition, and the
     /// following G31 ends it. Other controls have no plane in the same line as G30.
     fn enter_blank_definition(&mut self, line: &LineWords) -> bool {
         let has = |letter: char, number: i64| {

@@ -34,7 +34,7 @@ pub(crate) fn check(
     let found = without_excursions(found, 2.0 * tolerance.place);
     let (mut found, mut expected) = (found.as_slice(), expected);
     let mut matched: Vec<MatchedCut> = Vec::new();
-    // End of the last cut so far.
+    // End of the last cut.
     let mut end = None;
     loop {
         let (rapids, cuts) = split(expected, is_rapid);

@@ -272,7 +272,7 @@ fn draw_part(room: &mut Surroundings) {
     outline(room, corner);
     side_view(room);
     room.blocks.push(screw());
-    for (index, at) in holes(room).into_iter().enumerate() {
+    for (index, at) in hole_positions(room).into_iter().enumerate() {
         let diameter = room.random.pick(&[3.3, 4.2, 5.5, 6.6, 8.0, 12.0]);
         hole(room, at, diameter);
         if index % 2 == 0 {
@@ -317,7 +317,7 @@ fn side_view(room: &mut Surroundings) {
     }
 }
 
-fn holes(room: &mut Surroundings) -> Vec<Point> {
+fn hole_positions(room: &mut Surroundings) -> Vec<Point> {
     let count = 2 + room.random.below(2);
     (0..count)
         .map(|_| {

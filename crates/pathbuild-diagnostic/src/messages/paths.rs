@@ -182,8 +182,8 @@ messages! {
     END_PASSED: EndNotReached {
         en: "the path runs past its end marker at {end} and stops at {point}",
         de: "der Pfad läuft an seiner Endmarke bei {end} vorbei und hört bei {point} auf",
-        help_en: "draw what leads from there back to the end marker; or, if what goes on from the end marker is a helper line, remove it or move it to another layer; move the end marker to {point} only if the path is to end there",
-        help_de: "zeichnen, was von dort zur Endmarke zurückführt; oder, wenn hinter der Endmarke eine Hilfslinie folgt, sie entfernen oder auf einen anderen Layer legen; die Endmarke nur dann nach {point} verschieben, wenn der Pfad dort enden soll",
+        help_en: "draw the missing segments from there back to the end marker; or, if the line beyond the end marker is a helper line, remove it or move it to another layer; move the end marker to {point} only if the path is to end there",
+        help_de: "die fehlenden Segmente von dort zur Endmarke zeichnen; oder, wenn hinter der Endmarke eine Hilfslinie folgt, sie entfernen oder auf einen anderen Layer legen; die Endmarke nur dann nach {point} verschieben, wenn der Pfad dort enden soll",
     }
     /// An end that is not reached although all segments are traversed.
     END_NOT_REACHED: EndNotReached {
@@ -382,7 +382,7 @@ messages! {
         help_en: "embed the path in another project, whose name `paths` of {there} also matches, and write both projects into one program with --join: a project is milled with one cutter",
         help_de: "den Pfad in einem anderen Projekt einbetten, auf dessen Namen `paths` von {there} auch passt, und beide Projekte mit --join in ein Programm schreiben: ein Projekt wird mit einem einzigen Fräser gefräst",
     }
-    /// An embedding path with a name that selects another tool than the one that mills the embedded path by itself, of the same diameter.
+    /// An embedding path with a name that selects another tool of the same diameter than the name of the embedded path does.
     TOOL_OF_COMPONENT: SubpathParameterDiffers {
         en: "path {outer} is milled with the tool {here} ([tool] in pathbuild.toml), but path {name} by itself with the tool {there}, of the same diameter",
         de: "Pfad {outer} wird mit dem Werkzeug {here} ([tool] in pathbuild.toml) gefräst, Pfad {name} für sich aber mit dem Werkzeug {there} desselben Durchmessers",
@@ -391,10 +391,10 @@ messages! {
     }
     /// An embedding path with a greater thickness (T) than the embedded one, although both are of one sheet: the same M, and no H.
     THICKNESS_OF_PROJECT: SubpathParameterDiffers {
-        en: "path {name} is drawn for a sheet of {there} mm, but path {outer} has T{here}: rapid moves go down to Z {there}, into its material",
-        de: "Pfad {name} ist für ein Blech von {there} mm gezeichnet, Pfad {outer} aber hat T{here}: Eilgänge gehen bis Z {there} hinab, in dessen Material",
-        help_en: "correct the T that is wrong. If sheets of different thickness lie side by side, give them different M: the path that embeds them has T and M of the thickest. If the thinner one lies on shims, write H on the segment",
-        help_de: "das falsche T berichtigen. Liegen verschieden dicke Bleche nebeneinander, ihnen verschiedene M geben: der Pfad, der sie einbettet, hat T und M des dicksten. Liegt das dünnere auf Unterlagen, H an das Segment schreiben",
+        en: "path {name} is drawn for a sheet of {there} mm, but path {outer}, which embeds it, has T{here}: rapid moves go down to Z {there}, into the material of {outer}",
+        de: "Pfad {name} ist für ein Blech von {there} mm gezeichnet, Pfad {outer}, der ihn einbettet, hat aber T{here}: Eilgänge gehen bis Z {there} hinab, in das Material von {outer}",
+        help_en: "correct the T that is wrong. If sheets of different thickness lie side by side, give them different M, and the path that embeds them T and M of the thickest. If the thinner one lies on shims, write H on the segment",
+        help_de: "das falsche T berichtigen. Liegen verschieden dicke Bleche nebeneinander, ihnen verschiedene M geben, und dem Pfad, der sie einbettet, T und M des dicksten. Liegt das dünnere auf Unterlagen, H an das Segment schreiben",
     }
     /// A subpath segment in a block that is inserted mirrored.
     MIRRORED_SUBPATH: MirroredSubpath {

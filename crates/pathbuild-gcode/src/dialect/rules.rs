@@ -51,7 +51,7 @@ pub struct Rules {
     pub straight_rapids: bool,
     /// When the M codes for the spindle and the coolant take effect: before or after the move in their line.
     pub m_order: MCodeOrder,
-    /// Who changes the tool at M6.
+    /// Whether the control or the operator changes the tool at M6.
     pub changer: ToolChanger,
     /// Whether T alone is known to change no tool, so that the operator must change it where a program has no M6.
     pub t_only_selects: bool,
@@ -124,7 +124,7 @@ pub enum UnitChange {
     Refused,
 }
 
-/// Who changes the tool at M6.
+/// Whether the control or the operator changes the tool at M6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ToolChanger {
     /// The machine, which raises the tool above everything.

@@ -193,7 +193,8 @@ fn is_unknown(code: Code) -> bool {
     matches!(code, Code::UnknownWord | Code::UnknownCharacter | Code::InvalidComment)
 }
 
-/// Whether a control of the dialect knows and uses all words of the program, and refuses no line for containing two words that exclude each other.
+/// Whether a control of the dialect knows and uses all words in the beginning of the program that is looked at, and refuses no line of it for
+/// containing two words that exclude each other.
 fn takes_every_line(head: &[u8], dialect: Dialect) -> bool {
     are_in_accepted_lines(&problems(head, dialect))
 }

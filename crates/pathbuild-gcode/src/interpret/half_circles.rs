@@ -18,7 +18,7 @@ const MOST_DECIMALS: u8 = 9;
 /// The arcs of a program that may be doubtful.
 #[derive(Debug, Default)]
 pub(super) struct DoubtfulArcs {
-    /// The largest number of decimals of a length so far.
+    /// The largest number of decimals among the lengths that were read.
     finest: u8,
     /// The problems of arcs, by the number of decimals from which on an arc is no longer doubtful.
     found: BTreeMap<u8, Problems>,

@@ -25,7 +25,7 @@ pub struct BentRapidRules<'c> {
     stock: &'c Stock,
     /// Indices of the slanting rapid moves below the surface.
     found: BTreeSet<usize>,
-    /// Number of moves passed so far.
+    /// Number of moves that were passed.
     moves: usize,
     frames: Frames,
 }

@@ -20,7 +20,7 @@ use crate::read::Problems;
 #[derive(Debug, Default)]
 pub struct DepthRules {
     depths: Depths,
-    /// Number of moves passed so far.
+    /// Number of moves that were passed.
     moves: usize,
     /// Stops and tool changes at cutting depth.
     stops: Problems,

@@ -54,7 +54,7 @@ pub fn rapids_into_material(drawn: &toolpath::Program) -> Vec<Diagnostic> {
 }
 
 /// Returns the rapid moves into material in programs that are milled one after the other, by the index of their program and its step number. Each
-/// program by itself must have none.
+/// program alone must have none.
 pub fn rapids_into_joined_material(programs: &[Arc<toolpath::Program>]) -> Vec<(usize, Diagnostic)> {
     let clearance = programs.iter().map(|program| program.sweep_height).fold(f64::NEG_INFINITY, f64::max);
     let mut joined = toolpath::Program { sweep_height: clearance, ..toolpath::Program::default() };

@@ -92,7 +92,7 @@ fn without_mistakes(text: &str) -> String {
         meant.push(if is_separator { ' ' } else { character.to_ascii_uppercase() });
         if is_lone_letter {
             let is_number =
-                rest.clone().find(|next| !matches!(next, ' ' | '=')).is_some_and(|it| begins_value(&it));
+                rest.clone().find(|next| !matches!(next, ' ' | '=')).is_some_and(|next| begins_value(&next));
             while rest
                 .next_if(|next| {
                     matches!(next, ' ' | ':') || is_special_space(*next) || *next == '=' && is_number

@@ -206,7 +206,8 @@ impl Layer {
 pub struct Options {
     /// The DXF version, written as $ACADVER.
     pub version: Version,
-    /// $DWGCODEPAGE, and the encoding of texts before R2007. `None` omits the variable and encodes texts as `ANSI_1252`.
+    /// $DWGCODEPAGE, which is also the encoding of texts before R2007 with [`TextEncoding::Proper`]. `None` omits the variable; such texts are then
+    /// encoded as `ANSI_1252`.
     pub code_page: Option<String>,
     /// The encoding of texts.
     pub encoding: TextEncoding,

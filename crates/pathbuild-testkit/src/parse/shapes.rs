@@ -141,7 +141,8 @@ fn polyline(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     Ok(one(Shape::Polyline(Polyline { kind, vertices, closed }), end))
 }
 
-/// Parses `centre P r R from A to B [cw]`, or `P P` and `r R [cw] [large]`, `via P`, `bulge B` or `centre P [cw]`.
+/// Parses `centre P r R from A to B [cw]`, or `P P` followed by one of `r R [cw] [large]`, `via P`, `bulge B` and
+/// `centre P [cw]`.
 pub(crate) fn arc(cursor: &mut Cursor) -> Parsed<ParsedEntities> {
     if cursor.take("centre") {
         return arc_by_angles(cursor);

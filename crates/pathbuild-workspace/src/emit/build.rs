@@ -126,7 +126,8 @@ fn file_too_large(db: &Database, job: &Job, output: &Output, writing: &WriteSett
 }
 
 /// Returns errors that keep a program from being written, which are rapid moves into material and moves beyond the machine's capabilities, and
-/// warnings about cuts in higher material and feeds beyond the rates of an axis. A feed above `maximum-feed` is a warning about the element that gives it (PB211).
+/// warnings about cuts in higher material and about feeds beyond the rates of an axis. A feed above `maximum-feed` is a warning about the element
+/// that gives it (PB211).
 fn move_problems(
     db: &Database,
     target: Target,

@@ -102,7 +102,7 @@ impl Request {
         }
         let mut matches = session.match_arguments(inputs);
         let memo = if uses_cache {
-            // The cache accounts for drawings and settings by itself. Besides these, only the post-processor affects a program.
+            // The cache itself accounts for drawings and settings. Besides these, only the post-processor affects a program.
             let query = post_processor.map_or_else(|| "emit".to_owned(), PostProcessor::cache_key);
             Memo::open(session, ResultKind::Emit, &query, inputs, &mut matches)
         } else {

@@ -95,7 +95,7 @@ pub enum Reason {
     NoCoolant,
     /// The program contains a line or a word that pathbuild does not read or interpret, so its moves are not known.
     NotFollowed,
-    /// The program moves in coordinate systems whose positions relative to each other are not known.
+    /// The program moves in coordinate systems with unknown positions relative to each other.
     SeveralZeros,
     /// The program moves an axis, but never states a position of this axis.
     NoPosition,
