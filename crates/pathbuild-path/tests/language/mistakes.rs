@@ -256,7 +256,7 @@ fn a_line_drawn_twice_is_not_an_end_marker_out_of_place() {
     assert_one(&found("mill 0,0 20,0\nmill 20,0 0,0\nend 20,0"), "PB403 ", "delete one of the two");
     assert_one(
         &found("mill 0,0 20,0\nmill 20,0 0,5\nend 20,0"),
-        "PB403 the path runs past its end marker at (20, 0) and stops at (0, 5); draw what leads",
+        "PB403 the path runs past its end marker at (20, 0) and stops at (0, 5); draw the missing segments",
         "only if the path is to end there",
     );
     assert_one(
