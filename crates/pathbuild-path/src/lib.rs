@@ -20,6 +20,7 @@ mod letter;
 mod line_type;
 mod look_alikes;
 mod names;
+mod numbers;
 mod part;
 mod path;
 mod q_project;
@@ -52,6 +53,7 @@ pub use names::files::{
 pub use names::{
     CaseSensitiveName, LayerPattern, PathLayer, PathName, PathPattern, PatternError, name_regex,
 };
+pub use numbers::{parse_integer, parse_number};
 pub use part::{
     CutElement, DrawnParts, EarlierCuts, EmbeddedPlace, LeftMaterial, LostBar, MAX_WEAK_BRIDGE,
     NeighbourCuts, NeighbourGouge, Part, PartCut, PartFindings, PartRing, PartSettings, PartSweep, PathCuts,
@@ -68,6 +70,6 @@ pub use read::{
     AssignedElement, AssignedText, NearNames, ProxyLine, TextCircle, assigned_texts, has_text_on_part,
     is_near_clamps_or_parts, keep_outs, may_be_stray_text, parts, proxy_lines, raw_file, stray_findings,
 };
-pub use text::{LetterValue, ParameterText, ParameterTexts, TextId, parse_integer, parse_number};
+pub use text::{LetterValue, ParameterText, ParameterTexts, TextId};
 pub use variables::{AllowedValues, Bindings, Combinations, Definition};
 pub use walk::{walk, walk_watched};

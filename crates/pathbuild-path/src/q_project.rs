@@ -11,10 +11,10 @@ use crate::embedding::{CHORD_TOLERANCE, with_note_on_combined_letters};
 use crate::language::Language;
 use crate::letter::Letter;
 use crate::names::PathName;
+use crate::numbers::parse_number;
 use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName};
 use crate::raw::RawPath;
 use crate::read::ProxyLine;
-use crate::text::parse_number;
 use crate::variables::{Bindings, Definition};
 
 /// A component: the paths of a drawing, with their proxy lines.

@@ -10,7 +10,7 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use smol_str::{SmolStr, ToSmolStr};
 
 use crate::approx::at_least;
-use crate::text::parse_number;
+use crate::numbers::parse_number;
 
 /// The values bound to a path's variables, in order of their names.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -7,7 +7,9 @@ mod candidates;
 mod collect;
 mod entities;
 mod keep_outs;
+mod likely_parameters;
 mod listing;
+mod near_names;
 mod outline_graph;
 mod parameters;
 mod parts;
@@ -29,9 +31,11 @@ use crate::read::parameters::{Start, Starts};
 pub use entities::TextCircle;
 pub use keep_outs::keep_outs;
 pub(crate) use keep_outs::{Ring, RingPart, rings};
+pub use likely_parameters::may_be_stray_text;
 pub use listing::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines};
+pub use near_names::{NearNames, is_near_clamps_or_parts};
 pub use parts::{has_text_on_part, parts};
-pub use stray::{NearNames, is_near_clamps_or_parts, may_be_stray_text, stray_findings};
+pub use stray::stray_findings;
 
 /// Finds the paths of a drawing; none if the drawing itself has errors.
 pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {

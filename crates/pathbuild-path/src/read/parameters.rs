@@ -15,7 +15,7 @@ use crate::geometry::{Curve, Xy};
 use crate::letter::{ElementClass, Letter, Letters};
 use crate::names::PathName;
 use crate::raw::RawPath;
-use crate::read::stray::looks_like_parameters;
+use crate::read::likely_parameters::looks_like_parameters;
 use crate::text::{LetterValue, ParameterText, definition_in_pieces};
 use crate::variables::Definition;
 

@@ -14,9 +14,9 @@ use crate::names::LayerPattern;
 use crate::part::{DrawnParts, OpenOutline, Part, PartRing};
 use crate::read::broken_outlines::{SortedOutlines, ends_of_chain, gap_problem};
 use crate::read::entities::{AnyText, at_entity, begin, curve, xy};
+use crate::read::likely_parameters::may_be_stray_text;
 use crate::read::outline_graph::Graph;
 use crate::read::rings::{JOIN_DISTANCE, curves_of, nesting};
-use crate::read::stray::may_be_stray_text;
 
 /// Finds the parts of a drawing. At least the layers with parts must have been read.
 pub fn parts(drawing: &Drawing, language: &Language) -> DrawnParts {

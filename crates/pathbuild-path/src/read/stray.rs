@@ -1,7 +1,7 @@
 //! Finds entities that were drawn for a path, a clamp or a finished part, but on a layer that does not belong to it: texts on other layers (PB119),
 //! and layers with similar names (PB120). (book: language/layers-and-names, book: language/parameter-texts, book: language/keep-outs)
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -17,174 +17,14 @@ use crate::read::candidates::{Candidate, Owner, SearchBudget, find_shape};
 use crate::read::collect::{self, PathCollector, PathLayers};
 use crate::read::entities::{AnyText, at_entity, begin, xy};
 use crate::read::keep_outs::unread_clamps;
-use crate::text::{ParameterText, ParameterTexts, ValueKind, is_special_space};
-
-/// Letters that spoil a part if they are missing. A stray text must contain one of them to be reported.
-const ESSENTIAL_LETTERS: Letters = Letters::of(&[Letter::B, Letter::D, Letter::F, Letter::I, Letter::W]);
+use crate::read::likely_parameters::{
+    ESSENTIAL_LETTERS, is_parameter_text, looks_like_parameters, may_be_probe_text, without_mistakes,
+};
+use crate::read::near_names::{NearLayer, NearNames};
+use crate::text::{ParameterText, ParameterTexts, ValueKind};
 
 /// Maximum number of candidates examined for the stray texts of a drawing.
 const MAX_EXAMINED_CANDIDATES: usize = 1_000_000;
-
-/// Maximum number of characters after a path name that are taken for a typing error.
-const MAX_SLIP_CHARACTERS: usize = 2;
-
-/// Words that precede or follow the name of a layer in that of a layer with another version of it, in English and German.
-const VERSIONS: [&str; 8] = ["old", "new", "copy", "copy of", "alt", "neu", "Kopie", "Kopie von"];
-
-/// Whether the undecoded bytes of a text may be a parameter text that [`stray_findings`] reports. If not, it is certain that nothing is reported.
-pub fn may_be_stray_text(text: &[u8]) -> bool {
-    let is_weighty =
-        |byte: u8| byte == b'Z' || matches!(byte.to_ascii_uppercase(), b'B' | b'D' | b'F' | b'I' | b'W');
-    // Bytes beyond ASCII, and a code such as `\\U+2212`, may be a dash instead of a minus.
-    let is_value =
-        |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b',' | b'=' | b'\\' | 128..);
-    // A colon begins a variable, as in `:D0.5`, which is never reported; a backslash begins a format code of MTEXT, as in `\\W0.8;`, or a
-    // line break: `\\P`. A bar separates the properties of a font: `\\fArial|b0|i0;`.
-    let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'\\' | b':' | b'|');
-    let is_begin = |before: &[u8]| {
-        !before.last().is_some_and(is_inside) || BEGINNING_CODES.iter().any(|code| before.ends_with(code))
-    };
-    let has_value = |after: &[u8]| {
-        after.iter().find(|byte| !matches!(byte, b' ' | b':')).is_some_and(|byte| is_value(*byte))
-    };
-    let mut letters = text.iter().enumerate().filter(|(_, byte)| is_weighty(**byte));
-    letters.any(|(at, _)| is_begin(&text[..at]) && has_value(&text[at + 1..])) || may_be_probe_text(text)
-}
-
-/// Codes after which a text can begin, other than those that end with a sign: a line break, and lines over, under and through letters.
-const BEGINNING_CODES: [&[u8]; 13] =
-    [b"\\P", b"\\L", b"\\l", b"\\O", b"\\o", b"\\K", b"\\k", b"%%u", b"%%U", b"%%o", b"%%O", b"%%k", b"%%K"];
-
-/// Maximum length in bytes of a text that is taken for that of a probe. Longer ones are remarks.
-const MAX_PROBE_TEXT: usize = 24;
-
-/// Whether the undecoded bytes of a text may be the text of a probe, such as `LA T2.5`: a short text that consists of values for L, T, H and Z.
-fn may_be_probe_text(text: &[u8]) -> bool {
-    let is_parameter = |word: &[u8]| match word {
-        [b'L', value, ..] => value.is_ascii_uppercase() || value.is_ascii_digit(),
-        [b'T' | b'H' | b'Z', value, ..] => value.is_ascii_digit() || matches!(value, b'.' | b'-' | b'='),
-        _ => false,
-    };
-    let mut words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).peekable();
-    text.len() <= MAX_PROBE_TEXT && words.peek().is_some() && words.all(is_parameter)
-}
-
-/// Returns a text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, dashes instead of
-/// a minus, spaces, colons and equals signs before numbers, signs or nothing between parameters, signs around them, units, and marks at the end.
-fn without_mistakes(text: &str) -> String {
-    let text = look_alikes::with_keyboard_characters(text);
-    let mut meant = String::with_capacity(text.len());
-    let mut rest = text.chars().peekable();
-    let mut is_begin = true;
-    while let Some(character) = rest.next() {
-        let begins_value = |next: &char| next.is_ascii_digit() || matches!(next, '-' | '.');
-        let follows_number = meant.ends_with(|last: char| last.is_ascii_digit());
-        if follows_number && character.is_ascii_uppercase() && rest.peek().is_some_and(begins_value) {
-            meant.push(' ');
-            is_begin = true;
-        }
-        let is_lone_letter = is_begin && character.is_ascii_alphabetic();
-        let is_between = matches!(character, ',' | ';' | '/')
-            && rest.clone().find(|next| *next != ' ').is_some_and(char::is_alphabetic);
-        let is_around = matches!(character, '(' | ')' | '[' | ']' | '"' | '\'');
-        let is_separator = is_between || is_around || is_special_space(character);
-        is_begin = is_separator || character.is_whitespace();
-        meant.push(if is_separator { ' ' } else { character.to_ascii_uppercase() });
-        if is_lone_letter {
-            let is_number =
-                rest.clone().find(|next| !matches!(next, ' ' | '=')).is_some_and(|next| begins_value(&next));
-            while rest
-                .next_if(|next| {
-                    matches!(next, ' ' | ':') || is_special_space(*next) || *next == '=' && is_number
-                })
-                .is_some()
-            {}
-        }
-    }
-    let words = meant.split(' ').filter(|word| !matches!(*word, "MM" | "-"));
-    let numbers = words.map(|word| {
-        let word = word.trim_end_matches(['!', ',', ';', ':']);
-        word.strip_suffix("MM")
-            .filter(|number| number.ends_with(|last: char| last.is_ascii_digit()))
-            .unwrap_or(word)
-    });
-    numbers.collect::<Vec<_>>().join(" ")
-}
-
-/// Whether a text is meant as parameters that spoil a part if they are missing.
-fn is_parameter_text(text: &str) -> bool {
-    let mut texts = ParameterTexts::default();
-    let readings = [texts.push_drawn(text), texts.push_drawn(&without_mistakes(text))];
-    readings.into_iter().filter_map(|id| texts.get(id)).any(looks_like_parameters)
-}
-
-/// Path names, for comparison with the names of other layers.
-pub struct NearNames {
-    by_folded: HashMap<String, PathName>,
-    /// Paths by their names without the letters at the end, such as `1234.1` for `1234.1P`, normalized as well.
-    without_letters: HashMap<String, PathName>,
-    /// Paths by their names without one of the characters, normalized as well.
-    without_character: HashMap<String, PathName>,
-    /// The words for versions, normalized like the names.
-    versions: [String; 8],
-}
-
-impl NearNames {
-    /// Collects the names of a drawing's paths.
-    pub fn new<'n>(paths: impl Iterator<Item = &'n PathName>) -> Self {
-        let (mut by_folded, mut without_letters, mut without_character) =
-            (HashMap::new(), HashMap::new(), HashMap::new());
-        for path in paths {
-            let name = case_folded(path.as_str());
-            let shorter = name.trim_end_matches(char::is_alphabetic);
-            if !shorter.is_empty() {
-                without_letters.insert(shorter.to_owned(), path.clone());
-            }
-            for (at, character) in name.char_indices() {
-                let rest = [&name[..at], &name[at + character.len_utf8()..]].concat();
-                without_character.insert(rest, path.clone());
-            }
-            by_folded.insert(name, path.clone());
-        }
-        Self { by_folded, without_letters, without_character, versions: VERSIONS.map(case_folded) }
-    }
-
-    /// Returns the path with a name that resembles the name of another layer: the layer has the path's name, followed by a tilde and any text, by at
-    /// most two more characters, or by a word for another version, or has that word in front, or it lacks the letters at the end or any one
-    /// character. Case and all characters but letters and digits
-    /// are ignored; letters that look like digits are treated as those digits.
-    pub fn path(&self, layer: &str) -> Option<&PathName> {
-        let layer = case_folded(layer);
-        let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
-        let ends = layer.char_indices().rev().map(|(at, _)| at);
-        let mut ends = std::iter::once(layer.len()).chain(ends).take(MAX_SLIP_CHARACTERS + 1);
-        let version = || {
-            let name = |word: &String| {
-                let others = [layer.strip_suffix(word.as_str()), layer.strip_prefix(word.as_str())];
-                others.into_iter().flatten().find_map(|name| self.by_folded.get(name))
-            };
-            self.versions.iter().find_map(name)
-        };
-        let longer = before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end])));
-        let shorter = || self.without_letters.get(&layer).or_else(|| self.without_character.get(&layer));
-        longer.or_else(version).or_else(shorter)
-    }
-
-    /// Returns the path with the longest name with which the name of another layer begins.
-    fn beginning(&self, layer: &str) -> Option<&PathName> {
-        let layer = case_folded(layer);
-        layer.char_indices().rev().find_map(|(end, _)| self.by_folded.get(&layer[..end]))
-    }
-}
-
-/// Normalizes a name for comparison: only letters, digits and tildes, in upper case, with look-alikes replaced by plain characters and digits.
-fn case_folded(name: &str) -> String {
-    let plain = look_alikes::plain_name(name);
-    let tildes =
-        plain.chars().map(|letter| if matches!(letter, '\u{2dc}' | '\u{223c}') { '~' } else { letter });
-    let seen = tildes.filter(|letter| letter.is_alphanumeric() || *letter == '~');
-    seen.flat_map(char::to_uppercase).collect()
-}
 
 /// Returns PB119 and PB120 for a drawing that was read with all its layers.
 pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic> {
@@ -240,40 +80,6 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
     findings
 }
 
-/// The path or the kind of layer that a layer without a meaning resembles by its name.
-enum NearLayer<'n> {
-    Path(&'n PathName),
-    Clamps,
-    Parts,
-}
-
-impl<'n> NearLayer<'n> {
-    fn of(layer: &str, names: &'n NearNames, language: &Language) -> Option<Self> {
-        names.path(layer).map(Self::Path).or_else(|| Self::of_clamps_or_parts(layer, language))
-    }
-
-    fn of_clamps_or_parts(layer: &str, language: &Language) -> Option<Self> {
-        let first = layer.trim_start().chars().next()?;
-        let first = look_alikes::ascii(first).unwrap_or(first);
-        if !language.may_begin_with(first) || language.is_part(layer) {
-            return None;
-        }
-        let similar = similar_names(layer);
-        if similar.iter().any(|name| language.is_keep_out(name)) {
-            return Some(Self::Clamps);
-        }
-        similar.iter().any(|name| language.is_part(name)).then_some(Self::Parts)
-    }
-}
-
-/// Whether the name of a layer resembles that of a layer with clamps or finished parts. [`stray_findings`] reports the entities on such layers.
-pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
-    NearLayer::of_clamps_or_parts(layer, language).is_some()
-}
-
-/// Length in characters below which a name resembles too many others.
-const MIN_NAME_CHARACTERS: usize = 4;
-
 /// Adds the layers that begin with a path's name and hold elements with a parameter text: they are those of the path, whatever follows the name.
 fn add_layers_with_texts<'n>(
     drawing: &Drawing,
@@ -301,55 +107,6 @@ fn add_layers_with_texts<'n>(
         }
     }
 }
-
-/// Returns the names that may have been meant by a layer's name: without a tilde and the text after it, without up to two characters or a word for
-/// another version at the end, with the ending of a plural or a number, and with two neighbouring characters swapped. Look-alikes are replaced by
-/// plain characters; one of the names has no spaces, and one has a space before its first digit.
-fn similar_names(layer: &str) -> Vec<String> {
-    let plain = look_alikes::with_keyboard_characters(layer);
-    let plain = plain.split('~').next().unwrap_or_default().trim_end();
-    let is_long = |name: &str| name.chars().count() >= MIN_NAME_CHARACTERS;
-    if !is_long(plain) {
-        return Vec::new();
-    }
-    let ends = plain.char_indices().rev().map(|(at, _)| at).take(MAX_SLIP_CHARACTERS);
-    let shorter = std::iter::once(plain.len()).chain(ends).map(|end| plain[..end].trim_end());
-    let shorter = shorter.filter(|name| is_long(name)).map(str::to_owned);
-    let longer = PLURALS.iter().chain(&NUMBERS).map(|ending| [plain, ending].concat());
-    let versions = VERSIONS.iter().filter_map(|word| without_version(plain, word));
-    let others = versions.chain(with_swapped_characters(plain)).chain(with_space(plain));
-    shorter.chain(longer).chain([plain.split_whitespace().collect()]).chain(others).collect()
-}
-
-/// Returns a name without the word for a version at its end: `Part` for `Part_OLD` and `Part (old)`.
-fn without_version(name: &str, word: &str) -> Option<String> {
-    let is_separator = |character: char| !character.is_alphanumeric();
-    let name = name.trim_end_matches(is_separator);
-    let (before, last) = name.split_at_checked(name.len().checked_sub(word.len())?)?;
-    last.eq_ignore_ascii_case(word).then(|| before.trim_end_matches(is_separator).to_owned())
-}
-
-/// Returns the names with two neighbouring characters swapped: `Part` for `Prat`.
-fn with_swapped_characters(name: &str) -> impl Iterator<Item = String> {
-    let characters: Vec<char> = name.chars().collect();
-    (1..characters.len()).map(move |second| {
-        let mut swapped = characters.clone();
-        swapped.swap(second - 1, second);
-        swapped.into_iter().collect()
-    })
-}
-
-/// Returns a name with a space before its first digit, which must follow a letter: `Part 1` for `Part1`.
-fn with_space(name: &str) -> Option<String> {
-    let (letters, number) = name.split_at(name.find(|character: char| character.is_ascii_digit())?);
-    letters.ends_with(char::is_alphabetic).then(|| format!("{letters} {number}"))
-}
-
-/// Endings of plurals, in English and German.
-const PLURALS: [&str; 4] = ["s", "e", "n", "en"];
-
-/// Numbers that a pattern may require after a name.
-const NUMBERS: [&str; 3] = ["1", " 1", "_1"];
 
 /// Returns PB119 if a text would have an effect on the layer of a path.
 fn stray_text(
@@ -423,18 +180,6 @@ fn stray_probe(
         .with("point", diagnostic_point(circle.point()))
         .with_text(texts.first().map(ParameterText::whole_text_fault));
     Some(at_entity(drawing, entity, text.anchor(), problem))
-}
-
-/// Whether a text consists of letters with numbers or variables, and perhaps a remark with Q, and gives a letter that would spoil a part if it were
-/// missing.
-pub(super) fn looks_like_parameters(text: ParameterText<'_>) -> bool {
-    let is_number = |written: ValueKind| matches!(written, ValueKind::Number(_) | ValueKind::Reference);
-    text.letters.has_any(ESSENTIAL_LETTERS)
-        && text.pieces().iter().all(|piece| {
-            piece
-                .letter
-                .is_some_and(|letter| letter == Letter::Q || !letter.is_text() && is_number(piece.written))
-        })
 }
 
 impl PathCollector<'_> {

@@ -1,0 +1,164 @@
+//! Compares the names of layers without a meaning with those of paths, clamps and finished parts. (book: language/layers-and-names)
+
+use std::collections::HashMap;
+
+use crate::language::Language;
+use crate::look_alikes;
+use crate::names::PathName;
+
+/// Maximum number of characters after a path name that are taken for a typing error.
+const MAX_SLIP_CHARACTERS: usize = 2;
+
+/// Words that precede or follow the name of a layer in that of a layer with another version of it, in English and German.
+const VERSIONS: [&str; 8] = ["old", "new", "copy", "copy of", "alt", "neu", "Kopie", "Kopie von"];
+
+/// Path names, for comparison with the names of other layers.
+pub struct NearNames {
+    by_folded: HashMap<String, PathName>,
+    /// Paths by their names without the letters at the end, such as `1234.1` for `1234.1P`, normalized as well.
+    without_letters: HashMap<String, PathName>,
+    /// Paths by their names without one of the characters, normalized as well.
+    without_character: HashMap<String, PathName>,
+    /// The words for versions, normalized like the names.
+    versions: [String; 8],
+}
+
+impl NearNames {
+    /// Collects the names of a drawing's paths.
+    pub fn new<'n>(paths: impl Iterator<Item = &'n PathName>) -> Self {
+        let (mut by_folded, mut without_letters, mut without_character) =
+            (HashMap::new(), HashMap::new(), HashMap::new());
+        for path in paths {
+            let name = case_folded(path.as_str());
+            let shorter = name.trim_end_matches(char::is_alphabetic);
+            if !shorter.is_empty() {
+                without_letters.insert(shorter.to_owned(), path.clone());
+            }
+            for (at, character) in name.char_indices() {
+                let rest = [&name[..at], &name[at + character.len_utf8()..]].concat();
+                without_character.insert(rest, path.clone());
+            }
+            by_folded.insert(name, path.clone());
+        }
+        Self { by_folded, without_letters, without_character, versions: VERSIONS.map(case_folded) }
+    }
+
+    /// Returns the path with a name that resembles the name of another layer: the layer has the path's name, followed by a tilde and any text, by at
+    /// most two more characters, or by a word for another version, or has that word in front, or it lacks the letters at the end or any one
+    /// character. Case and all characters but letters and digits
+    /// are ignored; letters that look like digits are treated as those digits.
+    pub fn path(&self, layer: &str) -> Option<&PathName> {
+        let layer = case_folded(layer);
+        let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
+        let ends = layer.char_indices().rev().map(|(at, _)| at);
+        let mut ends = std::iter::once(layer.len()).chain(ends).take(MAX_SLIP_CHARACTERS + 1);
+        let version = || {
+            let name = |word: &String| {
+                let others = [layer.strip_suffix(word.as_str()), layer.strip_prefix(word.as_str())];
+                others.into_iter().flatten().find_map(|name| self.by_folded.get(name))
+            };
+            self.versions.iter().find_map(name)
+        };
+        let longer = before_tilde.or_else(|| ends.find_map(|end| self.by_folded.get(&layer[..end])));
+        let shorter = || self.without_letters.get(&layer).or_else(|| self.without_character.get(&layer));
+        longer.or_else(version).or_else(shorter)
+    }
+
+    /// Returns the path with the longest name with which the name of another layer begins.
+    pub(super) fn beginning(&self, layer: &str) -> Option<&PathName> {
+        let layer = case_folded(layer);
+        layer.char_indices().rev().find_map(|(end, _)| self.by_folded.get(&layer[..end]))
+    }
+}
+
+/// Normalizes a name for comparison: only letters, digits and tildes, in upper case, with look-alikes replaced by plain characters and digits.
+fn case_folded(name: &str) -> String {
+    let plain = look_alikes::plain_name(name);
+    let tildes =
+        plain.chars().map(|letter| if matches!(letter, '\u{2dc}' | '\u{223c}') { '~' } else { letter });
+    let seen = tildes.filter(|letter| letter.is_alphanumeric() || *letter == '~');
+    seen.flat_map(char::to_uppercase).collect()
+}
+
+/// The path or the kind of layer that a layer without a meaning resembles by its name.
+pub(super) enum NearLayer<'n> {
+    Path(&'n PathName),
+    Clamps,
+    Parts,
+}
+
+impl<'n> NearLayer<'n> {
+    pub(super) fn of(layer: &str, names: &'n NearNames, language: &Language) -> Option<Self> {
+        names.path(layer).map(Self::Path).or_else(|| Self::of_clamps_or_parts(layer, language))
+    }
+
+    fn of_clamps_or_parts(layer: &str, language: &Language) -> Option<Self> {
+        let first = layer.trim_start().chars().next()?;
+        let first = look_alikes::ascii(first).unwrap_or(first);
+        if !language.may_begin_with(first) || language.is_part(layer) {
+            return None;
+        }
+        let similar = similar_names(layer);
+        if similar.iter().any(|name| language.is_keep_out(name)) {
+            return Some(Self::Clamps);
+        }
+        similar.iter().any(|name| language.is_part(name)).then_some(Self::Parts)
+    }
+}
+
+/// Whether the name of a layer resembles that of a layer with clamps or finished parts. [`super::stray_findings`] reports the entities on such layers.
+pub fn is_near_clamps_or_parts(layer: &str, language: &Language) -> bool {
+    NearLayer::of_clamps_or_parts(layer, language).is_some()
+}
+
+/// Length in characters below which a name resembles too many others.
+const MIN_NAME_CHARACTERS: usize = 4;
+
+/// Returns the names that may have been meant by a layer's name: without a tilde and the text after it, without up to two characters or a word for
+/// another version at the end, with the ending of a plural or a number, and with two neighbouring characters swapped. Look-alikes are replaced by
+/// plain characters; one of the names has no spaces, and one has a space before its first digit.
+fn similar_names(layer: &str) -> Vec<String> {
+    let plain = look_alikes::with_keyboard_characters(layer);
+    let plain = plain.split('~').next().unwrap_or_default().trim_end();
+    let is_long = |name: &str| name.chars().count() >= MIN_NAME_CHARACTERS;
+    if !is_long(plain) {
+        return Vec::new();
+    }
+    let ends = plain.char_indices().rev().map(|(at, _)| at).take(MAX_SLIP_CHARACTERS);
+    let shorter = std::iter::once(plain.len()).chain(ends).map(|end| plain[..end].trim_end());
+    let shorter = shorter.filter(|name| is_long(name)).map(str::to_owned);
+    let longer = PLURALS.iter().chain(&NUMBERS).map(|ending| [plain, ending].concat());
+    let versions = VERSIONS.iter().filter_map(|word| without_version(plain, word));
+    let others = versions.chain(with_swapped_characters(plain)).chain(with_space(plain));
+    shorter.chain(longer).chain([plain.split_whitespace().collect()]).chain(others).collect()
+}
+
+/// Returns a name without the word for a version at its end: `Part` for `Part_OLD` and `Part (old)`.
+fn without_version(name: &str, word: &str) -> Option<String> {
+    let is_separator = |character: char| !character.is_alphanumeric();
+    let name = name.trim_end_matches(is_separator);
+    let (before, last) = name.split_at_checked(name.len().checked_sub(word.len())?)?;
+    last.eq_ignore_ascii_case(word).then(|| before.trim_end_matches(is_separator).to_owned())
+}
+
+/// Returns the names with two neighbouring characters swapped: `Part` for `Prat`.
+fn with_swapped_characters(name: &str) -> impl Iterator<Item = String> {
+    let characters: Vec<char> = name.chars().collect();
+    (1..characters.len()).map(move |second| {
+        let mut swapped = characters.clone();
+        swapped.swap(second - 1, second);
+        swapped.into_iter().collect()
+    })
+}
+
+/// Returns a name with a space before its first digit, which must follow a letter: `Part 1` for `Part1`.
+fn with_space(name: &str) -> Option<String> {
+    let (letters, number) = name.split_at(name.find(|character: char| character.is_ascii_digit())?);
+    letters.ends_with(char::is_alphabetic).then(|| format!("{letters} {number}"))
+}
+
+/// Endings of plurals, in English and German.
+const PLURALS: [&str; 4] = ["s", "e", "n", "en"];
+
+/// Numbers that a pattern may require after a name.
+const NUMBERS: [&str; 3] = ["1", " 1", "_1"];
