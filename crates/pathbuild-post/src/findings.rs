@@ -64,9 +64,6 @@ impl LineStarts {
     }
 }
 
-/// Maximum number of warnings reported about the output of a post.
-pub(crate) const MAX_WARNINGS: usize = 50;
-
 /// The output of an engine: the text of a program, its translation, and findings about it.
 pub(crate) struct EngineOutput {
     pub(crate) text: Vec<u8>,

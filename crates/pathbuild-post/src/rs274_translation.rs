@@ -6,9 +6,11 @@ use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_gcode::interpret::{DisputedWords, UnionWord, code_name, union_word};
 
-use crate::findings::MAX_WARNINGS;
 use crate::job::Units;
 use crate::line_words::{LineWords, Word};
+
+/// Maximum number of warnings reported about the output of a post.
+pub(crate) const MAX_WARNINGS: usize = 50;
 
 /// The RS274 translation of a program, built line by line. It makes the same moves and switches the same functions as the lines passed to it, as far
 /// as controls agree on the meaning of their words.

@@ -16,8 +16,9 @@ use super::variables::{VARIABLES, Variable, Variables, byte_of};
 use crate::PostFiles;
 use crate::cad6::control_text::locate;
 use crate::cad6::term::Fault;
-use crate::findings::{EngineOutput, LineOrigin, MAX_WARNINGS, OutputBudget};
+use crate::findings::{EngineOutput, LineOrigin, OutputBudget};
 use crate::job::Units;
+use crate::rs274_translation::MAX_WARNINGS;
 use crate::target::TextInserter;
 
 /// Success, or the diagnostic that aborts writing.

@@ -11,11 +11,11 @@ use super::options::Options;
 use super::section::Section;
 use super::template::{Template, TemplatePart};
 use crate::arcs::chords;
-use crate::findings::{EngineOutput, LineOrigin, MAX_WARNINGS, OutputBudget};
+use crate::findings::{EngineOutput, LineOrigin, OutputBudget};
 use crate::job::{Feeds, JobStep, Operation, Tool};
 use crate::line_words::{CommentMarks, LineWords, Word, words};
 use crate::number::NumberFormat;
-use crate::rs274_translation::Rs274Translation;
+use crate::rs274_translation::{MAX_WARNINGS, Rs274Translation};
 use crate::target::TextInserter;
 
 /// Success, or the diagnostic that aborts writing.
