@@ -35,6 +35,9 @@ impl VisibleParts {
     }
 }
 
+/// Height in px of a line of the legend.
+pub(super) const LINE_HEIGHT: f64 = 17.0;
+
 /// Space in px for the drawing, without the legend.
 const DRAWING_SIZE: Point = [1080.0, 720.0];
 

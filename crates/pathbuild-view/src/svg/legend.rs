@@ -4,14 +4,11 @@ use super::canvas::{
     Anchor, BAR_COLOUR, Canvas, Depths, ERROR_COLOUR, INK_COLOUR, PROBE_COLOUR, TEXT_COLOUR, WARNING_COLOUR,
     color, mm, svg_number, wrap_text,
 };
-use super::frame::{Frame, VisibleParts};
+use super::frame::{Frame, LINE_HEIGHT, VisibleParts};
 use super::stock::MilledStock;
 use super::symbols::SWEEP_COLOUR;
 use crate::scene::{Finding, MoveKind, Point, Scene};
 use pathbuild_diagnostic::Lang;
-
-/// Line height in px.
-pub(super) const LINE_HEIGHT: f64 = 17.0;
 
 /// Left edge of the legend in px.
 const LEFT: f64 = 40.0;

@@ -12,8 +12,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::{Code, Lang};
 
 use super::canvas::{Anchor, Canvas, INK_COLOUR, mm, svg_number};
-use super::frame::{Frame, PageTransform, VisibleParts, widen};
-use super::legend::LINE_HEIGHT;
+use super::frame::{Frame, LINE_HEIGHT, PageTransform, VisibleParts, widen};
 use super::moves::path_data;
 use super::symbols;
 use crate::scene::{FinishedPart, Point, Scene, ScenePath, Tip};
