@@ -276,6 +276,54 @@ fn what_the_post_processor_writes_is_compared() {
     assert_prints(&run, 0, &["  post-processor: grbl instead of linuxcnc", "1 of 1 path changed"]);
 }
 
+/// A program that the post-processor cannot write is an error of the path, not another post-processor.
+#[test]
+fn a_program_that_cannot_be_written_has_errors() {
+    let compare = |[old, new]: [&str; 2], [before, after]: [&str; 2]| {
+        let place = two(dxf("1001.1P", before, LINE), dxf("1001.1P", after, LINE));
+        for (side, spindle) in [("old", old), ("new", new)] {
+            let text =
+                "rapid = 1000\nlibrary = [\"parts\"]\npost = \"grbl\"\n[tool.a]\nnumber = 3\ndiameter = 2\n";
+            fs::write(place.path().join(side).join("pathbuild.toml"), format!("{text}{spindle}")).unwrap();
+        }
+        place
+    };
+    let assert_compared = |sides, depths, status, line: &str, code: &str| {
+        let run = compare(sides, depths).run("diff old new");
+        assert_prints(&run, status, &[line]);
+        assert_eq!(run.stderr.matches("error[").count(), run.stderr.matches(code).count(), "{run}");
+        assert!(!run.stdout.contains("post-processor"), "{run}");
+    };
+    let (speed, low) = ("spindle = 9000\n", "spindle = 9000\n[machine]\nz = [0, 5]\n");
+    let faster = "spindle = 9500\n[machine]\nz = [0, 5]\n";
+    assert_compared([speed, ""], ["1", "1"], 1, "1001.1P · parts/1001.1P.dxf: has errors now", "PB754");
+    assert_compared(["", speed], ["1", "1"], 0, ": had errors, has none now", "PB754");
+    assert_compared([low, faster], ["1", "1"], 1, ": has errors, before and now", "PB748");
+    assert_compared([speed, low], ["1", "1"], 1, ": has errors now", "PB748");
+    // Nothing has changed.
+    assert_compared([low, low], ["1", "1"], 0, "0 of 1 path changed", "PB748");
+    // The moves are compared nevertheless.
+    let not_compared = "  tools, spindle and other lines of the program were not compared";
+    for (sides, status) in [(["", ""], 1), (["", speed], 0)] {
+        assert_compared(sides, ["1", "0.5"], status, "  0.5 mm deeper: ", "PB754");
+        assert_compared(sides, ["1", "0.5"], status, not_compared, "PB754");
+    }
+    let run = compare([speed, speed], ["1", "0.5"]).run("diff old new");
+    assert!(run.stdout.contains("deeper") && !run.stdout.contains(not_compared), "{run}");
+    let place = compare([speed, ""], ["1", "1"]);
+    assert_prints(&place.run("diff old new -o d.md --lang de"), 1, &["hat jetzt Fehler\n"]);
+    assert!(place.read("d.md").contains("PB754"));
+    fs::remove_file(place.path().join("old/parts/1001.1P.dxf")).unwrap();
+    assert_prints(&place.run("diff old new"), 1, &[": new, has errors\n"]);
+    let place = compare([speed, ""], ["1", "1"]);
+    assert_eq!(place.run("emit old/parts/1001.1P.dxf --config old/pathbuild.toml").status, Some(0));
+    let program = "old/parts/1001.1P_Milling.gcode";
+    let against = |side| place.run(&format!("diff {program} 1001.1P --config {side}/pathbuild.toml"));
+    assert_prints(&against("old"), 0, &["0 of 1 path changed"]);
+    let run = against("new");
+    assert_eq!((run.status, run.stderr.contains("error[PB754]")), (Some(1), true), "{run}");
+}
+
 #[test]
 fn pecks_are_compared_where_they_are_written() {
     for (configuration, is_changed) in [

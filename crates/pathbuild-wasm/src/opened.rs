@@ -189,7 +189,9 @@ impl OpenedFiles {
             let scene = Scene::new(place.path.as_deref().unwrap_or(&place.file));
             let problem = problem.clone().in_file(Utf8Path::new(&place.file));
             return Some(
-                SceneReport { scene, diagnostics: vec![problem] }.with_findings(workspace, &place.file).0,
+                SceneReport { scene, diagnostics: vec![problem], refusals: Vec::new() }
+                    .with_findings(workspace, &place.file)
+                    .0,
             );
         }
         let (file, names) = if place.path.is_some() {

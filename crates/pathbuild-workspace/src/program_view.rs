@@ -48,7 +48,8 @@ impl DroppedProgram {
         let file = Utf8Path::new(&self.name);
         // Only the name of a drawing to compare with can be a usage error, and there is none here.
         let mut report = program_scene(session, file, self.text, options).unwrap_or_else(|failure| {
-            SceneReport { scene: Scene::new(file_name(file)), diagnostics: failure.into_diagnostics() }
+            let scene = Scene::new(file_name(file));
+            SceneReport { scene, diagnostics: failure.into_diagnostics(), refusals: Vec::new() }
         });
         if let Some(record) = &mut report.scene.program {
             record.dialects = Dialect::ALL.iter().map(|dialect| dialect.name()).collect();
@@ -102,7 +103,7 @@ pub fn program_scene(
             .zip(describe_waits(&summary, Lang::De))
             .map(|(en, de)| BilingualText { en, de }),
     });
-    Ok(SceneReport { scene, diagnostics: verified.diagnostics })
+    Ok(SceneReport { scene, diagnostics: verified.diagnostics, refusals: Vec::new() })
 }
 
 /// Describes the dwells, stops and tool changes of a program; `None` if it has none.

@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, HashMap};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Database, SourceFile, check_file, path_names, program};
 use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_gcode::verify::Machine;
 use pathbuild_path::PathName;
 use pathbuild_toolpath::Program as PathProgram;
 use pathbuild_view::{
@@ -16,7 +17,7 @@ use pathbuild_view::{
 
 use crate::emit::ShownText;
 use crate::inputs::Inputs;
-use crate::post_processor::{PostArguments, PostProcessor};
+use crate::post_processor::{PostArguments, PostProcessor, machine};
 use crate::program::{DefinitionTranslation, Program, ReadingOptions};
 use crate::session::{HashedPath, Session, compare_names};
 
@@ -97,6 +98,8 @@ pub struct ProgramDiff {
     pub groups: Vec<Group>,
     /// Whether moves were compared as a whole, because there are too many pieces. The groups may then include more than what changed.
     pub has_undivided_moves: bool,
+    /// Whether a post-processor cannot write one of the programs, so that only what is drawn was compared.
+    pub is_unwritten: bool,
     /// Changes of cutters, tools, spindle, work offsets, stops and the like, as far as they are known on both sides.
     pub states: Vec<StateChange>,
     /// Reasons for the changes; empty if no element and no setting differs. `None` if a side is not a drawing, if the drawings could not be compared,
@@ -128,6 +131,7 @@ pub fn compare_moves(old: &ScenePath, new: &ScenePath, pictures: Option<Lang>) -
     ProgramDiff {
         groups: groups(&compared),
         has_undivided_moves: compared.has_undivided_moves,
+        is_unwritten: false,
         states: Vec::new(),
         reasons: None,
         totals: [old.totals, new.totals],
@@ -171,7 +175,7 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
             post_processor.as_ref().map_err(|found| problems[side].extend(found.iter().cloned()));
         CompiledSide { session, post_processor: post_processor.ok().and_then(Option::as_ref) }
     });
-    let has_same_post = identity(sides[0].post_processor) == identity(sides[1].post_processor);
+    let has_same_post = written_by(sides[0]) == written_by(sides[1]);
     let mut paths: Vec<PathDiff> = pair_up(was.paths, is.paths)
         .into_iter()
         .map(|pair| pair.with_unreadable(&unreadable))
@@ -181,9 +185,10 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
     Comparison { paths, path_count, problems }
 }
 
-/// Returns everything that the programs of a post-processor depend on besides the drawings; `None` for native programs.
-fn identity(post_processor: Option<&PostProcessor>) -> Option<Vec<u8>> {
-    post_processor.map(PostProcessor::identity)
+/// Returns everything that the programs of a post-processor depend on besides the drawings, and the machine whose travel they must not exceed; `None`
+/// for native programs.
+fn written_by(side: CompiledSide<'_>) -> Option<(Vec<u8>, Option<Machine>)> {
+    Some((side.post_processor?.identity(), machine(&side.session.workspace().settings)))
 }
 
 /// The session and the post-processor that build the programs of one side.
@@ -310,7 +315,12 @@ impl PathPair {
                 (None, None) => Outcome::StillBroken,
             },
             (None, Some(path)) if path.moves.is_none() => Outcome::Broken,
-            (None, Some(_)) => Outcome::Added,
+            (None, Some(path)) => {
+                let refusals = sides[1].refusals(path);
+                let outcome = if refusals.is_empty() { Outcome::Added } else { Outcome::Broken };
+                problems[1].extend(refusals);
+                outcome
+            }
             (Some(_), None) => Outcome::Removed,
             (None, None) => return None,
         };
@@ -321,7 +331,7 @@ impl PathPair {
 }
 
 /// Compares the two programs of a path; returns `None` if they do the same. If a limit prevents one of them from being built, there are no moves to
-/// compare, and the diagnostics say why.
+/// compare, and if the post-processor cannot write one of them, only the moves are compared. The diagnostics say why.
 fn compare_programs(
     sides: [CompiledSide<'_>; 2],
     paths: [&HashedPath; 2],
@@ -329,29 +339,34 @@ fn compare_programs(
     problems: &mut [Vec<Diagnostic>; 2],
 ) -> Option<Outcome> {
     let programs = [0, 1].map(|side| sides[side].compile(paths[side]));
-    let outcome = match &programs {
+    let has_errors =
+        programs.each_ref().map(|program| !matches!(program, Ok(compiled) if compiled.refusals.is_empty()));
+    let changed = match &programs {
         [Ok(old), Ok(new)] => {
             let changes = compare_moves(&old.path, &new.path, pictures);
             let mut states = old.states.changes(&new.states);
             if changes.groups.is_empty() && states.is_empty() {
                 states.extend(new.first_other_line(old, sides[1].post_processor));
             }
-            if changes.groups.is_empty() && states.is_empty() {
-                return None;
-            }
-            let reasons = explain_change(sides.map(|side| side.session), paths, problems);
-            // If only states changed and no reason was found, they show by themselves what changed in pathbuild.toml.
-            let reasons = reasons.filter(|reasons| !reasons.is_empty() || !changes.groups.is_empty());
-            Outcome::Changed(Box::new(ProgramDiff { states, reasons, ..changes }))
+            (!changes.groups.is_empty() || !states.is_empty()).then(|| {
+                let reasons = explain_change(sides.map(|side| side.session), paths, problems);
+                // If only states changed and no reason was found, they show by themselves what changed in pathbuild.toml.
+                let reasons = reasons.filter(|reasons| !reasons.is_empty() || !changes.groups.is_empty());
+                let is_unwritten = has_errors.contains(&true);
+                Outcome::Changed(Box::new(ProgramDiff { is_unwritten, states, reasons, ..changes }))
+            })
         }
-        [Ok(_), Err(_)] => Outcome::Broken,
-        [Err(_), Ok(_)] => Outcome::Mended,
-        [Err(_), Err(_)] => Outcome::StillBroken,
+        _ => None,
     };
     for (problems, program) in problems.iter_mut().zip(programs) {
-        problems.extend(program.err().into_iter().flatten());
+        problems.extend(program.map_or_else(|errors| errors, |compiled| compiled.refusals));
     }
-    Some(outcome)
+    changed.or(match has_errors {
+        [false, false] => None,
+        [false, true] => Some(Outcome::Broken),
+        [true, false] => Some(Outcome::Mended),
+        [true, true] => Some(Outcome::StillBroken),
+    })
 }
 
 /// Returns the reasons why the moves of a path changed; `None`, with diagnostics, if the drawings could not be compared.
@@ -378,6 +393,8 @@ struct CompiledPath {
     states: MachineStates,
     /// The text that the post-processor writes, if it does.
     posted: Option<Vec<u8>>,
+    /// Errors that keep the post-processor from writing the program.
+    refusals: Vec<Diagnostic>,
 }
 
 impl CompiledSide<'_> {
@@ -395,7 +412,15 @@ impl CompiledSide<'_> {
         };
         let posted = path.gcode.clone().filter(|_| path.native.is_some()).map(String::into_bytes);
         let states = self.states(known, &path, posted.as_deref()).map_err(|problem| vec![*problem])?;
-        Ok(CompiledPath { path, states, posted })
+        Ok(CompiledPath { path, states, posted, refusals: report.refusals })
+    }
+
+    /// Returns the errors that keep the post-processor from writing the program of a path; none if programs are native.
+    fn refusals(&self, known: &HashedPath) -> Vec<Diagnostic> {
+        if self.post_processor.is_none() {
+            return Vec::new();
+        }
+        self.compile(known).map_or_else(|errors| errors, |compiled| compiled.refusals)
     }
 
     /// Returns what the program states besides moves, according to the text that the post-processor writes, or else to the drawing.
@@ -420,9 +445,7 @@ impl CompiledSide<'_> {
                 MachineStates::of(&program).with_drawn_cutter(path.tool)
             }
         };
-        // `emit` refuses to write a program that the post-processor cannot express.
-        let is_refused = self.post_processor.is_some() && posted.is_none();
-        states.set_post_processor(if is_refused { "" } else { &settings.general.post.value.name });
+        states.set_post_processor(&settings.general.post.value.name);
         let pecks =
             |db: &Database| program(db, known.target).as_deref().map_or_else(Vec::new, PathProgram::pecks);
         let writes_pecks = self.post_processor.is_some() && settings.general.cycles.value;

@@ -35,6 +35,9 @@ pub struct SceneReport {
     pub scene: Scene,
     /// Diagnostics with their locations.
     pub diagnostics: Vec<Diagnostic>,
+    /// Errors that keep `emit` from writing programs of the paths, besides the errors in `diagnostics`. Empty unless the texts of the written programs
+    /// were requested.
+    pub refusals: Vec<Diagnostic>,
 }
 
 /// The program text that is shown beside the moves.
@@ -109,6 +112,7 @@ impl Session<'_> {
         };
         let mut scene = Scene::new(title);
         let mut diagnostics = check_file(self.db(), file).to_vec();
+        let mut refusals = Vec::new();
         scene
             .keep_outs
             .extend(keep_outs(self.db(), file).iter().map(|clamp| view::keep_out(clamp, [0.0, 0.0])));
@@ -117,7 +121,7 @@ impl Session<'_> {
         scene.other_layers = view::other_layers(remaining_layers(self.db(), file));
         assigned_texts(self.db(), file);
         for path in names {
-            let (seen, found, clamps) = self.scene_path(file, path, text);
+            let (seen, found, clamps) = self.scene_path(file, path, text, &mut refusals);
             let zero = seen.as_ref().map_or([0.0, 0.0], |seen| seen.zero);
             scene.keep_outs.extend(clamps.iter().map(|clamp| view::keep_out(clamp, zero)));
             scene.paths.extend(seen);
@@ -125,7 +129,7 @@ impl Session<'_> {
         }
         scene.uncut = uncut_rings(self.db(), file).into_iter().map(view::outline).collect();
         self.add_origins(&mut scene);
-        SceneReport { scene, diagnostics }
+        SceneReport { scene, diagnostics, refusals }
     }
 
     /// Returns the scene of a path, given the drawing's file and the path's name; `None` if the drawing has no such path.
@@ -154,12 +158,14 @@ impl Session<'_> {
         }
     }
 
-    /// Returns the scene of a path, its diagnostics, and the clamps of the paths that it embeds, at their positions in the program.
+    /// Returns the scene of a path, its diagnostics, and the clamps of the paths that it embeds, at their positions in the program. Adds the errors that
+    /// keep its program from being written to `refusals`.
     fn scene_path(
         &self,
         file: SourceFile,
         name: &PathName,
         text: ShownText<'_>,
+        refusals: &mut Vec<Diagnostic>,
     ) -> (Option<ScenePath>, Vec<Diagnostic>, Vec<KeepOut>) {
         let checked = self
             .map_with_checker(slice::from_ref(name), |checker, name| checker.check_leniently(file, name))
@@ -170,15 +176,19 @@ impl Session<'_> {
         // Without `rapid`, or for a path that is only checked, `emit` writes nothing: the text is a preview.
         let is_written = *checked.target.role(self.db()) == Role::Emitted
             && self.workspace().settings.general.rapid.value.is_some();
-        let (emitted, refusal) = match text {
-            ShownText::Omitted | ShownText::Native => (None, None),
+        let (emitted, refused) = match text {
+            ShownText::Omitted | ShownText::Native => (None, Vec::new()),
             ShownText::Emitted(post_processor) => match program_text(self, post_processor, &checked) {
-                Ok(emitted) => (emitted, None),
-                Err(problems) => {
-                    (None, problems.iter().find(|problem| problem.is_error() && is_written).map(bilingual))
-                }
+                Ok(emitted) => (emitted, Vec::new()),
+                Err(problems) => (None, problems),
             },
         };
+        let at = |problem: Diagnostic| problem.in_file(file.path(self.db())).in_path(name.as_str());
+        let with_place = |problem: Diagnostic| if problem.file.is_some() { problem } else { at(problem) };
+        let refused = refused.into_iter().filter(|problem| problem.is_error() && is_written);
+        let refused: Vec<Diagnostic> = refused.map(with_place).collect();
+        let refusal = refused.first().map(bilingual);
+        refusals.extend(refused);
         let emitted = emitted.as_ref().map(|emitted| EmittedText {
             file: is_written.then_some(emitted.file.as_str()),
             bytes: &emitted.bytes,
@@ -206,7 +216,6 @@ impl Session<'_> {
             Ok(scene.map(|scene| (scene, embedded.map(|clamp| clamp.placed).collect::<Vec<KeepOut>>())))
         };
         let mut diagnostics = checked.diagnostics;
-        let at = |problem: Diagnostic| problem.in_file(file.path(self.db())).in_path(name.as_str());
         let result = self.map_guarded(slice::from_ref(&checked.target), work).pop();
         match result {
             Some(Ok(Ok(Some((scene, clamps))))) => return (Some(scene), diagnostics, clamps),

@@ -339,7 +339,8 @@ fn path(
             _ => with_printed_program(path),
         };
         let states = MachineStates::of_drawing(cutter);
-        Ok(ComparedProgram { path, states, are_moves_known: true, problems: seen.diagnostics })
+        let problems = [seen.diagnostics, seen.refusals].concat();
+        Ok(ComparedProgram { path, states, are_moves_known: true, problems })
     })
 }
 

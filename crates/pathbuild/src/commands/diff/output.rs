@@ -150,6 +150,13 @@ pub(super) fn details(program: &ProgramDiff, lang: Lang) -> Vec<String> {
         lines.push(undivided.to_owned());
     }
     lines.extend(program.states.iter().map(|change| state_line(change, lang)));
+    if program.is_unwritten {
+        let unwritten = lang.choose(
+            "tools, spindle and other lines of the program were not compared, because a program cannot be written",
+            "Werkzeuge, Spindel und andere Zeilen des Programms wurden nicht verglichen, weil ein Programm nicht geschrieben werden kann",
+        );
+        lines.push(unwritten.to_owned());
+    }
     if let [Some(old), Some(new)] = program.totals {
         lines.push(totals(&old, &new, lang));
     }
@@ -336,6 +343,9 @@ fn path(path: &PathDiff, lang: Lang) -> Value {
         value["changes"] = program.groups.iter().map(group).collect();
         if program.has_undivided_moves {
             value["has_undivided_moves"] = json!(true);
+        }
+        if program.is_unwritten {
+            value["is_unwritten"] = json!(true);
         }
         if !program.states.is_empty() {
             value["states"] = program.states.iter().map(state).collect();
