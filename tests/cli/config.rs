@@ -407,15 +407,20 @@ fn configurations_below_that_of_the_run_are_warnings() {
     let place = Place::new().file("a/pathbuild.toml", "").file("a/b/pathbuild.toml", "").file("c/none", "");
     let place = ["a/b/1.dxf", "a/b/2.dxf", "a/3.dxf"].iter().fold(place, |place, file| place.file(file, ""));
     let found = |line: &str| {
-        let stderr = place.run(&format!("check --format concise {line}")).stderr;
+        let stderr = place.run(&format!("{line} --format concise")).stderr;
         let lines = stderr.lines().filter(|line| line.contains("[PB526]"));
         lines.map(|line| line.split(':').next().unwrap().to_owned()).collect::<Vec<_>>()
     };
-    assert_eq!(found("a"), ["a/b/pathbuild.toml"]);
-    assert_eq!(found("."), ["a/b/pathbuild.toml", "a/pathbuild.toml"]);
-    assert_eq!(found("a/b"), [""; 0]);
-    assert_eq!(found("a/b/1.dxf"), [""; 0]);
-    assert_eq!(found("a --config c/other.toml"), [""; 0]);
+    for command in ["check", "emit", "emit --join all --post grbl"] {
+        assert_eq!(found(&format!("{command} a")), ["a/b/pathbuild.toml"]);
+        assert_eq!(found(&format!("{command} .")), ["a/b/pathbuild.toml", "a/pathbuild.toml"]);
+        assert_eq!(found(&format!("{command} a/b")), [""; 0]);
+        assert_eq!(found(&format!("{command} a/b/1.dxf")), [""; 0]);
+        assert_eq!(found(&format!("{command} a --config c/other.toml")), [""; 0]);
+    }
+    let place = place.file("pathbuild.toml", "library = [\"a\"]\n[emit]\ntargets = [\"1*\"]\n");
+    let run = place.run("emit --check --format concise");
+    assert_eq!(run.stderr.matches("[PB526]").count(), 2, "{run}");
 }
 
 /// A program may be outside of the tree whose configuration applies to it.

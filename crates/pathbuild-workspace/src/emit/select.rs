@@ -8,6 +8,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_path::PathName;
 
+use crate::common_findings::unused_configurations;
 use crate::config::Settings;
 use crate::memo::{Answer, DrawingResult, Memo, find, read_drawings};
 use crate::session::{Argument, ArgumentMatches, Selection, Session, several_paths_error};
@@ -55,6 +56,7 @@ impl TargetSelection {
         for group in groups {
             let resolved = session.select_arguments(matches, group, &names);
             diagnostics.extend_from_slice(&resolved.problems);
+            diagnostics.extend(unused_configurations(session, &resolved.below));
             let covered = read(&resolved.drawings);
             let mut collector = TargetCollector {
                 session,
