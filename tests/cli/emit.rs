@@ -621,6 +621,45 @@ fn what_may_be_written_again_is_not_stale() {
     assert!(!run.stderr.contains("stale"), "{run}");
 }
 
+/// A drawing of the library with the same name would write the same file in another run.
+#[test]
+fn programs_of_other_drawings_are_not_overwritten() {
+    let drawing =
+        |text: &str| format!("layer 8001.1P\nstart 0,0 \"T5 O2 I1 B4 {text}\"\nmill 0,0 40,0\nend 40,0\n");
+    let place = |other: &str| {
+        let configuration =
+            "library = [\"a\", \"b\"]\nfeed = 150\nrapid = 1000\nsweep-height = 20\nout-dir = \"out\"\n";
+        Place::of(&format!("== a/8001.dxf ==\n{}== b/8001.dxf ==\n{other}", drawing("")))
+            .file("pathbuild.toml", configuration)
+            .file("other/none", "")
+    };
+    for arguments in ["a", "a/8001.dxf", "a/8001.dxf --check", "a/8001.dxf --no-cache"] {
+        let run = place(&drawing("")).run(&format!("emit {arguments} --format concise"));
+        let expected = "a/8001.dxf: error[PB514] 8001_Milling.gcode would be written by 8001.1P (a/8001.dxf) and by 8001.1P (b/8001.dxf)";
+        assert!(run.status == Some(1) && run.stderr.contains(expected), "{run}");
+        assert_eq!(run.stderr.matches("PB514").count(), 1, "{run}");
+    }
+    let both = place(&drawing("")).run("emit a b --format concise");
+    assert_eq!(both.stderr.matches("PB514").count(), 1, "{both}");
+    // Another file, another output directory, no file, a drawing with errors.
+    let is_written = |other: &str, arguments: &str| {
+        let run = place(other).run(&format!("emit a/8001.dxf {arguments}"));
+        assert_eq!(run.status, Some(0), "{run}");
+    };
+    is_written(&drawing("R_b"), "");
+    is_written(&drawing(""), "--out-dir other");
+    is_written(&drawing(""), "-o -");
+    is_written(&drawing("X"), "");
+    // The same drawing may have two names.
+    #[cfg(unix)]
+    {
+        let place = place(&drawing(""));
+        fs::remove_file(place.path().join("b/8001.dxf")).unwrap();
+        std::os::unix::fs::symlink("../a/8001.dxf", place.path().join("b/8001.dxf")).unwrap();
+        assert_eq!(place.run("emit a/8001.dxf").status, Some(0));
+    }
+}
+
 /// A drawing that cannot be read at the moment may still contain the paths of its programs.
 #[test]
 fn programs_of_a_drawing_that_cannot_be_read_are_not_stale() {

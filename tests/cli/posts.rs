@@ -967,6 +967,11 @@ fn a_joined_program_does_not_replace_that_of_a_path() {
         assert!(!run.stderr.contains("PB522"), "{run}");
     }
     assert_eq!(place.read("1400.1T_Milling.ngc"), text);
+    // An R is part of the name.
+    for (name, status) in [("1300X", 1), ("1300", 0)] {
+        let run = place.run(&format!("emit 1300.1P 1234.1P --post linuxcnc --join {name}"));
+        assert_eq!((run.status, run.stderr.contains("PB514")), (Some(status), status == 1), "{run}");
+    }
     // The program of this path has the name of its drawing.
     let run = place.run("emit 1300.1P 1234.1P --post linuxcnc --join 1234.1P");
     assert_eq!(run.status, Some(0), "{run}");

@@ -33,7 +33,7 @@ use crate::workspace::{Failure, Workspace};
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
 pub use options::{Provenances, missing_values, write_settings};
 pub use outcome::{ProgramOutcome, State, Task};
-use plan::{Job, JobBuilder, Plan, plan};
+use plan::{Job, JobBuilder, Plan, leave_out_files_of_others, plan};
 pub use program_scenes::{SceneReport, SheetOutcome, ShownText, sheet_of};
 pub use select::TargetPatterns;
 use select::TargetSelection;
@@ -166,6 +166,10 @@ impl Emitter<'_> {
         let mut plans = plan(&builder, task, memo, &selection.targets, &mut diagnostics)?;
         if lacks_paths {
             plans.iter_mut().filter_map(|plan| plan.value.job.as_mut()).for_each(Job::leave_out);
+        }
+        if !matches.is_library && !is_printed {
+            let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
+            leave_out_files_of_others(&builder, jobs, &mut diagnostics);
         }
         diagnostics.extend(plans.iter().flat_map(|plan| plan.value.problems()).cloned());
         if is_printed

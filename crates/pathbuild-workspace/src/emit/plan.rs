@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
-use pathbuild_db::{Database, Db, SourceFile, Target, Trace, check_file, path_names, trace};
+use pathbuild_db::{Database, Db, Role, SourceFile, Target, Trace, check_file, path_names, trace};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{outputs as messages, posts};
 use pathbuild_gcode::native;
@@ -160,7 +160,7 @@ pub(super) fn plan(
     leave_out_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
     if let Some(join) = join {
         let jobs = plans.iter_mut().filter_map(|answer| answer.value.job.as_mut());
-        diagnostics.extend(jobs.filter_map(|job| leave_out_if_named_like_path(session, join, job)));
+        diagnostics.extend(jobs.filter_map(|job| leave_out_if_named_like_path(builder, join, job)));
     }
     // An earlier run may have left out jobs because their files clashed with those of jobs that do not exist any more.
     for (answer, targets) in plans.iter_mut().zip(&programs) {
@@ -366,29 +366,64 @@ pub(super) fn leave_out_clashes<'p>(
 }
 
 /// Leaves out the job of a joined program that has the name of a path's program (PB514).
-fn leave_out_if_named_like_path(session: &Session<'_>, name: &str, job: &mut Job) -> Option<Diagnostic> {
+fn leave_out_if_named_like_path(builder: &JobBuilder<'_>, name: &str, job: &mut Job) -> Option<Diagnostic> {
+    let JobBuilder { session, .. } = *builder;
     let db = session.db();
     let named = session.select(&crate::Inputs { inputs: vec![name.to_owned()] });
     let named = named.paths.into_iter().map(|path| path.file).chain(named.named);
-    let own = job.targets.iter().map(|target| target.file(db));
-    let mut clashing = Vec::new();
-    for file in own.chain(named) {
-        let (drawing, names) = (file.path(db), path_names(db, file));
-        let directory = output_directory(session.out_dir().as_deref(), drawing);
-        for name in names {
-            let is_alone = names.len() == 1;
-            let stem = if is_alone { drawing.file_stem().unwrap_or_default() } else { name.as_str() };
-            if join(&directory, stem).as_str().to_lowercase() == job.stem.as_str().to_lowercase() {
-                clashing.push(format!("{name} ({drawing})"));
-            }
-        }
-    }
-    let path = clashing.into_iter().min()?;
+    let drawings = job.targets.iter().map(|target| target.file(db)).chain(named);
+    let path = rivals(builder, job, drawings).iter().map(|rival| rival.name(session)).min()?;
     let output = job.files.first().and_then(|(_, file)| file.file_name());
     let problem = Diagnostic::new(&messages::JOINED_LIKE_PATH).quoting("path", path);
     let problem = problem.quoting("name", output.unwrap_or_default()).in_file(job.drawing(db).path(db));
     job.leave_out();
     Some(problem)
+}
+
+/// Leaves out jobs whose file another drawing of the library, which has the same name, would write in another run (PB514). An output directory on the
+/// command line is for this run only.
+pub(super) fn leave_out_files_of_others<'p>(
+    builder: &JobBuilder<'_>,
+    jobs: impl Iterator<Item = &'p mut Job>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let JobBuilder { session, .. } = *builder;
+    let db = session.db();
+    if session.workspace().settings.general.out_dir.origin.line().is_none() {
+        return;
+    }
+    let name = |drawing: &Utf8Path| drawing.file_name().unwrap_or_default().to_lowercase();
+    let mut library: BTreeMap<String, Vec<Utf8PathBuf>> = BTreeMap::new();
+    for drawing in session.library().0 {
+        library.entry(name(&drawing)).or_default().push(drawing);
+    }
+    for job in jobs.filter(|job| !job.is_left_out) {
+        let own = job.drawing(db).path(db);
+        let canonical = db.system().canonical(own);
+        let others = library.get(&name(own)).into_iter().flatten();
+        let others = others.filter(|other| db.system().canonical(other) != canonical);
+        let others = others.map(|other| session.file(other));
+        if let Some(rival) = rivals(builder, job, others).first() {
+            let output = job.files.first().and_then(|(_, file)| file.file_name());
+            diagnostics.push(same_output_error(output, job.name(session), rival.name(session), own));
+            job.leave_out();
+        }
+    }
+}
+
+/// Returns the jobs of all paths in these drawings, each for a program of its own, that would write one of the files of `job`.
+fn rivals(builder: &JobBuilder<'_>, job: &Job, drawings: impl IntoIterator<Item = SourceFile>) -> Vec<Job> {
+    let JobBuilder { session, .. } = *builder;
+    let builder = JobBuilder { join: None, ..*builder };
+    let drawings = drawings.into_iter();
+    let targets: Vec<Target> = drawings.flat_map(|file| session.targets(file, &Role::Emitted)).collect();
+    let checked = session.check(&targets);
+    let jobs = checked.chunks(1).filter_map(|checked| builder.plan(checked).job);
+    let names = |job: &Job| -> BTreeSet<String> {
+        job.files.iter().map(|(_, path)| path.as_str().to_lowercase()).collect()
+    };
+    let own = names(job);
+    jobs.filter(|rival| !names(rival).is_disjoint(&own)).collect()
 }
 
 /// Returns the indices of the jobs that would write the same file, with PB514 for each clash. Case is ignored, as some file systems ignore it.
