@@ -621,6 +621,24 @@ fn what_may_be_written_again_is_not_stale() {
     assert!(!run.stderr.contains("stale"), "{run}");
 }
 
+/// A drawing that an ignore file excludes still exists, but not one in an ignored directory.
+#[test]
+fn programs_of_ignored_drawings_are_not_stale() {
+    for (rule, is_kept) in [("8001*", true), ("old", false)] {
+        let place = Place::of(LIBRARY);
+        assert_eq!(place.run("emit --out-dir all").status, Some(0));
+        let drawing = place.path().join("projects/8001 a b.dxf");
+        if !is_kept {
+            fs::create_dir(place.path().join("projects/old")).unwrap();
+            fs::rename(&drawing, place.path().join("projects/old/8001 a b.dxf")).unwrap();
+        }
+        let place = place.file("projects/.ignore", rule);
+        let run = place.run("emit --out-dir all --remove-stale");
+        assert_eq!(place.path().join("all/8001 a b_Milling.gcode").exists(), is_kept, "{run}");
+        assert_eq!(run.stderr.contains("stale, removed"), !is_kept, "{run}");
+    }
+}
+
 /// A drawing of the library with the same name would write the same file in another run.
 #[test]
 fn programs_of_other_drawings_are_not_overwritten() {

@@ -567,7 +567,8 @@ struct KnownTitles {
     unread: BTreeMap<Title, String>,
     /// Existing drawings whose paths the run does not know.
     others: BTreeSet<Title>,
-    /// Names of the drawings in the search directories, which `emit` finds although they may not be in the library.
+    /// Names of the drawings in the search directories, which `emit` finds although they may not be in the library, and of all in the directories of the
+    /// library, even if they are ignored.
     searched: BTreeSet<String>,
     /// The paths of covered drawings, by their names, normalised for comparison.
     paths: Vec<(String, Utf8PathBuf, PathName)>,
@@ -693,11 +694,12 @@ impl KnownTitles {
     }
 }
 
-/// Returns the names of the files in the search directories, normalised for comparison.
+/// Returns the names of the files in the search directories and of the drawings in those of the library, normalised for comparison.
 fn searched_drawings(session: &Session<'_>) -> BTreeSet<String> {
     let directories = session.workspace().settings.general.search.value.iter();
     let listed = directories.filter_map(|directory| session.file_names_in(&session.normal(directory)).ok());
-    listed.flat_map(|names| names.iter().map(plain_title).collect::<Vec<_>>()).collect()
+    let searched = listed.flat_map(|names| names.iter().map(plain_title).collect::<Vec<_>>());
+    searched.chain(session.names_in_library().map(|name| plain_title(&name))).collect()
 }
 
 /// Whether a directory lies outside the directory of the configuration.

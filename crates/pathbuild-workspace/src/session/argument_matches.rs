@@ -324,6 +324,13 @@ impl Session<'_> {
         (drawings, problems)
     }
 
+    /// Returns the names of all drawings in the directories of the library, including drawings that ignore files exclude.
+    pub fn names_in_library(&self) -> impl Iterator<Item = Box<str>> + use<> {
+        let mut listings = Listings::new();
+        self.walk_library(&mut listings);
+        listings.into_values().flat_map(|listing| listing.names)
+    }
+
     /// Returns all known drawings: those of the library, or without a library those in and below the working directory. Also returns errors while
     /// listing them.
     pub fn all_drawings(&self) -> (Vec<SourceFile>, Vec<Diagnostic>) {
