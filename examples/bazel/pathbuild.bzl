@@ -44,7 +44,7 @@ _ATTRIBUTES = {
     "config": attr.label(allow_single_file = [".toml"], mandatory = True),
     "data": attr.label_list(allow_files = True, doc = "Further files: a post, clamps, a script"),
     "directories": attr.string_list(doc = "`library` and `search` of pathbuild.toml"),
-    "drawings": attr.label_list(allow_files = [".dxf"], doc = "The drawings that may be read"),
+    "drawings": attr.label_list(allow_files = [".dxf", ".DXF"], doc = "The drawings that may be read"),
     "pathbuild": attr.label(executable = True, cfg = "exec", allow_single_file = True, mandatory = True),
 }
 

@@ -23,7 +23,7 @@ rule configure
 
 # The names of all drawings. The list changes only when a drawing comes or goes, which may define a path again.
 rule names
-  command = find $in -type d -o -name '*.dxf' | LC_ALL=C sort -u > $out.new; cmp -s $out.new $out && rm $out.new || mv $out.new $out
+  command = find $in -type d -o -name '*.[dD][xX][fF]' | LC_ALL=C sort -u > $out.new; cmp -s $out.new $out && rm $out.new || mv $out.new $out
   description = NAMES
   restat = 1
 

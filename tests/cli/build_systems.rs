@@ -103,12 +103,15 @@ fn ninja_notices_second_definitions() {
     tree.edit("components/1200-1299.dxf", "1234.1P", "1299.1P");
     assert_eq!(tree.ninja().made(), ["EMIT 8001.1P", "EMIT 8002.1P", "NAMES"]);
     // The path is now also defined in a new drawing.
-    let file = tree.place.path().join("components/1234-1235.dxf");
-    fs::copy(tree.place.path().join("components/1234.1P.dxf"), &file).unwrap();
-    let failed = tree.ninja();
-    assert!(!failed.is_success && failed.text.contains("fix the errors first"), "{}", failed.text);
-    fs::remove_file(file).unwrap();
-    assert_eq!(tree.ninja().made(), ["CONFIGURE", "EMIT 1300.0Q", "EMIT 8001.1P", "EMIT 8002.1P", "NAMES"]);
+    for name in ["1234-1235.dxf", "1234-1235.DXF"] {
+        let file = tree.place.path().join("components").join(name);
+        fs::copy(tree.place.path().join("components/1234.1P.dxf"), &file).unwrap();
+        let failed = tree.ninja();
+        assert!(!failed.is_success && failed.text.contains("fix the errors first"), "{}", failed.text);
+        fs::remove_file(file).unwrap();
+        let all = ["CONFIGURE", "EMIT 1300.0Q", "EMIT 8001.1P", "EMIT 8002.1P", "NAMES"];
+        assert_eq!(tree.ninja().made(), all);
+    }
 }
 
 #[test]
@@ -145,6 +148,11 @@ fn bazel_makes_again_what_depends_on_an_edit() {
     let failed = bazel.build(":programs_check");
     assert!(!failed.is_success && failed.text.contains("PB504"), "{}", failed.text);
     tree.edit("components/1200-1299.dxf", "1234.1P", "1299.1P");
+    let copy = tree.place.path().join("components/1234-1235.DXF");
+    fs::copy(tree.place.path().join("components/1234.1P.dxf"), &copy).unwrap();
+    let failed = bazel.build(":programs_check");
+    assert!(!failed.is_success && failed.text.contains("PB504"), "{}", failed.text);
+    fs::remove_file(copy).unwrap();
     tree.edit("projects/8002.dxf", ">1234.1P", ">1300.2P");
     for target in [":programs", ":programs_check"] {
         let failed = bazel.build(target);
