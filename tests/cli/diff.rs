@@ -558,6 +558,33 @@ fn revisions_are_compared_with_each_other_and_with_what_lies_there() {
     assert_eq!(String::from_utf8_lossy(&status.stdout), " M pathbuild.toml\n");
 }
 
+/// A revision lacks directories that Git ignores and those outside of the repository. No message names the temporary directory.
+#[test]
+fn directories_that_a_revision_lacks_are_named_as_in_the_repository() {
+    let place = committed(
+        Place::new()
+            .file(
+                "pathbuild.toml",
+                "rapid = 1000\nlibrary = [\"parts\", \"own\"]\nsearch = [\"../outside\"]\n",
+            )
+            .file("parts/1001.1P.dxf", dxf("1001.1P", "1", LINE))
+            .file("own/1002.1P.dxf", dxf("1002.1P", "1", LINE))
+            .file(".gitignore", "own/\n"),
+    );
+    let run = place.run("diff HEAD --format concise");
+    let expected = "HEAD:pathbuild.toml:2: error[PB003] `library` names HEAD:own, but the revision has no such directory";
+    assert!(run.status == Some(1) && run.stderr.contains(expected), "{run}");
+    assert!(run.stderr.contains("`search` names HEAD:../outside, but the revision has no"), "{run}");
+    // The working directory is no revision.
+    let outside = "pathbuild.toml:3: error[PB003] `search` names ../outside, which is not a directory";
+    assert!(run.stderr.contains(outside), "{run}");
+    assert!(!run.stderr.contains("pathbuild-revision"), "{run}");
+    assert_eq!(place.run("diff HEAD --format concise").stderr, run.stderr);
+    let place = committed(place.file("pathbuild.toml", "rapid = no\n")).file("pathbuild.toml", "");
+    let run = place.run("diff HEAD~1 HEAD --format concise");
+    assert!(run.stderr.contains("HEAD:pathbuild.toml:1:") && !run.stderr.contains("revision-"), "{run}");
+}
+
 /// The programs of a revision are written with the files that the post-processor inserts.
 #[test]
 fn a_revision_has_the_files_that_the_post_processor_inserts() {

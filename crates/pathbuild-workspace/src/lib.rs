@@ -34,4 +34,4 @@ mod workspace;
 pub use pathbuild_cache::CacheLocation as CacheHome;
 
 pub use inputs::{Input, Inputs};
-pub use workspace::{Failure, ProgressCounter, Reporter, SilentReporter, Workspace};
+pub use workspace::{Failure, ProgressCounter, Reporter, SilentReporter, Workspace, relative};

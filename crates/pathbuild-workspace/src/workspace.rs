@@ -131,7 +131,7 @@ impl ProgressCounter for SilentReporter {
 
 /// Returns the path to a directory relative to another, both absolute. Returns the directory itself if there is no relative path, as between
 /// drives.
-pub(crate) fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
+pub fn relative(directory: &Utf8Path, base: &Utf8Path) -> Utf8PathBuf {
     let (target, start): (Vec<_>, Vec<_>) = (directory.components().collect(), base.components().collect());
     let common = target.iter().zip(&start).take_while(|(a, b)| a == b).count();
     if common == 0 {

@@ -174,6 +174,13 @@ messages! {
         help_en: "correct the name; names in pathbuild.toml are relative to that file, those of options to the working directory",
         help_de: "den Namen berichtigen; Namen in pathbuild.toml beziehen sich auf das Verzeichnis dieser Datei, die von Optionen auf das Arbeitsverzeichnis",
     }
+    /// A directory that a revision's configuration names, and that the revision does not have.
+    NO_DIRECTORY_IN_REVISION: InvalidConfiguration {
+        en: "`{key}` names {directory}, but the revision has no such directory",
+        de: "`{key}` nennt {directory}, aber die Revision hat kein solches Verzeichnis",
+        help_en: "if its drawings are outside of the repository, or ignored by Git, compare two directories instead of a revision",
+        help_de: "wenn seine Zeichnungen außerhalb des Repositorys liegen oder von Git ignoriert werden, zwei Verzeichnisse statt einer Revision vergleichen",
+    }
     /// A value that is none of the choices.
     INVALID_CHOICE: InvalidConfiguration {
         en: "{found} is not a valid value of `{key}`",

@@ -202,8 +202,11 @@ fn kind_of(context: &Context, argument: &str) -> ArgumentKind {
 fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revision>) -> Result<Side, Failure> {
     let is_drawing = is_drawing(&place);
     let named = Inputs::places([&place]);
-    let (workspace, faults) = context.workspace_of_inputs(&named);
+    let (workspace, mut faults) = context.workspace_of_inputs(&named);
     if !faults.is_empty() {
+        if let Some(revision) = &revision {
+            revision.name(context, &mut faults);
+        }
         return Err(Failure::Refused(faults));
     }
     let root = if is_drawing { place.parent().unwrap_or(Utf8Path::new("")).to_owned() } else { place };
@@ -252,17 +255,11 @@ fn refuse_submodules(
 }
 
 impl Drawings {
-    /// Renames files of a revision in diagnostics to `REVISION:FILE`, as Git does. Removes the error that the revision has no drawings: all are new.
+    /// Names the files of a revision in diagnostics as the user knows them. Removes the error that the revision has no drawings: all are new.
     pub(super) fn name(&self, context: &Context, problems: &mut Vec<Diagnostic>) {
         let Some(revision) = &self.revision else { return };
         problems.retain(|problem| *problem.message != outputs::NO_DRAWING);
-        for problem in problems {
-            let place = problem.file.as_deref().map(|file| context.working_directory.join(file));
-            let below = place.as_deref().and_then(|place| place.strip_prefix(&revision.root).ok());
-            if let Some(below) = below {
-                problem.file = Some(format!("{}:{below}", revision.name).into());
-            }
-        }
+        revision.name(context, problems);
     }
 }
 

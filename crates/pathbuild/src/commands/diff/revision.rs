@@ -8,9 +8,12 @@ use std::path::Path;
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::configuration;
 use pathbuild_workspace::files::FILE_NAME;
 use pathbuild_workspace::git::{self, Entry, EntryKind, Repository};
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
+use pathbuild_workspace::relative;
 use tempfile::TempDir;
 
 use crate::context::Context;
@@ -140,6 +143,23 @@ impl Revision {
         let directory = context.system.canonical(drawing.parent()?);
         let place = checkout.join(directory.strip_prefix(repository).ok()?).join(drawing.file_name()?);
         Some(if place.is_file() { place } else { self.empty.clone() })
+    }
+
+    /// Renames the revision's files and directories in diagnostics to `REVISION:NAME`, as Git does, also those that would be outside of the repository.
+    pub(super) fn name(&self, context: &Context, problems: &mut [Diagnostic]) {
+        let [checkout, _] = &self.roots;
+        let temporary = checkout.parent().unwrap_or(checkout);
+        let renamed = |name: &str| {
+            let place = context.working_directory.join(name);
+            place.starts_with(temporary).then(|| format!("{}:{}", self.name, relative(&place, &self.root)))
+        };
+        for problem in problems {
+            let is_ours = problem.quoted("directory").and_then(renamed).is_some();
+            if *problem.message == configuration::NO_DIRECTORY && is_ours {
+                problem.message = &configuration::NO_DIRECTORY_IN_REVISION;
+            }
+            problem.rename_files(&renamed);
+        }
     }
 }
 
