@@ -423,6 +423,15 @@ fn configurations_below_that_of_the_run_are_warnings() {
     assert_eq!(run.stderr.matches("[PB526]").count(), 2, "{run}");
 }
 
+/// The working directory itself has a name in messages.
+#[test]
+fn a_directory_is_no_configuration() {
+    let run = |format: &str| Place::new().run(&format!("check --config . --format {format}"));
+    let [concise, full] = [run("concise"), run("full")];
+    assert!(concise.status == Some(2) && concise.stderr.starts_with(".: error[PB003]"), "{concise}");
+    assert!(full.stderr.starts_with("error[PB003] invalid-configuration · .\n"), "{full}");
+}
+
 /// A program may be outside of the tree whose configuration applies to it.
 #[test]
 fn a_program_without_a_configuration_of_its_own_takes_that_of_the_drawing() {

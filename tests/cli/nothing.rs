@@ -233,6 +233,19 @@ fn a_pattern_shows_where_its_paths_are() {
     assert_eq!(place.run_with(&["view", "*5.1P", "-o", "x.svg", "--feed", "9"]).status, Some(0));
 }
 
+/// Names that look alike may consist of different characters.
+#[test]
+fn a_name_with_other_unicode_characters_is_explained() {
+    let [composed, decomposed] = ["M\u{fc}ller.dxf", "Mu\u{308}ller.dxf"];
+    for (file, argument, is_explained) in
+        [(composed, decomposed, true), (decomposed, composed, true), (composed, "M\u{fc}lller.dxf", false)]
+    {
+        let run = Place::new().file(file, "").run(&format!("check {argument}"));
+        assert!(run.stderr.contains(&format!("did you mean {file}?")), "{run}");
+        assert_eq!(run.stderr.contains("NFC or NFD"), is_explained, "{run}");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn a_link_that_leads_nowhere_is_not_called_misspelled() {

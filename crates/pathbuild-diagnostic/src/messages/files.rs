@@ -48,6 +48,11 @@ messages! {
         en: "did you mean {near}?",
         de: "ist {near} gemeint?",
     }
+    /// Note: a file whose name looks the same, but has letters with accents composed of other characters.
+    NEAR_FILE_OTHER_CHARACTERS: UnreadableFile {
+        en: "did you mean {near}? A letter with an accent consists of other Unicode characters there (NFC or NFD): copy the name of the file",
+        de: "ist {near} gemeint? Ein Buchstabe mit Akzent oder Umlautpunkten besteht dort aus anderen Unicode-Zeichen (NFC oder NFD): den Namen der Datei kopieren",
+    }
     /// A link to a file that does not exist.
     DANGLING_LINK: UnreadableFile {
         en: "the file that this link points to does not exist",

@@ -344,7 +344,11 @@ impl Session<'_> {
             }
             let near = match (diagnostic.message, &diagnostic.file) {
                 (message, Some(file)) if *message == files::MISSING => {
-                    self.near_file(file).map(|near| (&files::NEAR_FILE, near.into_string()))
+                    let near = self.near_file(file).map(Utf8PathBuf::into_string);
+                    near.map(|near| {
+                        let is_alike = has_combining_marks(&near) == has_combining_marks(file.as_str());
+                        (if is_alike { &files::NEAR_FILE } else { &files::NEAR_FILE_OTHER_CHARACTERS }, near)
+                    })
                 }
                 (message, _) if *message == outputs::NO_SUCH_PATH || *message == outputs::NO_PATH_LIKE => {
                     self.near_path(diagnostic.quoted("name").unwrap_or_default(), &known)
@@ -410,6 +414,11 @@ impl Session<'_> {
         names.sort_unstable();
         names
     }
+}
+
+/// Whether a name has letters that are composed of a base letter and a mark above or below it, as macOS writes them.
+fn has_combining_marks(name: &str) -> bool {
+    name.chars().any(|character| matches!(character, '\u{300}'..='\u{36f}'))
 }
 
 /// Everything that a name without a separator may refer to.

@@ -2,6 +2,7 @@ use std::borrow::Cow;
 use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::or_current_directory;
 use pathbuild_diagnostic::{Diagnostic, Lang, Severity, TraceStep, Value, shown};
 use pathbuild_workspace::config::clean;
 
@@ -32,10 +33,14 @@ impl View {
     /// Returns a file name for formats that escape characters themselves.
     pub fn raw_name<'a>(&self, file: &'a Utf8Path) -> Cow<'a, str> {
         match &self.root {
-            None => Cow::Borrowed(file.strip_prefix(&self.base).unwrap_or(file).as_str()),
+            None => {
+                let below = file.strip_prefix(&self.base).unwrap_or(file);
+                Cow::Borrowed(or_current_directory(below).as_str())
+            }
             Some(root) => {
                 let whole = clean(&self.base.join(file));
-                Cow::Owned(whole.strip_prefix(root).unwrap_or(&whole).as_str().to_owned())
+                let below = whole.strip_prefix(root).unwrap_or(&whole);
+                Cow::Owned(or_current_directory(below).as_str().to_owned())
             }
         }
     }
