@@ -493,9 +493,9 @@ impl<'a> SubpathChecker<'a> {
         let is_known =
             |given: &SubpathValue| inner.definitions.iter().any(|known| given.variable == Some(known.name));
         let unknown = values.iter().filter(|given| !is_known(given)).count();
-        let missing: Vec<_> = inner.definitions.iter().filter(|known| !is_given(known)).collect();
         // Each missing variable may be what an unknown one was meant to be.
-        let missing = missing.into_iter().skip(unknown).map(|definition| {
+        let missing = inner.definitions.iter().filter(|known| !is_given(known)).skip(unknown);
+        let missing = missing.map(|definition| {
             let problem = Diagnostic::new(&parameters::MISSING_VALUE_HERE)
                 .with("variable", definition.name)
                 .quoting("example", definition.check_value(0).as_str())
