@@ -158,7 +158,7 @@ impl Revision {
             if *problem.message == configuration::NO_DIRECTORY && is_ours {
                 problem.message = &configuration::NO_DIRECTORY_IN_REVISION;
             }
-            problem.rename_files(&renamed);
+            problem.rename_files(renamed);
         }
     }
 }
