@@ -139,7 +139,7 @@ impl<'a> Pairs<'a> {
         &rest[..length]
     }
 
-    /// Returns the error for a line without a group code. The line is not consumed.
+    /// Returns why a line has no group code: the end of the file if only blanks follow, otherwise a bad code. The line is not consumed.
     #[cold]
     fn missing_code_error(&mut self, at: usize, line: &'a [u8]) -> Stop<'a> {
         self.at = at;

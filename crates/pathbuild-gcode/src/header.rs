@@ -323,11 +323,15 @@ impl StatedCutter {
         Cutter { diameter: self.diameter, removed: flat, colliding: flat, corner_radius }
     }
 
-    fn is_same(&self, other: &Self) -> bool {
-        let is_near =
-            |one: f64, other: f64| libm::fabs(one - other) <= 2.0 * ROUNDING_TOLERANCE + EXACT_TOLERANCE;
-        let is_same_tip = self.flat.zip(other.flat).is_none_or(|(one, other)| is_near(one, other));
-        is_near(self.diameter, other.diameter) && is_same_tip
+    /// Returns the message if two descriptions of a tool contradict each other.
+    fn contradiction(&self, other: &Self, is_numbered: bool) -> Option<&'static Message> {
+        let differ =
+            |one: f64, other: f64| libm::fabs(one - other) > 2.0 * ROUNDING_TOLERANCE + EXACT_TOLERANCE;
+        if differ(self.diameter, other.diameter) {
+            return Some(if is_numbered { &say::TOOL_STATED_TWICE } else { &say::CURRENT_TOOL_STATED_TWICE });
+        }
+        let (one, other) = self.flat.zip(other.flat)?;
+        differ(one, other).then_some(&say::TIP_STATED_TWICE)
     }
 
     /// Combines two descriptions of a tool: the greater diameter, and the smaller width that is known to be flat.
@@ -514,9 +518,7 @@ impl Collector {
         number: Option<u32>,
     ) -> StatedCutter {
         let Some(known) = known else { return next };
-        if !known.is_same(&next) {
-            let message: &'static Message =
-                if number.is_some() { &say::TOOL_STATED_TWICE } else { &say::CURRENT_TOOL_STATED_TWICE };
+        if let Some(message) = known.contradiction(&next, number.is_some()) {
             self.problems.add_at_line(message, next.line.max(known.line), |d| {
                 let d = d.with("number", u64::from(number.unwrap_or(0)));
                 d.with("one", known.diameter).with("other", next.diameter)

@@ -20,7 +20,7 @@ pub fn statistics(program: &Program, rapid: f64) -> Statistics {
     Statistics {
         milling: tally.milling.total,
         drilling: tally.drilling.total,
-        sweeps: tally.sweeps(rapid),
+        sweeps: tally.rapid_total(rapid),
         commands: tally.moves(),
     }
 }
@@ -83,10 +83,10 @@ impl Tally {
 
     /// Returns the length and the time of all moves except probing moves; `rapid` is the rapid feed in mm/min.
     pub fn sum(&self, rapid: f64) -> Total {
-        self.cutting() + self.sweeps(rapid)
+        self.cutting() + self.rapid_total(rapid)
     }
 
-    fn sweeps(&self, rapid: f64) -> Total {
+    fn rapid_total(&self, rapid: f64) -> Total {
         let length = self.rapid.total.length;
         // Moves without length take no time, whatever the feed.
         Total { length, time: if length > 0.0 { length / rapid } else { 0.0 } }

@@ -155,7 +155,7 @@ pub struct WaivedFinding {
 pub struct Coverage {
     /// The files that were checked completely.
     pub files: Vec<Utf8PathBuf>,
-    /// Whether directories were searched, so that files that no longer exist are noticed.
+    /// Whether the run searched only whole directories, so that files that no longer exist are noticed.
     pub has_directories: bool,
     /// Whether the whole library was checked, so that patterns are known to match nothing else.
     pub is_library: bool,

@@ -261,7 +261,7 @@ impl<'db> ClosureWalk<'db> {
         errors
     }
 
-    /// Checks the heights that H adds against the sweep height of a path. Returns whether there are errors.
+    /// Checks that the sweeps of a path clear the probes and subpaths that H raises. Returns whether there are errors.
     fn visit_raised(&mut self, instance: Instance<'db>, signature: &PathSignature, depth: u32) -> bool {
         let calls = signature.subpaths.iter().zip(embeds(self.db, instance));
         let raised = calls.filter_map(|(call, embedding)| match &embedding.outcome {

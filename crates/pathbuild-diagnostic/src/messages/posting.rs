@@ -452,8 +452,8 @@ messages! {
     }
     /// A cut with the length of another tool, or without a length where the tool has one, in a program to be written through a post.
     JOB_LENGTH: NothingToPost {
-        en: "cuts after this line use another tool length (H) than a post writes: one for each tool, with the tool's own number",
-        de: "Schnitte nach dieser Zeile verwenden eine andere Werkzeuglänge (H), als ein Postprozessor schreibt: eine je Werkzeug, mit der Nummer des Werkzeugs",
+        en: "cuts after this line use a tool length (H) that a post cannot write: it writes one length for each tool, with the tool's own number",
+        de: "Schnitte nach dieser Zeile verwenden eine Werkzeuglänge (H), die ein Postprozessor nicht schreiben kann: er schreibt je Werkzeug eine Länge mit der Nummer des Werkzeugs",
         help_en: "name the tool with T, and write H with the same number once after each tool change",
         help_de: "das Werkzeug mit T nennen und nach jedem Werkzeugwechsel einmal H mit derselben Nummer schreiben",
     }

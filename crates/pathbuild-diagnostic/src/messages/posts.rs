@@ -446,10 +446,10 @@ messages! {
     }
     /// A control text that no program needs.
     TEXT_NEVER_CALLED: InvalidControlText {
-        en: "{text} is never called: programs contain nothing that needs it",
-        de: "{text} wird nie aufgerufen: Programme enthalten nichts, wofür er da ist",
-        help_en: "delete it: nothing that it writes gets into a program",
-        help_de: "ihn löschen: was er schreibt, kommt in kein Programm",
+        en: "the text {text} is never called: no program needs it",
+        de: "der Text {text} wird nie aufgerufen: kein Programm braucht ihn",
+        help_en: "delete the text: nothing that it writes gets into a program",
+        help_de: "den Text löschen: was er schreibt, kommt in kein Programm",
     }
     /// A control text that is never called, because another one is called in its place.
     TEXT_NOT_CALLED: InvalidControlText {

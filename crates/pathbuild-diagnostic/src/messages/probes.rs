@@ -94,10 +94,10 @@ messages! {
     }
     /// Cuts through the material that end above the plate after the correction.
     RAISED_ABOVE_PLATE: CorrectionTooLarge {
-        en: "cuts down to the plate (Z 0) or below it now end above it, up to Z {z}: they no longer go through",
-        de: "Schnitte bis auf die Platte (Z 0) oder tiefer enden jetzt darüber, bis Z {z}: sie gehen nicht mehr durch",
-        help_en: "if the sheet lies flat on the plate and is thicker than drawn, correct T in the drawing and run emit again, or write a lower B; if the sheet bulges, its lower face is as high",
-        help_de: "liegt das Blech eben auf der Platte und ist dicker als gezeichnet, T in der Zeichnung berichtigen und noch einmal emit aufrufen, oder B tiefer setzen; wölbt sich das Blech, ist auch seine Unterseite so hoch",
+        en: "cuts down to the plate (Z 0) or below it now end above it, up to Z {z}: they may no longer go through",
+        de: "Schnitte bis auf die Platte (Z 0) oder tiefer enden jetzt darüber, bis Z {z}: sie gehen womöglich nicht mehr durch",
+        help_en: "if the sheet lies flat on the plate and is thicker than drawn, correct T in the drawing and run emit again, or write a lower B; if the sheet bulges, its underside is raised as well and the cuts go through: change nothing",
+        help_de: "liegt das Blech eben auf der Platte und ist dicker als gezeichnet, T in der Zeichnung berichtigen und noch einmal emit aufrufen, oder B tiefer setzen; wölbt sich das Blech, liegt auch seine Unterseite höher, und die Schnitte gehen durch: nichts ändern",
     }
     /// Cuts that a correction takes too far below the plate.
     LOWERED_BELOW_PLATE: CorrectionTooLarge {
@@ -150,8 +150,8 @@ messages! {
     }
     /// An unclosed formula.
     UNCLOSED: InvalidFormula {
-        en: "the formula is not closed",
-        de: "die Formel ist nicht geschlossen",
+        en: "the `)` that closes the formula is missing",
+        de: "die schließende Klammer `)` der Formel fehlt",
         help_en: "emit again and use the new program: the line was cut off",
         help_de: "noch einmal ausgeben und das neue Programm verwenden: die Zeile ist abgeschnitten",
     }

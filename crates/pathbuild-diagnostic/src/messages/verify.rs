@@ -157,8 +157,8 @@ messages! {
     }
     /// `verify --against`: a cut too soon after the spindle was switched on, because the dwell is missing or too short.
     SPUN_UP_TOO_SHORT: MovesDiffer {
-        en: "the tool cuts less than {seconds} s after the spindle was switched on",
-        de: "das Werkzeug fräst weniger als {seconds} s, nachdem die Spindel eingeschaltet wurde",
+        en: "the tool starts cutting less than {seconds} s after the spindle was switched on",
+        de: "das Werkzeug beginnt früher als {seconds} s nach dem Einschalten der Spindel zu fräsen",
         help_en: "rewrite the program with `pathbuild emit`, which waits for the time in `[machine] spin-up`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben; es wartet dann so lange, wie `[machine] spin-up` angibt",
     }
@@ -365,17 +365,24 @@ messages! {
         help_en: "go to X and Y above the material first, then down",
         help_de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
     }
-    /// Two comments that describe a numbered tool differently.
+    /// Two comments with different diameters for a numbered tool.
     TOOL_STATED_TWICE: HeaderContradiction {
-        en: "comments describe T{number} with {one} mm and with {other} mm, or with different tips",
-        de: "Kommentare beschreiben T{number} mit {one} mm und mit {other} mm oder mit verschiedenen Spitzen",
+        en: "comments contradict each other about the diameter of T{number}: {one} mm and {other} mm",
+        de: "Kommentare widersprechen sich beim Durchmesser von T{number}: {one} mm und {other} mm",
         help_en: "find out which tool is meant; until then, the check of rapid moves clears material with the smaller one",
         help_de: "klären, welches Werkzeug gemeint ist; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren",
     }
-    /// Two comments that describe a tool without a number differently.
+    /// Two comments with different diameters for a tool without a number.
     CURRENT_TOOL_STATED_TWICE: HeaderContradiction {
-        en: "comments describe the tool with {one} mm and with {other} mm, or with different tips",
-        de: "Kommentare beschreiben das Werkzeug mit {one} mm und mit {other} mm oder mit verschiedenen Spitzen",
+        en: "comments contradict each other about the diameter of the tool: {one} mm and {other} mm",
+        de: "Kommentare widersprechen sich beim Durchmesser des Werkzeugs: {one} mm und {other} mm",
+        help_en: "find out which tool is meant; until then, the check of rapid moves clears material with the smaller one",
+        help_de: "klären, welches Werkzeug gemeint ist; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren",
+    }
+    /// Two comments with tips of different shapes for a tool.
+    TIP_STATED_TWICE: HeaderContradiction {
+        en: "comments contradict each other about the shape of the tool's tip",
+        de: "Kommentare widersprechen sich bei der Form der Werkzeugspitze",
         help_en: "find out which tool is meant; until then, the check of rapid moves clears material with the smaller one",
         help_de: "klären, welches Werkzeug gemeint ist; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren",
     }

@@ -103,7 +103,8 @@ impl<'m> MachineRules<'m> {
         self.problems.into_diagnostics()
     }
 
-    /// Reports a feed that exceeds the limit, or has a component that exceeds the limit of its axis. A feed is reported once, until it changes.
+    /// Reports a feed that exceeds the limit, or has a component that exceeds the limit of its axis. The feed reported last is not reported
+    /// again until another one has been.
     fn check_feed(&mut self, line: u32, movement: &Move) {
         let Some(feed) = movement.pace.feed().filter(|feed| Some(*feed) != self.last_feed) else { return };
         if let Some(most) = self.machine.feed.filter(|most| feed > *most) {

@@ -190,7 +190,7 @@ impl PathCollector<'_> {
                 let element = &self.elements[element];
                 (element.class(self.tool()), element.text, ESSENTIAL_LETTERS)
             }
-            // The height of a probe corrects all others.
+            // Any letter missing at a probe matters, because its measured height corrects the heights of all cuts.
             Owner::Probe(probe) => (ElementClass::Probe, self.probes[probe].text, Letters::ALL),
             Owner::Start | Owner::Faulty => return false,
         };

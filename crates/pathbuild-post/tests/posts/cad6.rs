@@ -376,12 +376,9 @@ fn texts_that_no_program_calls_are_errors() {
             .map_err(|errors| texts(&errors))
     };
     for (text, expected) in [
-        ("bezier = 'a'", "bezier is never called: programs contain nothing that needs it"),
-        (
-            "subprogram-start = 'a'",
-            "subprogram-start is never called: programs contain nothing that needs it",
-        ),
-        ("subprogram-end = 'a'", "subprogram-end is never called: programs contain nothing that needs it"),
+        ("bezier = 'a'", "the text bezier is never called: no program needs it"),
+        ("subprogram-start = 'a'", "the text subprogram-start is never called: no program needs it"),
+        ("subprogram-end = 'a'", "the text subprogram-end is never called: no program needs it"),
         (
             "contour-start = 'a'\nrapid = 'b'",
             "contour-start is never called, because the definition has rapid",

@@ -326,7 +326,7 @@ fn each_tool_has_one_length_with_its_own_number() {
     let is_refused = |text: &str, line: u32| {
         let errors = job_of(&format!("{head}{text}"), Dialect::LinuxCnc).expect_err(text);
         let start =
-            format!("{line}: PB765 cuts after this line use another tool length (H) than a post writes");
+            format!("{line}: PB765 cuts after this line use a tool length (H) that a post cannot write");
         assert!(errors[0].starts_with(&start), "{text}: {errors:?}");
     };
     is_refused(&format!("T1 M6\nG43 H5\n{CUT}"), 3);

@@ -236,7 +236,7 @@ impl<'a> CatalogueBuilder<'a> {
         }
     }
 
-    /// Adds a directory with its current names, and returns its index.
+    /// Returns the index of a directory. If it is new, adds it with its current names.
     fn directory(&mut self, path: &Utf8Path) -> usize {
         match self.directories.get(path) {
             Some(known) => *known,
