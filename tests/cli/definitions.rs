@@ -3,6 +3,8 @@
 
 use std::fs;
 
+use serde_json::Value;
+
 use crate::support::{Place, Run};
 
 const LIBRARY: &str = r#"
@@ -91,6 +93,12 @@ fn the_configured_definition_reads_programs_without_a_header() {
     let run = place.run(&format!("view {PROGRAM} -o shown.json"));
     assert_eq!(run.status, Some(0), "{run}");
     assert!(place.read("shown.json").contains("\"en\":\"own.toml\""), "{run}");
+    // The text that the definition makes of a program has no comments: they are read from the program itself.
+    let program = format!("(T1 D=2 CR=0 - ZMIN=-1 - flat end mill)\n{}", place.read(PROGRAM));
+    fs::write(place.path().join(PROGRAM), program).unwrap();
+    place.run(&format!("view {PROGRAM} -o shown.json"));
+    let shown: Value = serde_json::from_str(&place.read("shown.json")).unwrap();
+    assert_eq!(shown["program"]["cutters"][0]["diameter"], 2.0);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use pathbuild_db::system::ReadError;
 use pathbuild_diagnostic::messages::{files, gcode};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
+use pathbuild_gcode::header::{Header, HeaderReader};
 use pathbuild_gcode::interpret::{
     DisputedWords, Evidence, EvidenceKind, Guess, Heights, Interpretation, Options, Text, guess,
     interpret_until,
@@ -182,6 +183,21 @@ impl Program {
         let evidence = guessed.map(|guess| guess.evidence);
         let read = Interpretation { steps: Vec::new(), problems };
         Self { file: file.to_owned(), text, dialect, evidence, shown, read, by_definition, options }
+    }
+
+    /// Returns the tools and the stock that the program states.
+    pub fn header(&self) -> Header {
+        let mut reader = HeaderReader::default();
+        self.read.steps.iter().for_each(|step| reader.step(step));
+        self.finish_header(reader)
+    }
+
+    /// Finishes a header that has read all steps. The steps of a translation have no comments, so those of the text are read here.
+    pub(crate) fn finish_header(&self, mut reader: HeaderReader) -> Header {
+        if self.by_definition.is_some() {
+            reader.read_head_comments(&self.text);
+        }
+        reader.finish(self.inch_word())
     }
 
     /// Returns the program at its nominal heights, without the correction formulas.

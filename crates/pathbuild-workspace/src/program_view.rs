@@ -4,7 +4,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::{Diagnostic, Lang, Noun, counted, with_decimal_separator};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::header::{Header, HeaderReader};
+use pathbuild_gcode::header::{CuttingTool, Header};
 use pathbuild_gcode::statistics::Summary;
 use pathbuild_gcode::verify::StockSpan;
 use pathbuild_view::{BilingualText, ProgramRecord, Scene, ScenePath, ShownCheck, ToolSpan};
@@ -12,7 +12,7 @@ use serde::Deserialize;
 
 use crate::config::{number, positive};
 use crate::emit::SceneReport;
-use crate::program::{Program, ReadingOptions};
+use crate::program::ReadingOptions;
 use crate::session::Session;
 use crate::verify::{CheckRecord, Outcome, RapidValues, Verifier, VerifyOptions};
 use crate::workspace::Failure;
@@ -77,12 +77,15 @@ pub fn program_scene(
     let program = &verifier.read(file, text).map_err(|problem| Failure::Found(vec![*problem]))?;
     let verified = verifier.verify_stored(program);
     let rapids = verified.checks.iter().find_map(CheckRecord::values);
-    let (header, cutters, surface) = stated_cutters_and_surface(program, rapids, given_surface);
+    let header = program.header();
+    let cutters = stated_cutters(&header);
+    // The surface with which rapid moves were checked, if it is level.
+    let checked_surface = rapids.filter(|values| values.is_level).map(|values| values.surface);
     let mut path = program.scene_path(workspace);
     // With the cutter of another tool, grooves would have a wrong width.
     let are_stated = header.tools.iter().all(|tool| tool.cutter.is_some());
     set_cutters(&mut path, cutter, if are_stated { &cutters } else { &[] }, rapids);
-    if let (Some(stock), _) = verifier.stock(program) {
+    if let Some(stock) = verifier.stock(program, &header) {
         path.tools = stock.spans().iter().map(tool_span).collect();
     }
     let mut scene = Scene::new(file_name(&program.file));
@@ -94,7 +97,7 @@ pub fn program_scene(
         read_as: bilingual(|lang| program.describe_reading(lang)),
         checks: verified.checks.iter().map(shown_check).collect(),
         cutters,
-        surface,
+        surface: checked_surface.or(given_surface).or(header.surface),
         is_on_zero: match given_surface {
             Some(given) => given > 0.0,
             None => header.is_of_pathbuild || program.dialect == Dialect::Native,
@@ -159,26 +162,13 @@ impl Assumptions {
     }
 }
 
-/// Returns the header of a program, the cutters that it states, and the height of the material's upper face: the one that rapid moves were checked
-/// with, if it is level, or else the given one, or else the stated one.
-fn stated_cutters_and_surface(
-    program: &Program,
-    rapids: Option<&RapidValues>,
-    given_surface: Option<f64>,
-) -> (Header, Vec<ToolSpan>, Option<f64>) {
-    let mut header = HeaderReader::default();
-    for step in &program.read.steps {
-        header.step(step);
-    }
-    let header = header.finish(program.inch_word());
-    let span = |tool: &pathbuild_gcode::header::CuttingTool| {
+/// Returns the cutters that the header of a program states.
+fn stated_cutters(header: &Header) -> Vec<ToolSpan> {
+    let span = |tool: &CuttingTool| {
         let cutter = tool.cutter?.widths();
         Some(ToolSpan { line: tool.line, diameter: cutter.diameter, tip: cutter.into(), surface: None })
     };
-    let checked = rapids.filter(|values| values.is_level).map(|values| values.surface);
-    let surface = checked.or(given_surface).or(header.surface);
-    let cutters = header.tools.iter().filter_map(span).collect();
-    (header, cutters, surface)
+    header.tools.iter().filter_map(span).collect()
 }
 
 /// Sets the cutters with which a path is shown: the diameter that the user typed in, else those with which its rapid moves were checked, else those

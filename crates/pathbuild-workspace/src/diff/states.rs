@@ -2,7 +2,6 @@
 
 use pathbuild_diagnostic::{Number, Text};
 use pathbuild_gcode::adjust;
-use pathbuild_gcode::header::HeaderReader;
 use pathbuild_gcode::interpret::code_name;
 use pathbuild_motion::{
     Action, Change, Coolant, Corners, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem,
@@ -135,17 +134,12 @@ impl MachineStates {
     /// Returns the states of a program, with the cutters that its comments state.
     pub fn of(program: &Program) -> Self {
         let mut states = Self::of_steps(&program.read.steps);
-        let mut header = HeaderReader::default();
-        program.read.steps.iter().for_each(|step| header.step(step));
-        if program.by_definition.is_some() {
-            header.read_head_comments(&program.text);
-        }
         for (line, [x, y], height) in adjust::listed_probes(&program.text) {
             let words = probe_words([x, y], height);
             let probe = StatedWords { cut: 0, words, line };
             states.stated[StateKind::Probe as usize].get_or_insert_default().push(probe);
         }
-        let tools = header.finish(program.inch_word()).tools;
+        let tools = program.header().tools;
         let cutters = tools.iter().map(|tool| Some((tool.line, cutter_words(tool.cutter?.diameter))));
         let cutters: Option<Vec<(u32, String)>> = cutters.collect();
         if let Some(cutters) = cutters.filter(|cutters| !cutters.is_empty()) {

@@ -201,13 +201,9 @@ impl<'w> Verifier<'w> {
         verified.unwrap_or_else(|diagnostics| VerifiedProgram { diagnostics, ..VerifiedProgram::default() })
     }
 
-    /// Returns the material that a program cuts, if its cutters and its surface are known, and diagnostics of contradictory values.
-    pub fn stock(&self, program: &Program) -> (Option<Stock>, Vec<Diagnostic>) {
-        let mut header = HeaderReader::default();
-        program.read.steps.iter().for_each(|step| header.step(step));
-        let header = header.finish(program.inch_word());
-        let sources = Sources::new(self, program, &header);
-        (sources.stock().cloned(), sources.disagreements())
+    /// Returns the material that a program cuts, if its cutters and its surface are known.
+    pub fn stock(&self, program: &Program, header: &Header) -> Option<Stock> {
+        Sources::new(self, program, header).stock().cloned()
     }
 
     /// Returns the words that programs of this dialect may contain.
@@ -272,10 +268,7 @@ impl<'m> AsWrittenSteps<'m> {
         }
     }
 
-    fn finish(mut self, program: &Program) -> (Header, AsWrittenFindings) {
-        if program.by_definition.is_some() {
-            self.header.read_head_comments(&program.text);
-        }
+    fn finish(self, program: &Program) -> (Header, AsWrittenFindings) {
         // PathDxf2GCode states planned lengths, and other programs may count differently.
         let has_own_statistics = program.dialect == Dialect::Native
             && Provenance::of_head(&program.text).is_some()
@@ -283,7 +276,7 @@ impl<'m> AsWrittenSteps<'m> {
         let statistics = if has_own_statistics { self.stated.finish() } else { Vec::new() };
         let travel_doubt = self.limits.as_ref().and_then(travel_doubt);
         let limits = self.limits.map(MachineRules::finish).unwrap_or_default();
-        (self.header.finish(program.inch_word()), AsWrittenFindings { statistics, limits, travel_doubt })
+        (program.finish_header(self.header), AsWrittenFindings { statistics, limits, travel_doubt })
     }
 }
 
