@@ -133,7 +133,8 @@ impl Value {
         }
     }
 
-    fn number(&self) -> Option<Number> {
+    /// Returns the number of a [`Value::Number`].
+    pub fn number(&self) -> Option<Number> {
         match self {
             Self::Number(number) => Some(*number),
             _ => None,

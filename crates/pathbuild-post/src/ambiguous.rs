@@ -14,32 +14,24 @@ fn misreading_error(problem: &Diagnostic, translation: &[u8]) -> Option<Diagnost
     let line = problem.place.line?;
     let message = problem.message;
     let found = if message == &gcode::SAME_GROUP {
-        let [first, second] = [quoted_argument(problem, "first")?, quoted_argument(problem, "second")?];
+        let [first, second] = [problem.quoted("first")?, problem.quoted("second")?];
         if !is_exclusive(first, second) {
             return None;
         }
         Diagnostic::new(&posts::WORDS_EXCLUDE).quoting("first", first).quoting("second", second)
     } else if message == &gcode::LETTER_TWICE {
-        let letter = problem.arguments.iter().find(|(name, _)| *name == "letter")?.1.clone();
-        Diagnostic::new(&posts::LETTER_REPEATED).with("letter", letter)
+        Diagnostic::new(&posts::LETTER_REPEATED).with("letter", problem.argument("letter")?.clone())
     } else if message == &gcode::UNUSED {
         let index = usize::try_from(line).ok()?.checked_sub(1)?;
         let words = translation.split(|byte| *byte == b'\n').nth(index)?;
         let system = words.split(|byte| *byte == b' ').find(|word| is_system(word))?;
-        let is_p = problem.arguments.contains(&("word", Value::from('P')));
+        let is_p = problem.argument("word") == Some(&Value::from('P'));
         let system = String::from_utf8_lossy(system);
         is_p.then(|| Diagnostic::new(&posts::SYSTEM_WITH_P).quoting("word", system))?
     } else {
         return None;
     };
     Some(found.at_line(line, None))
-}
-
-fn quoted_argument<'d>(problem: &'d Diagnostic, name: &str) -> Option<&'d str> {
-    problem.arguments.iter().find(|(known, _)| *known == name).and_then(|(_, value)| match value {
-        Value::Quoted(text) => Some(&**text),
-        _ => None,
-    })
 }
 
 /// Whether two words of a group contradict each other on every control. Some pairs do not: G80 may accompany a motion, some controls

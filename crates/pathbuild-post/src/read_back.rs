@@ -304,8 +304,8 @@ fn moves_in_plane(moves: &[(u32, Move)]) -> Vec<(u32, Move)> {
 fn unused_words(problems: &[Diagnostic]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for problem in problems.iter().filter(|problem| problem.message == &gcode::UNUSED) {
-        let Some((_, letter)) = problem.arguments.iter().find(|(name, _)| *name == "word") else { continue };
-        let is_told = doubts.iter().any(|doubt| doubt.arguments.iter().any(|(_, told)| told == letter));
+        let Some(letter) = problem.argument("word") else { continue };
+        let is_told = doubts.iter().any(|doubt| doubt.argument("word") == Some(letter));
         if !is_told {
             let doubt = Diagnostic::new(&posts::WORD_NOT_FOLLOWED).with("word", letter.clone());
             doubts.push(doubt.at_line(problem.place.line, None));
@@ -407,7 +407,7 @@ pub(super) fn in_output(mut problem: Diagnostic, output: &[u8], origins: &[LineO
     {
         problem.text = Some(TextFault::new(&line, 0..line.len()));
     }
-    if !has_line_in_message(&problem) {
+    if problem.argument("line").is_none() {
         let arguments = vec![("line", u64::from(number).into())];
         problem.notes.push(Note { message: &posts::IN_OUTPUT, arguments });
     }
@@ -425,10 +425,6 @@ pub(super) fn line_of(output: &[u8], number: u32) -> Option<Cow<'_, str>> {
     let index = usize::try_from(number).ok()?.checked_sub(1)?;
     let line = output.split(|byte| *byte == b'\n').nth(index)?;
     Some(String::from_utf8_lossy(line.trim_ascii_end()))
-}
-
-fn has_line_in_message(problem: &Diagnostic) -> bool {
-    problem.arguments.iter().any(|(name, _)| *name == "line")
 }
 
 /// Returns a warning about the first probing move that goes on if the probe touches nothing. Probes of jobs stop with an error.

@@ -409,10 +409,7 @@ const HEADER_TEXT: &str = "\
 /// part or in a clamp, the way beyond the machine's travel, the lost part of a support bar, the material that remains at a part, or the excess over
 /// the length of the cutting edges. `None` for other findings.
 fn depth(diagnostic: &Diagnostic) -> Option<f64> {
-    let number = |name| match diagnostic.arguments.iter().find(|(key, _)| *key == name) {
-        Some((_, Value::Number(number))) => Some(number.0),
-        _ => None,
-    };
+    let number = |name| Some(diagnostic.argument(name)?.number()?.0);
     let depth = match diagnostic.code() {
         Code::RapidInMaterial
         | Code::RapidPlunge

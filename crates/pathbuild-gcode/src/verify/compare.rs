@@ -130,40 +130,31 @@ impl Difference {
             (Some(_), None) => Diagnostic::new(&say::MOVES_TOO_MANY).with("line", 0_u64),
             (None, None) => Diagnostic::new(&say::SHAPES_DIFFER).with("line", 0_u64),
         };
-        match self.found {
-            Some((line, _)) => diagnostic.at_line(line, None),
-            None => diagnostic,
-        }
+        diagnostic.at_line(self.found.map(|(line, _)| line), None)
     }
-}
 
-impl Difference {
     /// Converts the difference to a diagnostic for a comparison with a drawing, whose moves have no lines.
     pub(super) fn diagnostic_against_drawing(&self) -> Diagnostic {
-        let drawn = |message: &'static Message| Diagnostic::new(message);
         let diagnostic = match (&self.found, &self.expected) {
             (Some((_, found)), Some((_, expected))) => match self.kind {
-                DifferenceKind::Place => drawn(&say::DRAWN_ELSEWHERE)
+                DifferenceKind::Place => Diagnostic::new(&say::DRAWN_ELSEWHERE)
                     .quoting("found", place(&found.to))
                     .quoting("expected", place(&expected.to)),
-                DifferenceKind::Shape => drawn(&say::DRAWN_OTHERWISE),
-                DifferenceKind::Pace => drawn(&say::DRAWN_AT_ANOTHER_PACE)
+                DifferenceKind::Shape => Diagnostic::new(&say::DRAWN_OTHERWISE),
+                DifferenceKind::Pace => Diagnostic::new(&say::DRAWN_AT_ANOTHER_PACE)
                     .with("found", found.pace.word())
                     .with("expected", expected.pace.word()),
-                DifferenceKind::Feed => drawn(&say::DRAWN_WITH_ANOTHER_FEED)
+                DifferenceKind::Feed => Diagnostic::new(&say::DRAWN_WITH_ANOTHER_FEED)
                     .with("found", found.pace.feed().unwrap_or(0.0))
                     .with("expected", expected.pace.feed().unwrap_or(0.0)),
             },
             (None, Some((_, expected))) => {
-                drawn(&say::DRAWN_FURTHER).quoting("expected", place(&expected.to))
+                Diagnostic::new(&say::DRAWN_FURTHER).quoting("expected", place(&expected.to))
             }
-            (Some((_, found)), None) => drawn(&say::NOT_DRAWN).quoting("found", place(&found.to)),
-            (None, None) => drawn(&say::DRAWN_OTHERWISE),
+            (Some((_, found)), None) => Diagnostic::new(&say::NOT_DRAWN).quoting("found", place(&found.to)),
+            (None, None) => Diagnostic::new(&say::DRAWN_OTHERWISE),
         };
-        match self.found {
-            Some((line, _)) => diagnostic.at_line(line, None),
-            None => diagnostic,
-        }
+        diagnostic.at_line(self.found.map(|(line, _)| line), None)
     }
 }
 
