@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 
 use pathbuild_diagnostic::messages::{drawing, paths};
 use pathbuild_diagnostic::{Code, Diagnostic, Message, Note, Number, Point, Value};
-use pathbuild_dxf::{Drawing, Entity, Geometry};
+use pathbuild_dxf::{Drawing, Entity, Geometry, Point3};
 use pathbuild_path::approx::{coincide, near};
 use pathbuild_path::{
     Arc, Curve, END_RADIUS, Language, Letter, Line, LineType, ParameterTexts, PathName, START_RADIUS,
@@ -93,13 +93,10 @@ impl<'a> LayerEnds<'a> {
 
     /// Adds to PB519 the layer with the most similar name.
     pub(super) fn with_near_layer(&self, mut problem: Diagnostic) -> Diagnostic {
-        let name = problem.arguments.iter().find_map(|(name, value)| match value {
-            Value::Quoted(text) if *name == "name" => Some(text.clone()),
-            _ => None,
-        });
-        if let Some(name) = name.filter(|_| problem.code() == Code::PromisedPath) {
+        if problem.code() == Code::PromisedPath {
             let layers = self.all_layers().drawing.layers.iter().map(|layer| &*layer.name);
-            problem.notes.extend(near_layer(&name, layers));
+            let near = problem.quoted("name").and_then(|name| near_layer(name, layers));
+            problem.notes.extend(near);
         }
         problem
     }
@@ -269,10 +266,7 @@ impl AllLayers {
 
     /// Returns the entities with bounding boxes within a distance of a point, in file order.
     fn near(&self, point: Xy, distance: f64) -> impl Iterator<Item = (&str, &Entity)> {
-        self.touching(AABB::from_corners(
-            [point.x - distance, point.y - distance],
-            [point.x + distance, point.y + distance],
-        ))
+        self.touching(square(point, distance))
     }
 
     fn touching(&self, searched: AABB<[f64; 2]>) -> impl Iterator<Item = (&str, &Entity)> {
@@ -284,8 +278,7 @@ impl AllLayers {
 
     /// Returns the texts with bounding boxes within a distance of a point, each with its layer and its circle.
     fn texts_near(&self, point: Xy, distance: f64) -> impl Iterator<Item = (&str, TextCircle, &str)> {
-        let corner = |side: f64| [point.x + side * distance, point.y + side * distance];
-        self.texts_in(AABB::from_corners(corner(-1.0), corner(1.0)))
+        self.texts_in(square(point, distance))
     }
 
     fn texts_in(&self, searched: AABB<[f64; 2]>) -> impl Iterator<Item = (&str, TextCircle, &str)> {
@@ -315,15 +308,12 @@ fn is_phantom_circle(language: &Language, entity: &Entity, radius: f64) -> bool 
 
 fn centre_of(geometry: &Geometry) -> Option<Xy> {
     let Geometry::Circle(circle) = geometry else { return None };
-    Some(Xy::new(circle.centre.x, circle.centre.y))
+    Some(xy(&circle.centre))
 }
 
 /// Returns the distance in mm that a note gives.
 fn distance_of(note: &Note) -> Option<f64> {
-    match note.argument("distance")? {
-        Value::Number(Number(distance)) => Some(*distance),
-        _ => None,
-    }
+    Some(note.argument("distance")?.number()?.0)
 }
 
 /// Radii of the start and the end marker in mm.
@@ -333,7 +323,6 @@ const END_MARKER: usize = 1;
 
 /// Returns the distance of an element from the circle of a text; `None` for texts.
 fn distance_to_text(text: &TextCircle, geometry: &Geometry) -> Option<f64> {
-    let xy = |point: &pathbuild_dxf::Point3| Xy::new(point.x, point.y);
     Some(match geometry {
         Geometry::Line(line) => {
             text.gap_to(&Curve::Line(Line { start: xy(&line.start), end: xy(&line.end) }))
@@ -350,26 +339,25 @@ fn distance_to_text(text: &TextCircle, geometry: &Geometry) -> Option<f64> {
     })
 }
 
+fn xy(point: &Point3) -> Xy {
+    Xy::new(point.x, point.y)
+}
+
+/// Returns the square around a point, with sides `reach` mm away from the point.
+fn square(point: Xy, reach: f64) -> AABB<[f64; 2]> {
+    AABB::from_corners([point.x - reach, point.y - reach], [point.x + reach, point.y + reach])
+}
+
 /// Returns the bounding box of an entity; an arc and a text get that of their whole circle.
 fn box_of(geometry: &Geometry) -> Rectangle<[f64; 2]> {
-    let around = |centre: &pathbuild_dxf::Point3, radius: f64| {
-        Rectangle::from_corners(
-            [centre.x - radius, centre.y - radius],
-            [centre.x + radius, centre.y + radius],
-        )
-    };
-    let around_text = |TextCircle { centre, radius }: TextCircle| {
-        Rectangle::from_corners(
-            [centre.x - radius, centre.y - radius],
-            [centre.x + radius, centre.y + radius],
-        )
-    };
+    let around = |centre: Xy, radius: f64| Rectangle::from_aabb(square(centre, radius));
+    let around_text = |TextCircle { centre, radius }: TextCircle| around(centre, radius);
     match geometry {
         Geometry::Line(line) => {
             Rectangle::from_corners([line.start.x, line.start.y], [line.end.x, line.end.y])
         }
-        Geometry::Arc(arc) => around(&arc.centre, arc.radius),
-        Geometry::Circle(circle) => around(&circle.centre, circle.radius),
+        Geometry::Arc(arc) => around(xy(&arc.centre), arc.radius),
+        Geometry::Circle(circle) => around(xy(&circle.centre), circle.radius),
         Geometry::Text(text) => around_text(TextCircle::of_text(text)),
         Geometry::MText(text) => around_text(TextCircle::of_mtext(text)),
     }
@@ -377,9 +365,9 @@ fn box_of(geometry: &Geometry) -> Rectangle<[f64; 2]> {
 
 fn ends_of(geometry: &Geometry) -> Option<[Xy; 2]> {
     match geometry {
-        Geometry::Line(line) => Some([Xy::new(line.start.x, line.start.y), Xy::new(line.end.x, line.end.y)]),
+        Geometry::Line(line) => Some([xy(&line.start), xy(&line.end)]),
         Geometry::Arc(arc) => {
-            let centre = Xy::new(arc.centre.x, arc.centre.y);
+            let centre = xy(&arc.centre);
             Some([arc.start_angle, arc.end_angle].map(|angle| on_circle(centre, arc.radius, angle)))
         }
         Geometry::Circle(_) | Geometry::Text(_) | Geometry::MText(_) => None,

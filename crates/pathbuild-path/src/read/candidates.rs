@@ -9,6 +9,8 @@ use rstar::{AABB, Envelope, RTree};
 use crate::approx::{above, near};
 use crate::element::Shape;
 use crate::geometry::{Curve, Xy};
+use crate::keep_out::widened_box;
+use crate::part::square;
 use crate::read::entities::TextCircle;
 
 /// An element that a text may belong to.
@@ -352,7 +354,7 @@ impl CandidateIndex {
 
     /// Calls `take` for each candidate with a box that touches a circle, in any order.
     fn each_touched(&self, circle: &TextCircle, mut take: impl FnMut(usize)) {
-        let searched = square(circle.centre, circle.radius);
+        let searched = square(circle.centre, circle.radius + BOX_MARGIN);
         match self {
             Self::List(boxes) => {
                 let touched = (0..).zip(boxes).filter(|(_, box_)| box_.intersects(&searched));
@@ -378,20 +380,12 @@ impl CandidateIndex {
     }
 }
 
-/// Returns the bounding box of a shape, or of the whole circle for an arc.
+/// Returns the bounding box of a shape, or of the whole circle for an arc, widened by `BOX_MARGIN`.
 fn box_around(shape: &Shape) -> AABB<[f64; 2]> {
     match shape {
-        Shape::Circle { centre, radius } => square(*centre, *radius),
-        Shape::Curve(Curve::Arc(arc)) => square(arc.centre, arc.radius),
-        Shape::Curve(Curve::Line(line)) => {
-            AABB::from_corners([line.start.x, line.start.y], [line.end.x, line.end.y])
-        }
+        Shape::Circle { centre, radius } => square(*centre, radius + BOX_MARGIN),
+        Shape::Curve(curve) => widened_box(curve, BOX_MARGIN),
     }
-}
-
-fn square(centre: Xy, half: f64) -> AABB<[f64; 2]> {
-    let half = half + BOX_MARGIN;
-    AABB::from_corners([centre.x - half, centre.y - half], [centre.x + half, centre.y + half])
 }
 
 #[cfg(test)]

@@ -2,20 +2,20 @@
 
 use std::collections::HashSet;
 
-use nalgebra::Vector2;
 use pathbuild_diagnostic::messages::{configuration, drawing as messages};
 use pathbuild_diagnostic::{Diagnostic, EntityKind, Place, Point, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry, Layer, Point3};
-use rstar::RTree;
 use rstar::primitives::GeomWithData;
+use rstar::{AABB, Envelope, RTree};
 use smol_str::SmolStr;
 
 use crate::approx::{above, coincide, near};
 use crate::element::diagnostic_point;
 use crate::geometry::{Arc, Curve, Line, Xy};
-use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};
+use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove, widened_box};
 use crate::language::Language;
 use crate::letter::Letter;
+use crate::part::square;
 use crate::read::entities::{AnyText, TextCircle, at_entity, curve, xy};
 use crate::text::{
     ParameterText, ParameterTexts, ValueKind, is_special_space, with_visible_spaces, without_percent_codes,
@@ -232,7 +232,7 @@ impl ClampReader<'_> {
     }
 
     /// Returns the closed outlines, and the boxes around the open ones. Reports PB117 for open outlines and for branches.
-    fn outlines(&mut self, entities: &[usize]) -> (Vec<ClosedOutline>, Vec<[Xy; 2]>) {
+    fn outlines(&mut self, entities: &[usize]) -> (Vec<ClosedOutline>, Vec<AABB<[f64; 2]>>) {
         let (mut outlines, mut parts, mut broken) = (Vec::new(), Vec::new(), Vec::new());
         for number in entities {
             let Entity { group, geometry, .. } = &self.drawing.entities[*number];
@@ -252,7 +252,12 @@ impl ClampReader<'_> {
                     outline: ring.iter().map(|part| part.curve).collect(),
                 }),
                 Ring::Open { part, curves } => {
-                    broken.extend(box_around(&curves));
+                    broken.extend(
+                        curves
+                            .iter()
+                            .map(|curve| widened_box(curve, 0.0))
+                            .reduce(|one, other| one.merged(&other)),
+                    );
                     if let ([first, ..], [.., last]) = (&curves[..], &curves[..]) {
                         self.report_open(&part, last.end(), first.start());
                     }
@@ -285,7 +290,7 @@ impl ClampReader<'_> {
         &mut self,
         entities: &[usize],
         outlines: &[ClosedOutline],
-        broken: &[[Xy; 2]],
+        broken: &[AABB<[f64; 2]>],
     ) -> Vec<Option<f64>> {
         let map = flat_map(outlines.iter().map(|closed| &*closed.outline));
         let mut texts = vec![OutlineTexts::default(); outlines.len()];
@@ -293,11 +298,7 @@ impl ClampReader<'_> {
             let Some(text) = AnyText::of(&self.drawing.entities[*number].geometry) else { continue };
             let TextCircle { centre, radius } = text.circle();
             let over = at_point(&map, centre, radius);
-            let is_over = |[low, high]: &[Xy; 2]| {
-                (low.x - radius..=high.x + radius).contains(&centre.x)
-                    && (low.y - radius..=high.y + radius).contains(&centre.y)
-            };
-            if over.is_empty() && !broken.iter().any(is_over) {
+            if over.is_empty() && !broken.iter().any(|extent| extent.intersects(&square(centre, radius))) {
                 let problem = Diagnostic::new(&messages::TEXT_OUTSIDE_CLAMPS).quoting("text", one_line(text));
                 let problem = self.at(*number, centre, problem);
                 self.report(problem);
@@ -362,18 +363,6 @@ impl<'d> OutlineTexts<'d> {
             self.first.push((number, text));
         }
     }
-}
-
-/// Returns the corners of the box around curves.
-fn box_around(curves: &[Curve]) -> Option<[Xy; 2]> {
-    let boxes = curves.iter().map(|curve| match curve {
-        Curve::Line(line) => [line.start.inf(&line.end), line.start.sup(&line.end)],
-        Curve::Arc(arc) => {
-            let reach = Vector2::repeat(arc.radius);
-            [arc.centre - reach, arc.centre + reach]
-        }
-    });
-    boxes.reduce(|[low, high], [other_low, other_high]| [low.inf(&other_low), high.sup(&other_high)])
 }
 
 /// Returns the height in a text of the form `Z25`.
