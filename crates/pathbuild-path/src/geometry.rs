@@ -93,12 +93,25 @@ impl Curve {
         }
     }
 
+    /// Returns the point at a distance in mm along the curve.
+    pub(crate) fn at(&self, along: f64) -> Xy {
+        match self {
+            Self::Line(Line { start, end }) => {
+                let length = (end - start).norm();
+                if length == 0.0 { *start } else { start + (end - start) * (along / length) }
+            }
+            Self::Arc(_) => self.section(0.0, along).end(),
+        }
+    }
+
     /// Returns the point halfway along the curve.
     pub(crate) fn middle(&self) -> Xy {
-        match self {
-            Self::Line(line) => nalgebra::center(&line.start, &line.end),
-            Self::Arc(arc) => self.section(0.0, arc.length() / 2.0).end(),
-        }
+        self.at(self.length() / 2.0)
+    }
+
+    /// Returns four points of the curve, a quarter of its length apart, beginning at its start.
+    pub(crate) fn quarters(&self) -> [Xy; 4] {
+        [0.0, 0.25, 0.5, 0.75].map(|share| self.at(share * self.length()))
     }
 
     /// Returns a key that is equal for curves that lie on each other: both ends, in order of their coordinates, and the point halfway.

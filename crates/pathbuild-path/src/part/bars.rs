@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity};
 
 use super::boxes::BoxIndex;
 use super::cuts::{CutIndex, PathCuts, StandingBar};
-use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, at as at_along, join_stretches};
+use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, join_stretches};
 use super::loose::MAX_WEAK_BRIDGE;
 use crate::approx;
 use crate::element::diagnostic_point;
@@ -133,7 +133,7 @@ fn meeting_point(one: &Curve, other: &Curve) -> Option<Xy> {
 /// Returns the midpoint of a bar, or the first corner round which it stands.
 fn middle_of(sections: &[Curve]) -> Xy {
     let corner = sections.windows(2).find_map(|pair| meeting_point(&pair[0], &pair[1]));
-    let middle = || sections.first().map(|only| at_along(only, only.length() / 2.0));
+    let middle = || sections.first().map(|only| only.middle());
     corner.or_else(middle).unwrap_or_else(Xy::origin)
 }
 

@@ -10,7 +10,7 @@ use super::boxes::may_be_near;
 use super::cuts::{CutIndex, IndexedCut, PathCuts};
 use super::enclosure::Enclosure;
 use super::gouge::{ClassifiedCut, ClassifiedCuts, Gouge, classify_cuts, gouges};
-use super::intervals::{at as at_along, offset_curve};
+use super::intervals::offset_curve;
 use super::leftover::{Beside, LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
 use super::prepared::{PreparedPart, Side};
 use super::{Part, PartRing, PartSettings};
@@ -170,7 +170,7 @@ impl<'s> PartCheck<'s> {
         let paths = self.cuts.paths.iter().filter(|path| self.part.part.may_belong_to(&path.name));
         let bars = paths.flat_map(|path| path.bars.iter().map(|bar| (bar.foot, path.radius)));
         bars.filter(|(bar, radius)| is_near(drawn, bar, 2.0 * radius)).any(|(bar, radius)| {
-            let middle = at_along(&bar, bar.length() / 2.0);
+            let middle = bar.middle();
             let Side::Openings(around) = self.part.side(middle) else { return false };
             let reach = radius + self.settings.tolerance;
             !around.contains(&ring)
@@ -195,7 +195,7 @@ impl<'s> PartCheck<'s> {
         let IndexedCut { path, radius, through, .. } = &self.cuts.cuts[number];
         // The right of an opening's curves is inside it.
         let Some((through, away)) = through.zip(offset_curve(curve, -radius)) else { return false };
-        let at = at_along(&away, share * away.length());
+        let at = away.at(share * away.length());
         let Side::Openings(around) = self.part.side(at) else { return false };
         let rings = &self.part.part.rings;
         let error = through.distance_to(at);

@@ -42,7 +42,7 @@ pub(crate) fn add_stretches_within(along: &Curve, other: &Curve, reach: f64, fou
     }
     for cut in cuts.sorted(length).windows(2) {
         let (from, to) = (cut[0], cut[1]);
-        if to > from && other.distance_to(at(along, f64::midpoint(from, to))) < reach {
+        if to > from && other.distance_to(along.at(f64::midpoint(from, to))) < reach {
             found.push((from, to));
         }
     }
@@ -74,17 +74,6 @@ impl BoundaryCandidates {
         }
         self.places[..kept].sort_unstable_by(f64::total_cmp);
         &self.places[..kept]
-    }
-}
-
-/// Returns the point of a curve at a distance in mm along it.
-pub(crate) fn at(curve: &Curve, along: f64) -> Xy {
-    match curve {
-        Curve::Line(Line { start, end }) => {
-            let length = (end - start).norm();
-            if length == 0.0 { *start } else { start + (end - start) * (along / length) }
-        }
-        Curve::Arc(_) => curve.section(0.0, along).end(),
     }
 }
 
@@ -294,7 +283,7 @@ mod tests {
             let length = along.length();
             for sample in 1..100 {
                 let place = length * f64::from(sample) / 100.0;
-                let distance = other.distance_to(at(&along, place));
+                let distance = other.distance_to(along.at(place));
                 let is_found = found.iter().any(|(from, to)| *from < place && place < *to);
                 let is_clear = (distance - reach).abs() > 1e-9;
                 assert!(!is_clear || is_found == (distance < reach), "{round}: {along:?} {other:?} {place}");

@@ -10,8 +10,8 @@ use super::boxes::square;
 use super::cuts::{CutIndex, IndexedCut, IndexedSweep, StandingBar, THROUGH_HEIGHT};
 use super::gouge::{ClassifiedCut, ClassifiedCuts};
 use super::intervals::{
-    JOIN_GAP, NEIGHBOUR_JOIN_GAP, Stretch, add_stretches_within, at as at_along, difference, gaps_between,
-    intersection, join_ends, join_stretches, offset_curve,
+    JOIN_GAP, NEIGHBOUR_JOIN_GAP, Stretch, add_stretches_within, difference, gaps_between, intersection,
+    join_ends, join_stretches, offset_curve,
 };
 use super::loose::is_surrounded;
 use super::prepared::PreparedPart;
@@ -114,7 +114,6 @@ struct RingStretches {
     /// Stretches along which only a sweep runs, each with the number of the sweep.
     swept: Vec<(Stretch, usize)>,
     unreachable: Vec<Stretch>,
-    length: f64,
 }
 
 impl RingStretches {
@@ -138,8 +137,17 @@ enum Agreement {
 /// A curve of a ring with the cuts near it.
 struct RingCurve<'r> {
     ring: usize,
+    /// Distance in mm along the ring at which the curve begins.
+    start: f64,
     curve: &'r Curve,
     near: Vec<usize>,
+}
+
+impl RingCurve<'_> {
+    /// Converts stretches of the curve to stretches of its ring.
+    fn on_ring(&self, stretches: Vec<Stretch>) -> impl Iterator<Item = Stretch> {
+        shifted(stretches, self.start)
+    }
 }
 
 impl<'s> LeftoverSearch<'s> {
@@ -171,9 +179,7 @@ impl<'s> LeftoverSearch<'s> {
             let described =
                 stretches.left.iter().filter_map(|stretch| self.leftover(ring, *stretch, &stretches));
             found.stretches.extend(described);
-            let swept =
-                stretches.swept.iter().map(|swept| self.swept_leftover(ring, *swept, stretches.length));
-            found.stretches.extend(swept);
+            found.stretches.extend(stretches.swept.iter().map(|swept| self.swept_leftover(ring, *swept)));
             self.add_unreachable(ring, &stretches, &mut longest, &mut found);
         }
         found
@@ -192,20 +198,27 @@ impl<'s> LeftoverSearch<'s> {
         let is_exceeded = judged.iter().any(|(agreement, ..)| *agreement == Agreement::Exceeded);
         let (agreement, ring, mut stretches) = judged.into_iter().next()?;
         if is_exceeded && agreement == Agreement::Uncut {
-            stretches.left = join_ends(std::mem::take(&mut stretches.never), stretches.length);
+            stretches.left = join_ends(std::mem::take(&mut stretches.never), self.part.ring_length(ring));
         }
         Some((ring, stretches))
     }
 
+    fn ring_curves(&self, ring: usize) -> impl Iterator<Item = RingCurve<'s>> {
+        self.part.ring_curves(ring).map(move |(start, curve)| {
+            let near = self.cuts.near(widened_box(curve, 0.0)).collect();
+            RingCurve { ring, start, curve, near }
+        })
+    }
+
     /// Returns how far the cuts follow a ring of a nest of several rings.
     fn agreement(&self, ring: usize, stretches: &RingStretches) -> Agreement {
-        let exceeded = self.part.part.rings[ring].curves.iter().map(|curve| {
-            let curve = RingCurve { ring, curve, near: self.cuts.near(widened_box(curve, 0.0)).collect() };
-            total_length(self.stretches_within_cuts(&curve, -self.tolerance).into_iter())
-        });
-        if 2.0 * exceeded.sum::<f64>() > stretches.length {
+        let length = self.part.ring_length(ring);
+        let exceeded = self
+            .ring_curves(ring)
+            .map(|curve| total_length(self.stretches_within_cuts(&curve, -self.tolerance).into_iter()));
+        if 2.0 * exceeded.sum::<f64>() > length {
             Agreement::Exceeded
-        } else if total_length(stretches.never.iter().copied()) > stretches.length - MIN_REPORTED_LENGTH {
+        } else if total_length(stretches.never.iter().copied()) > length - MIN_REPORTED_LENGTH {
             Agreement::Uncut
         } else {
             Agreement::Followed
@@ -217,15 +230,13 @@ impl<'s> LeftoverSearch<'s> {
         let mut all = RingStretches::default();
         let mut is_near = false;
         let mut uncut = Vec::new();
-        for curve in &self.part.part.rings[ring].curves {
-            let curve = RingCurve { ring, curve, near: self.cuts.near(widened_box(curve, 0.0)).collect() };
+        for curve in self.ring_curves(ring) {
             is_near = is_near || self.cuts_beside(&curve).next().is_some();
-            let length = curve.curve.length();
-            let gaps = gaps_between(&self.stretches_within_cuts(&curve, self.tolerance), (0.0, length));
+            let within = self.stretches_within_cuts(&curve, self.tolerance);
+            let gaps = gaps_between(&within, (0.0, curve.curve.length()));
             if !gaps.is_empty() {
                 self.add_gaps(&curve, &gaps, &mut all, &mut uncut);
             }
-            all.length += length;
         }
         all.never = join_stretches(all.never, NEIGHBOUR_JOIN_GAP);
         if ring == 0 && is_near {
@@ -235,17 +246,18 @@ impl<'s> LeftoverSearch<'s> {
             self.add_swept_stretches(ring, &mut all, &mut uncut);
         }
         let is_long = |(from, to): &Stretch| to - from >= MIN_REPORTED_LENGTH;
-        all.left = join_ends(join_stretches(uncut, NEIGHBOUR_JOIN_GAP), all.length)
-            .into_iter()
-            .filter(is_long)
-            .collect();
-        all.unreachable = join_ends(join_stretches(all.unreachable, NEIGHBOUR_JOIN_GAP), all.length);
-        all.unreachable.retain(is_long);
+        let long = |stretches| {
+            let mut joined =
+                join_ends(join_stretches(stretches, NEIGHBOUR_JOIN_GAP), self.part.ring_length(ring));
+            joined.retain(is_long);
+            joined
+        };
+        (all.left, all.unreachable) = (long(uncut), long(all.unreachable));
         is_near.then_some(all)
     }
 
     /// Sorts the gaps that through cuts leave on a curve, except those beside support bars: gaps near a cut go to `uncut`, or to `all.unreachable`
-    /// where the cutter does not fit; gaps that no cut comes near go to `all.never`. The curve begins at `all.length` along the ring.
+    /// where the cutter does not fit; gaps that no cut comes near go to `all.never`.
     fn add_gaps(
         &self,
         curve: &RingCurve<'_>,
@@ -253,22 +265,19 @@ impl<'s> LeftoverSearch<'s> {
         all: &mut RingStretches,
         uncut: &mut Vec<Stretch>,
     ) {
-        let start = all.length;
-        let shifted =
-            |stretches: Vec<Stretch>| stretches.into_iter().map(move |(from, to)| (from + start, to + start));
         let gaps = difference(gaps, &self.beside_bars(curve));
         if gaps.is_empty() {
             return;
         }
         let close = self.close_stretches(curve);
         let open = intersection(&close, &gaps);
-        all.never.extend(shifted(difference(&gaps, &close)));
+        all.never.extend(curve.on_ring(difference(&gaps, &close)));
         if open.is_empty() {
             return;
         }
         let corners = self.unreachable_stretches(curve);
-        uncut.extend(shifted(difference(&open, &corners)));
-        all.unreachable.extend(shifted(intersection(&open, &corners)));
+        uncut.extend(curve.on_ring(difference(&open, &corners)));
+        all.unreachable.extend(curve.on_ring(intersection(&open, &corners)));
     }
 
     /// Returns the cuts near a curve that run beside the part, along the curve's ring.
@@ -323,19 +332,13 @@ impl<'s> LeftoverSearch<'s> {
         let mut notches = difference(&long, &self.rim_near_bars());
         notches.retain(is_notch);
         all.never = difference(&all.never, &notches);
-        let mut start = 0.0;
-        for curve in &self.part.part.rings[0].curves {
-            let length = curve.length();
-            let here = intersection(&notches, &[(start, start + length)]);
+        for curve in self.ring_curves(0) {
+            let here = intersection(&notches, &[(curve.start, curve.start + curve.curve.length())]);
             if !here.is_empty() {
-                let curve =
-                    RingCurve { ring: 0, curve, near: self.cuts.near(widened_box(curve, 0.0)).collect() };
-                let corners = self.unreachable_stretches(&curve).into_iter();
-                let corners: Vec<Stretch> = corners.map(|(from, to)| (from + start, to + start)).collect();
+                let corners: Vec<Stretch> = curve.on_ring(self.unreachable_stretches(&curve)).collect();
                 uncut.extend(difference(&here, &corners));
                 all.unreachable.extend(intersection(&here, &corners));
             }
-            start += length;
         }
     }
 
@@ -372,14 +375,11 @@ impl<'s> LeftoverSearch<'s> {
     /// beside them.
     fn stretches_beside_sweeps(&self, ring: usize) -> BTreeMap<usize, Vec<Stretch>> {
         let mut found: BTreeMap<usize, Vec<Stretch>> = BTreeMap::new();
-        let mut start = 0.0;
-        for curve in &self.part.part.rings[ring].curves {
+        for (start, curve) in self.part.ring_curves(ring) {
             for number in self.cuts.sweeps_beside(curve, self.tolerance) {
-                let here = self.stretches_beside_sweep(curve, number).into_iter();
-                let here = here.map(|(from, to)| (from + start, to + start));
+                let here = shifted(self.stretches_beside_sweep(curve, number), start);
                 found.entry(number).or_default().extend(here);
             }
-            start += curve.length();
         }
         for (number, stretches) in &mut found {
             *stretches = join_stretches(std::mem::take(stretches), NEIGHBOUR_JOIN_GAP);
@@ -403,14 +403,12 @@ impl<'s> LeftoverSearch<'s> {
     /// Returns the stretches of the rim within O of support bars.
     fn rim_near_bars(&self) -> Vec<Stretch> {
         let mut found = Vec::new();
-        let mut start = 0.0;
-        for curve in &self.part.part.rings[0].curves {
+        for (start, curve) in self.part.ring_curves(0) {
             let mut here = Vec::new();
             for (bar, radius) in self.bars() {
                 add_stretches_within(curve, &bar.foot, 2.0 * radius, &mut here);
             }
-            found.extend(here.into_iter().map(|(from, to)| (from + start, to + start)));
-            start += curve.length();
+            found.extend(shifted(here, start));
         }
         join_stretches(found, NEIGHBOUR_JOIN_GAP)
     }
@@ -484,9 +482,9 @@ impl<'s> LeftoverSearch<'s> {
     /// Describes the material left along a stretch of a ring. `None` for the rounded corner where a cut ends at the edge of the plate: beyond it, the
     /// edge of the plate is the edge of the part.
     fn leftover(&self, ring: usize, (from, to): Stretch, stretches: &RingStretches) -> Option<Leftover> {
-        let whole = stretches.length;
-        let place = |along: f64| self.ring_point(ring, along, whole);
-        let nearest = self.cut_beside(ring, f64::midpoint(from, to), whole)?;
+        let whole = self.part.ring_length(ring);
+        let place = |along: f64| self.part.ring_point(ring, along);
+        let nearest = self.cut_beside(ring, f64::midpoint(from, to))?;
         let is_end = |end: f64| {
             let wrapped = [end - whole, end, end + whole];
             let touches = |at: f64| wrapped.iter().any(|end| (end - at).abs() <= NEIGHBOUR_JOIN_GAP);
@@ -514,28 +512,25 @@ impl<'s> LeftoverSearch<'s> {
                 Beside::ShallowCut(nearest.cut.way.lowest())
             },
             material: LeftMaterial {
-                outline: self.ring_section(ring, (from, to), whole),
+                outline: self.part.ring_section(ring, (from, to)),
                 reach: if is_through { thickness } else { 2.0 * nearest.radius },
             },
         })
     }
 
     /// Describes a stretch of a ring along which only a sweep runs.
-    fn swept_leftover(&self, ring: usize, ((from, to), number): (Stretch, usize), whole: f64) -> Leftover {
+    fn swept_leftover(&self, ring: usize, ((from, to), number): (Stretch, usize)) -> Leftover {
         let IndexedSweep { path, sweep, radius } = &self.cuts.sweeps[number];
         Leftover {
             nest: self.part.part.rings[ring].nest,
             path: *path,
             element: sweep.element,
-            from: self.ring_point(ring, from, whole),
-            to: self.ring_point(ring, to, whole),
+            from: self.part.ring_point(ring, from),
+            to: self.part.ring_point(ring, to),
             length: to - from,
             thickness: 2.0 * radius,
             beside: Beside::Sweep,
-            material: LeftMaterial {
-                outline: self.ring_section(ring, (from, to), whole),
-                reach: 2.0 * radius,
-            },
+            material: LeftMaterial { outline: self.part.ring_section(ring, (from, to)), reach: 2.0 * radius },
         }
     }
 
@@ -549,10 +544,10 @@ impl<'s> LeftoverSearch<'s> {
     ) {
         for (from, to) in &stretches.unreachable {
             let middle = f64::midpoint(*from, *to);
-            let at = self.ring_point(ring, middle, stretches.length);
-            let Some(nearest) = self.cut_beside(ring, middle, stretches.length) else { continue };
+            let at = self.part.ring_point(ring, middle);
+            let Some(nearest) = self.cut_beside(ring, middle) else { continue };
             let (path, element) = (nearest.path, nearest.cut.element);
-            found.corners.extend(self.ring_section(ring, (*from, *to), stretches.length));
+            found.corners.extend(self.part.ring_section(ring, (*from, *to)));
             let all = found.unreachable.get_or_insert(UnreachableOutline { at, length: 0.0, path, element });
             all.length += to - from;
             if to - from > *longest {
@@ -575,11 +570,11 @@ impl<'s> LeftoverSearch<'s> {
 
     /// Returns the cut that a finding at a place of a ring names: the nearest one within O, else the first one that the way straight out of the part
     /// meets, else the nearest of all.
-    fn cut_beside(&self, ring: usize, along: f64, whole: f64) -> Option<&'s IndexedCut<'s>> {
-        let at = self.ring_point(ring, along, whole);
+    fn cut_beside(&self, ring: usize, along: f64) -> Option<&'s IndexedCut<'s>> {
+        let at = self.part.ring_point(ring, along);
         let near = self.nearest_of(self.cuts.near(square(at, 0.0)).collect(), ring, at);
         let near = near.filter(|cut| cut.cut.way.curve.distance_to(at) <= 2.0 * cut.radius);
-        let near = near.or_else(|| self.first_cut_outwards(ring, along, whole));
+        let near = near.or_else(|| self.first_cut_outwards(ring, along));
         near.or_else(|| self.nearest_of((0..self.cuts.cuts.len()).collect(), ring, at))
     }
 
@@ -587,7 +582,7 @@ impl<'s> LeftoverSearch<'s> {
     /// it reaches the ring.
     fn nearest_of(&self, near: Vec<usize>, ring: usize, at: Xy) -> Option<&'s IndexedCut<'s>> {
         let point = Curve::Line(Line { start: at, end: at });
-        let curve = RingCurve { ring, curve: &point, near };
+        let curve = RingCurve { ring, start: 0.0, curve: &point, near };
         let distance = |judged: &ClassifiedCut<'_>| judged.curve.distance_to(at) - judged.cut.radius;
         let counts = |judged: &&ClassifiedCut<'_>| {
             judged.cut.through.is_some() || distance(judged) <= self.tolerance + JOIN_GAP
@@ -600,15 +595,15 @@ impl<'s> LeftoverSearch<'s> {
 
     /// Returns the first through cut on the straight line that leaves the part at a right angle to the ring. Cuts farther than O from the part are
     /// not classified; they lie outside it.
-    fn first_cut_outwards(&self, ring: usize, along: f64, whole: f64) -> Option<&'s IndexedCut<'s>> {
-        let (curve, along) = self.ring_place(ring, along, whole);
+    fn first_cut_outwards(&self, ring: usize, along: f64) -> Option<&'s IndexedCut<'s>> {
+        let (curve, along) = self.part.ring_place(ring, along);
         let is_beside =
             |number: &usize| self.judged.get(*number).map_or(ring == 0, |judged| judged.side.is_beside(ring));
         let cuts = self.cuts.cuts.iter().enumerate();
         let beside = cuts.filter(|(number, cut)| self.contours[cut.path] && is_beside(number));
         let way = |cut: &IndexedCut<'s>| Some(cut.element(self.cuts).supported.unwrap_or(cut.through?));
         let beside: Vec<_> = beside.filter_map(|(_, cut)| Some((cut, way(cut)?))).collect();
-        let at = at_along(curve, along);
+        let at = curve.at(along);
         let farthest = |(_, curve): &(&IndexedCut<'_>, Curve)| (curve.start() - at).norm() + curve.length();
         let reach = beside.iter().map(farthest).fold(0.0, f64::max);
         let out = Curve::Line(Line { start: at, end: at + outwards(curve, at)? * reach });
@@ -622,39 +617,10 @@ impl<'s> LeftoverSearch<'s> {
         });
         first.map(|(_, cut)| cut)
     }
+}
 
-    /// Returns the curves of a stretch of a ring. The stretch may begin below 0 if it runs across the ring's start.
-    fn ring_section(&self, ring: usize, (from, to): Stretch, whole: f64) -> Vec<Curve> {
-        let mut begin = -whole;
-        let curves = &self.part.part.rings[ring].curves;
-        let section = |curve: &Curve| {
-            let length = curve.length();
-            let (first, last) = ((from - begin).max(0.0), (to - begin).min(length));
-            begin += length;
-            (first < last).then(|| curve.section(first, last))
-        };
-        curves.iter().chain(curves).filter_map(section).collect()
-    }
-
-    /// Returns the point of a ring at a distance along the ring, which may be below 0 for a stretch across the ring's start.
-    fn ring_point(&self, ring: usize, along: f64, whole: f64) -> Xy {
-        let (curve, along) = self.ring_place(ring, along, whole);
-        at_along(curve, along)
-    }
-
-    /// Returns the curve of a ring at a distance along the ring, as in [`Self::ring_point`], and the distance along that curve.
-    fn ring_place(&self, ring: usize, along: f64, whole: f64) -> (&'s Curve, f64) {
-        let curves = &self.part.part.rings[ring].curves;
-        let mut along = if along < 0.0 { along + whole } else { along };
-        for curve in curves {
-            let length = curve.length();
-            if along <= length {
-                return (curve, along);
-            }
-            along -= length;
-        }
-        (&curves[0], 0.0)
-    }
+fn shifted(stretches: Vec<Stretch>, distance: f64) -> impl Iterator<Item = Stretch> {
+    stretches.into_iter().map(move |(from, to)| (from + distance, to + distance))
 }
 
 fn total_length(stretches: impl Iterator<Item = Stretch>) -> f64 {

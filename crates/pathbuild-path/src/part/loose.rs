@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use super::boxes::{BoxIndex, may_be_near, square};
 use super::cuts::StandingBar;
-use super::intervals::{at as at_along, offset_curve};
+use super::intervals::offset_curve;
 use super::prepared::PreparedPart;
 use crate::geometry::{Curve, Line, Xy};
 use crate::keep_out::widened_box;
@@ -61,12 +61,11 @@ pub(super) fn is_surrounded(part: &PreparedPart<'_>, cuts: &[(Curve, f64)]) -> b
 
 /// Returns the points on both sides of a bar where the part may begin, each with the middle of the bar.
 fn beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = (Xy, Xy)> {
-    let centre = |curve: &Curve| at_along(curve, curve.length() / 2.0);
     bar.middle.into_iter().flat_map(move |middle| {
         let aside = [radius, -radius]
             .into_iter()
             .filter_map(move |radius| offset_curve(&middle, radius * BESIDE_BAR_RADII));
-        aside.map(move |curve| (centre(&curve), centre(&middle)))
+        aside.map(move |curve| (curve.middle(), middle.middle()))
     })
 }
 
@@ -210,7 +209,7 @@ fn point_in_material(part: &PreparedPart<'_>, cuts: &[(Curve, f64)], boxes: &Box
     depths.into_iter().find_map(|depth| {
         curves.iter().take(6).find_map(|curve| {
             let inside = offset_curve(curve, -depth)?;
-            Some(inside.section(0.0, inside.length() / 2.0).end()).filter(|at| is_free(*at))
+            Some(inside.middle()).filter(|at| is_free(*at))
         })
     })
 }
@@ -233,7 +232,7 @@ fn swept_lines(curve: &Curve, radius: f64) -> Vec<SweptLine> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number from 1 up")]
     let count = (arc.degrees.to_radians() / step).ceil().max(1.0) as u32;
     let length = arc.length();
-    let place = |number: u32| at_along(curve, length * f64::from(number) / f64::from(count));
+    let place = |number: u32| curve.at(length * f64::from(number) / f64::from(count));
     (0..count)
         .map(|number| SweptLine { line: Line { start: place(number), end: place(number + 1) }, radius })
         .collect()

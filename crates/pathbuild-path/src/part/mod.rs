@@ -23,7 +23,7 @@ use crate::geometry::{Curve, Placement};
 use crate::names::{LayerPattern, PathName};
 
 pub(crate) use boxes::{BoxIndex, square};
-pub(crate) use intervals::{Stretch, add_stretches_within, at as at_along, join_stretches};
+pub(crate) use intervals::{Stretch, add_stretches_within, join_stretches};
 pub(crate) use open::OpenOutline;
 
 pub use bars::LostBar;

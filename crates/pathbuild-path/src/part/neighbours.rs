@@ -7,7 +7,6 @@ use super::boxes::widened;
 use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar};
 use super::enclosure::{Enclosure, reach};
 use super::gouge::{classify_cuts, gouges, level_for_cuts};
-use super::intervals::at as at_along;
 use super::prepared::PreparedPart;
 use super::{Part, placed_part};
 use crate::geometry::{Curve, Placement, Xy};
@@ -193,7 +192,7 @@ impl<'c> PlacedCuts<'c> {
             |at: Xy| own.part.rings[0].curves.iter().any(|curve| curve.distance_to(at) <= SAME_PART_DISTANCE);
         other.parts.iter().any(|inner| {
             let rim = placed_part(inner, &other.placement).rings.swap_remove(0).curves;
-            let samples = rim.iter().flat_map(|curve| [curve.start(), at_along(curve, curve.length() / 2.0)]);
+            let samples = rim.iter().flat_map(|curve| [curve.start(), curve.middle()]);
             samples.into_iter().all(|at| own.is_material(at) || is_on_rim(at))
         })
     }

@@ -6,7 +6,7 @@ use smol_str::SmolStr;
 
 use super::boxes::{BoxIndex, square};
 use super::cuts::{CutIndex, PathCuts};
-use super::intervals::{at as at_along, offset_curve};
+use super::intervals::offset_curve;
 use super::{DrawnParts, Part, may_belong_to};
 use crate::geometry::{Curve, Line, Xy};
 use crate::keep_out::{Outline, widened_box};
@@ -81,7 +81,7 @@ impl OpenOutline {
                 && may_belong_to(self.paths.as_ref(), &cuts.paths[cut.path].name)
                 && [cut.radius, -cut.radius].into_iter().any(|aside| {
                     let Some(beside) = offset_curve(curve, aside) else { return false };
-                    let at = at_along(&beside, share * beside.length());
+                    let at = beside.at(share * beside.length());
                     drawn.distance_to(at) < MAX_ERROR * cut.radius && !edges.are_near(at, 2.0 * cut.radius)
                 })
         })
@@ -96,9 +96,7 @@ impl OpenOutline {
     /// Whether a part lies in the outline, or across its gap.
     fn surrounds(&self, part: &Part) -> bool {
         let border = Outline::new(&[&self.curves[..], &[self.closing_line()]].concat());
-        let points =
-            |curve: &Curve| [0.0, 0.25, 0.5, 0.75].map(|share| at_along(curve, share * curve.length()));
-        part.rings[0].curves.iter().flat_map(points).any(|at| border.contains(at))
+        part.rings[0].curves.iter().flat_map(Curve::quarters).any(|at| border.contains(at))
     }
 }
 

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use rstar::{AABB, Envelope as _};
 
 use super::boxes::{BoxIndex, square};
-use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, at as at_along, join_stretches};
+use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, join_stretches};
 use super::{Part, PartRing};
 use crate::geometry::{Curve, Xy};
 use crate::keep_out::{Outline, widened_box};
@@ -22,6 +22,7 @@ pub(crate) struct PreparedPart<'p> {
 /// A ring with its outline, which is computed only when a point in the ring's box is looked up.
 struct PreparedRing {
     extent: AABB<[f64; 2]>,
+    length: f64,
     outline: OnceCell<Outline>,
 }
 
@@ -66,7 +67,11 @@ impl<'p> PreparedPart<'p> {
         let ring = |ring: &PartRing| {
             let boxes = ring.curves.iter().map(|curve| widened_box(curve, BOX_MARGIN));
             let extent = boxes.reduce(|one, other| one.merged(&other)).unwrap_or_else(AABB::new_empty);
-            PreparedRing { extent, outline: OnceCell::new() }
+            PreparedRing {
+                extent,
+                length: ring.curves.iter().map(Curve::length).sum(),
+                outline: OnceCell::new(),
+            }
         };
         let numbered = (0..).zip(&part.rings);
         let curves: Vec<(usize, Curve)> =
@@ -87,6 +92,53 @@ impl<'p> PreparedPart<'p> {
         self.rings[ring].extent
     }
 
+    /// Returns the length of a ring in mm.
+    pub(crate) fn ring_length(&self, ring: usize) -> f64 {
+        self.rings[ring].length
+    }
+
+    /// Returns the curves of a ring, each with the distance in mm along the ring at which it begins.
+    pub(crate) fn ring_curves(&self, ring: usize) -> impl Iterator<Item = (f64, &'p Curve)> {
+        self.part.rings[ring].curves.iter().scan(0.0, |end, curve| {
+            let start = *end;
+            *end += curve.length();
+            Some((start, curve))
+        })
+    }
+
+    /// Returns the curves of a stretch of a ring. The stretch may begin below 0 if it runs across the ring's start.
+    pub(crate) fn ring_section(&self, ring: usize, (from, to): Stretch) -> Vec<Curve> {
+        let mut begin = -self.ring_length(ring);
+        let curves = &self.part.rings[ring].curves;
+        let section = |curve: &Curve| {
+            let length = curve.length();
+            let (first, last) = ((from - begin).max(0.0), (to - begin).min(length));
+            begin += length;
+            (first < last).then(|| curve.section(first, last))
+        };
+        curves.iter().chain(curves).filter_map(section).collect()
+    }
+
+    /// Returns the point of a ring at a distance along the ring, which may be below 0 for a stretch across the ring's start.
+    pub(crate) fn ring_point(&self, ring: usize, along: f64) -> Xy {
+        let (curve, along) = self.ring_place(ring, along);
+        curve.at(along)
+    }
+
+    /// Returns the curve of a ring at a distance along the ring, as in [`Self::ring_point`], and the distance along that curve.
+    pub(crate) fn ring_place(&self, ring: usize, along: f64) -> (&'p Curve, f64) {
+        let curves = &self.part.rings[ring].curves;
+        let mut along = if along < 0.0 { along + self.ring_length(ring) } else { along };
+        for curve in curves {
+            let length = curve.length();
+            if along <= length {
+                return (curve, along);
+            }
+            along -= length;
+        }
+        (&curves[0], 0.0)
+    }
+
     /// Returns the curves near a box, with their rings.
     pub(crate) fn curves_near(&self, extent: AABB<[f64; 2]>) -> impl Iterator<Item = (usize, &Curve)> {
         let near = self.curve_boxes.near(extent);
@@ -103,7 +155,7 @@ impl<'p> PreparedPart<'p> {
     }
 
     fn contains(&self, ring: usize, at: Xy) -> bool {
-        let PreparedRing { extent, outline } = &self.rings[ring];
+        let PreparedRing { extent, outline, .. } = &self.rings[ring];
         extent.contains_point(&[at.x, at.y])
             && outline.get_or_init(|| Outline::new(&self.part.rings[ring].curves)).contains(at)
     }
@@ -165,7 +217,7 @@ impl<'p> PreparedPart<'p> {
         match self.clear_side(way, radius, tolerance) {
             Some(side) => CutterPassage::on_side(side, way),
             None => CutterPassage {
-                side: self.side(at_along(way, way.length() / 2.0)),
+                side: self.side(way.middle()),
                 entered: self.entered_stretches(way, radius, tolerance),
             },
         }
@@ -189,7 +241,7 @@ impl<'p> PreparedPart<'p> {
         ends.extend([0.0, length]);
         ends.sort_by(f64::total_cmp);
         let is_deep = |cut: &&[f64]| {
-            let middle = at_along(way, f64::midpoint(cut[0], cut[1]));
+            let middle = way.at(f64::midpoint(cut[0], cut[1]));
             cut[1] - cut[0] > JOIN_GAP && self.depth(middle, radius) > tolerance
         };
         join_stretches(ends.windows(2).filter(is_deep).map(|cut| (cut[0], cut[1])).collect(), JOIN_GAP)
@@ -197,7 +249,7 @@ impl<'p> PreparedPart<'p> {
 
     /// Returns the deepest place of a stretch, and the depth there. The stretch is sampled, and the search is refined around the best sample.
     pub(crate) fn deepest(&self, way: &Curve, (from, to): Stretch, radius: f64) -> (Xy, f64) {
-        let place = |along: f64| at_along(way, along);
+        let place = |along: f64| way.at(along);
         let depth = |along: f64| self.depth(place(along), radius);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let samples = ((to - from) / SAMPLE_DISTANCE).ceil().clamp(8.0, 64.0) as u32;

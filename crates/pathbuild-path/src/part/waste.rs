@@ -7,7 +7,7 @@ use rstar::{AABB, Envelope as _};
 
 use super::cuts::THROUGH_HEIGHT;
 use super::gouge::MIN_CUT_DEPTH;
-use super::intervals::{Stretch, add_stretches_within, at as at_along, gaps_between, join_stretches};
+use super::intervals::{Stretch, add_stretches_within, gaps_between, join_stretches};
 use super::loose::is_enclosed;
 use super::neighbours::PlacedCuts;
 use super::placed_part;
@@ -110,7 +110,7 @@ impl Opening<'_> {
             stretches.push((0.0, 0.0));
         }
         let along = *curve;
-        let middles = stretches.into_iter().map(move |(from, to)| at_along(&along, f64::midpoint(from, to)));
+        let middles = stretches.into_iter().map(move |(from, to)| along.at(f64::midpoint(from, to)));
         let is_removed = |at: Xy| self.through().iter().any(|(cut, radius)| cut.distance_to(at) < *radius);
         middles.filter(move |at| self.contains(*at) && !is_removed(*at))
     }
@@ -130,7 +130,7 @@ impl Opening<'_> {
                 let curves = path.curves_below(0..*count, self.owner.raised + THROUGH_HEIGHT);
                 curves.map(|(_, curve)| (curve, path.cuts.radius))
             });
-            let is_inside = |(curve, _): &(Curve, f64)| self.contains(at_along(curve, curve.length() / 2.0));
+            let is_inside = |(curve, _): &(Curve, f64)| self.contains(curve.middle());
             through.filter(is_inside).collect()
         })
     }

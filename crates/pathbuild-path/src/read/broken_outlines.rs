@@ -11,7 +11,7 @@ use rstar::{Envelope as _, RTree};
 use crate::element::diagnostic_point;
 use crate::geometry::{Curve, Line, Xy};
 use crate::keep_out::Outline;
-use crate::part::{BoxIndex, at_along, square};
+use crate::part::{BoxIndex, square};
 use crate::read::outline_graph::{Graph, NEAR_MISS_DISTANCE};
 use crate::read::rings::{
     Crossing, JOIN_DISTANCE, MAX_COMPARED_PAIRS, NumberedCurves, crossed_rings, crossings, curves_of,
@@ -285,7 +285,7 @@ impl<'c> OpenSide<'c> {
 
     fn middle(&self) -> Xy {
         let (_, curve) = &self.chain[self.chain.len() / 2];
-        at_along(curve, curve.length() / 2.0)
+        curve.middle()
     }
 
     /// Whether a point of the ring is not the point where this chain begins.
@@ -368,9 +368,7 @@ impl EnclosedArea {
     /// Whether a ring lies inside the border, judged by four points of each of its curves.
     fn encloses(&self, ring: &[Curve]) -> bool {
         let extent = self.0.extent();
-        let quarters =
-            |curve: &Curve| [0.0, 0.25, 0.5, 0.75].map(|share| at_along(curve, share * curve.length()));
-        let mut points = ring.iter().flat_map(quarters);
+        let mut points = ring.iter().flat_map(Curve::quarters);
         points.all(|at| extent.contains_point(&[at.x, at.y]) && self.0.contains(at))
     }
 }

@@ -60,11 +60,10 @@ impl Graph {
 
     /// Drops curves that are drawn twice. Curves are equal if their nodes and their midpoints are equal.
     fn drop_duplicates(&mut self) {
-        let middle = |curve: &Curve| curve.section(0.0, curve.length() / 2.0).end();
         let mut known: BTreeMap<(usize, usize), Vec<Xy>> = BTreeMap::new();
         self.numbers.retain(|number| {
             let (one, other) = (self.tails[2 * number], self.tails[2 * number + 1]);
-            let at = middle(&self.curves[*number]);
+            let at = self.curves[*number].middle();
             let middles = known.entry((one.min(other), one.max(other))).or_default();
             let is_new = middles.iter().all(|middle| (middle - at).norm() > JOIN_DISTANCE);
             if is_new {

@@ -5,7 +5,7 @@ use rstar::{AABB, RTree};
 
 use crate::geometry::{Curve, Xy};
 use crate::keep_out::{Outline, widened_box};
-use crate::part::{BoxIndex, Stretch, add_stretches_within, at_along, join_stretches};
+use crate::part::{BoxIndex, Stretch, add_stretches_within, join_stretches};
 
 /// Largest distance in mm between ends that are treated as joined.
 pub(super) const JOIN_DISTANCE: f64 = 0.01;
@@ -42,7 +42,7 @@ pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
     let around: Vec<Vec<usize>> = (0..rings.len())
         .map(|ring| {
             let curve = &rings[ring][0];
-            let point = curve.section(0.0, curve.length() / 2.0).end();
+            let point = curve.middle();
             let near = boxes.locate_in_envelope_intersecting(AABB::from_point([point.x, point.y]));
             let others = near.map(|near| near.data).filter(|other| is_larger(*other, ring));
             let mut around: Vec<usize> = others.filter(|other| outlines[*other].contains(point)).collect();
@@ -90,7 +90,7 @@ pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
             }
             let (from, to) =
                 (crossing(&curves[first], &curves[second])?, crossing(&curves[second], &curves[first])?);
-            let at = at_along(&curves[first], from);
+            let at = curves[first].at(from);
             Some(Crossing { at, first: (first, from), second: (second, to) })
         })
     })
@@ -137,7 +137,7 @@ pub(super) fn crossed_rings(rings: &[NumberedCurves], is_outermost: &[bool]) -> 
             compared += 1;
             if let (Some(along), Some(_)) = (crossing(curve, rim_curve), crossing(rim_curve, curve)) {
                 let place = (*place, along);
-                found.push((*ring, Crossing { at: at_along(curve, along), first: place, second: place }));
+                found.push((*ring, Crossing { at: curve.at(along), first: place, second: place }));
             }
         }
     }
@@ -150,9 +150,7 @@ fn crossing(along: &Curve, other: &Curve) -> Option<f64> {
     add_stretches_within(along, other, JOIN_DISTANCE, &mut near);
     let length = along.length();
     let crosses = |(from, to): &Stretch| {
-        *from > 0.0
-            && *to < length
-            && side(other, at_along(along, *from)) != side(other, at_along(along, *to))
+        *from > 0.0 && *to < length && side(other, along.at(*from)) != side(other, along.at(*to))
     };
     join_stretches(near, JOIN_DISTANCE).into_iter().find(crosses).map(|(from, to)| f64::midpoint(from, to))
 }
