@@ -21,7 +21,7 @@ use pathbuild_path::{
     FilePattern, Language, LayerPattern, LineTypeAliases, PathKey, PathOptions, PathPattern,
 };
 use pathbuild_post::{Job, PostDefinition, PostOptions, ToolTable, native_remark};
-use pathbuild_toolpath::{Correction, Program};
+use pathbuild_toolpath::{Correction, Program, ZModel};
 use pathbuild_workspace::config;
 use pathbuild_workspace::session::{limits, reading};
 
@@ -221,6 +221,7 @@ fn values(data: &[u8]) {
         log: part(2, "log"),
         max_correction: 1.0,
         below_plate: 0.5,
+        model: ZModel::default(),
     };
     if let Ok(adjusted) = adjust(&inputs) {
         let (least, most) = adjusted.corrections;

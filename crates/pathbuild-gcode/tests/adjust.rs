@@ -13,6 +13,7 @@ use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_gcode::adjust::{AdjustedProgram, Inputs, Source, adjust};
 use pathbuild_gcode::native::{self, Parts};
+use pathbuild_toolpath::ZModel;
 
 /// A file with the value of one probe, whose drawn thickness is 2 mm.
 const VALUES: &str = "([1.000 2.000]/T=2.000) #51=2.100\n";
@@ -28,6 +29,7 @@ fn inputs<'a>(program: &'a [u8], values: &'a [u8]) -> Inputs<'a> {
         log: None,
         max_correction: 1.0,
         below_plate: 0.5,
+        model: ZModel::default(),
     }
 }
 

@@ -23,4 +23,4 @@ pub use program::{
     ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace, memory, own_moves,
 };
 pub use program::{Statistics, Total};
-pub use z_model::{OddProbe, Surface, ZModel, odd_probes};
+pub use z_model::{MIN_REPORTED_DEVIATION, OddProbe, Surface, ZModel, odd_probes};

@@ -225,12 +225,12 @@ impl NearestProbes {
 // Finds probes that do not fit the others. (PB607)
 //
 // Each probe is compared with the best-fitting plane (least squares) of all the others. It is odd if its distance from that plane exceeds
-// [`MIN_ODD_DISTANCE`] and also [`MIN_ODD_RATIO`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on
+// [`MIN_REPORTED_DEVIATION`] and also [`MIN_ODD_RATIO`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on
 // which all probes scatter, has no odd probes, but a single typing error stands out. This requires five probes: three others always lie on a plane,
 // so that with four it is impossible to tell which one is wrong.
 
-/// Distance in mm up to which a probe is never odd, however well the others fit.
-const MIN_ODD_DISTANCE: f64 = 0.1;
+/// Deviation in mm of a height from what the probes let expect up to which nothing is reported.
+pub const MIN_REPORTED_DEVIATION: f64 = 0.1;
 
 /// Minimum ratio of a probe's distance from the plane to the scatter of the other probes.
 const MIN_ODD_RATIO: f64 = 4.0;
@@ -299,7 +299,7 @@ impl PlaneFit {
         let others =
             (self.residue - residual * off).max(0.0) / (self.scatter.count - 1.0 - PLANE_DEGREES_OF_FREEDOM);
         let expected = libm::sqrt(others / free);
-        (off.abs() > MIN_ODD_DISTANCE && off.abs() > MIN_ODD_RATIO * expected).then_some(off)
+        (off.abs() > MIN_REPORTED_DEVIATION && off.abs() > MIN_ODD_RATIO * expected).then_some(off)
     }
 }
 

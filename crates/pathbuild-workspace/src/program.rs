@@ -206,6 +206,11 @@ impl Program {
         Text { text: self.code(), dialect: self.dialect, options }
     }
 
+    /// Returns the program at the heights to which the machine moves.
+    pub fn as_executed(&self) -> Text<'_> {
+        Text { text: self.code(), dialect: self.dialect, options: self.options.clone() }
+    }
+
     /// Returns ten times the number of the G code that selects inches: 200 for G20.
     pub fn inch_word(&self) -> u16 {
         self.options.unit_words(self.dialect.rules())[0]

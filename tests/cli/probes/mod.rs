@@ -1,5 +1,6 @@
 //! Tests Z-probes from the drawing to the adjusted program. (book: language/probes)
 
+mod corrected;
 mod current;
 mod executed;
 mod machine;

@@ -92,6 +92,13 @@ messages! {
         help_en: "this height is the S of the path, which is not corrected: write a greater S in the drawing, and emit again",
         help_de: "diese Höhe ist das S des Pfads, das nicht korrigiert wird: in der Zeichnung S höher setzen und noch einmal emit aufrufen",
     }
+    /// A rapid move that leads over material that was measured as high as the move, or higher.
+    SWEEP_INTO_MEASURED: CorrectionTooLarge {
+        en: "this rapid move is at Z {z}, but at {at} the material reaches up to Z {surface} according to the probes",
+        de: "dieser Eilgang fährt auf Z {z}, aber bei {at} reicht das Material nach den Proben bis Z {surface}",
+        help_en: "a rapid move keeps the correction of the place where it begins: write a greater S in the drawing, and emit again",
+        help_de: "ein Eilgang behält die Korrektur der Stelle, an der er beginnt: in der Zeichnung S höher setzen und noch einmal emit aufrufen",
+    }
     /// Cuts through the material that end above the plate after the correction.
     RAISED_ABOVE_PLATE: CorrectionTooLarge {
         en: "cuts down to the plate (Z 0) or below it now end above it, up to Z {z}: they may no longer go through",
@@ -210,6 +217,20 @@ messages! {
         de: "die Proben liegen an einer Stelle oder auf einer Linie: quer dazu ist keine Neigung bekannt, und Höhen daneben sind nur geschätzt",
         help_en: "draw at least three probes that are not on a line",
         help_de: "mindestens drei Proben zeichnen, die nicht auf einer Linie liegen",
+    }
+    /// A cut that ends higher than it should according to the probes, because it keeps the correction of the place where it begins.
+    END_TOO_HIGH: OutsideProbes {
+        en: "this cut ends {off} mm too high at {at}: it keeps the correction of the place where it begins",
+        de: "dieser Schnitt endet bei {at} {off} mm zu hoch: er behält die Korrektur der Stelle, an der er beginnt",
+        help_en: "set `z-split`, for example `z-split = 20`, and emit again: cuts are then split, and each piece is corrected at its end",
+        help_de: "`z-split` setzen, zum Beispiel `z-split = 20`, und noch einmal emit aufrufen: dann werden Schnitte geteilt und jedes Stück an seinem Ende korrigiert",
+    }
+    /// A cut that ends lower than it should according to the probes, because it keeps the correction of the place where it begins.
+    END_TOO_LOW: OutsideProbes {
+        en: "this cut ends {off} mm too low at {at}: it keeps the correction of the place where it begins",
+        de: "dieser Schnitt endet bei {at} {off} mm zu tief: er behält die Korrektur der Stelle, an der er beginnt",
+        help_en: "set `z-split`, for example `z-split = 20`, and emit again: cuts are then split, and each piece is corrected at its end",
+        help_de: "`z-split` setzen, zum Beispiel `z-split = 20`, und noch einmal emit aufrufen: dann werden Schnitte geteilt und jedes Stück an seinem Ende korrigiert",
     }
     /// A measured height that differs strongly from those of the neighbouring probes.
     ODD: OddProbe {

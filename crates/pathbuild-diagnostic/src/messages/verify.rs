@@ -92,6 +92,13 @@ messages! {
         help_en: "verify it without --against, and compare it with `pathbuild emit PATHS --join NAME --check`",
         help_de: "es ohne --against prüfen und mit `pathbuild emit PFADE --join NAME --check` vergleichen",
     }
+    /// `verify --against` with a program that was corrected by probes and then converted.
+    CONVERTED_CORRECTION: MovesDiffer {
+        en: "the heights of this program were corrected by probes, and after the conversion it no longer says by how much",
+        de: "die Höhen dieses Programms sind nach Proben korrigiert, und nach der Umwandlung sagt es nicht mehr, um wie viel",
+        help_en: "compare the NAME_Milling.gcode that adjust wrote, and verify this program without --against",
+        help_de: "die NAME_Milling.gcode vergleichen, die adjust geschrieben hat, und dieses Programm ohne --against prüfen",
+    }
     /// `verify --against`: another tool than the drawing needs.
     TOOLS_DIFFER: MovesDiffer {
         en: "the tool is T{found}, but the drawing needs T{expected}",

@@ -3,15 +3,17 @@
 use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_path::approx::above;
+use pathbuild_toolpath::ZModel;
 
 use super::check::{MIN_DIFFERENCE, Values};
 use super::scan::{FormulaSpan, Line, formula_spans, lines, plain_height, value_of};
+use super::surface::{AppliedCorrection, MeasuredSurface};
 use super::values::{ProbeTable, ProgramProbe};
 use super::{MeasuredHeights, Source, is_height};
 
 /// Returns the findings about the heights of a program that states measured heights in its header, as its formulas give them. `below_plate` is the
-/// depth in mm below the plate beyond which a lowered height is reported.
-pub fn corrected_heights(program: Source<'_>, below_plate: f64) -> Vec<Diagnostic> {
+/// depth in mm below the plate beyond which a lowered height is reported, and `model` the model of the surface between the probes.
+pub fn corrected_heights(program: Source<'_>, below_plate: f64, model: ZModel) -> Vec<Diagnostic> {
     let stated = ProbeTable::read(program).probes;
     let measured = |(number, probe): (&u32, &ProgramProbe)| Some((*number, probe.measured?));
     let measured: Values = stated.iter().filter_map(measured).collect();
@@ -19,6 +21,7 @@ pub fn corrected_heights(program: Source<'_>, below_plate: f64) -> Vec<Diagnosti
         return Vec::new();
     }
     let drawn: Values = stated.iter().map(|(number, probe)| (*number, probe.height)).collect();
+    let surface = MeasuredSurface::new(&stated, &measured, model);
     let mut rules = HeightRules::new(below_plate, measured.values().copied());
     for line in lines(program) {
         rules.line(line);
@@ -30,7 +33,7 @@ pub fn corrected_heights(program: Source<'_>, below_plate: f64) -> Vec<Diagnosti
             }
         }
     }
-    rules.finish()
+    rules.finish(program, surface.as_ref())
 }
 
 /// The rules about corrected heights: pass every line and every corrected height of a program, then call [`finish`](Self::finish).
@@ -47,12 +50,22 @@ pub(super) struct HeightRules {
     raised: Option<(f64, Diagnostic)>,
     /// The least height that a correction lowered too far below the plate, with its warning.
     lowered: Option<(f64, Diagnostic)>,
+    /// All corrections, in the order of their lines.
+    applied: Vec<AppliedCorrection>,
 }
 
 impl HeightRules {
     pub(super) fn new(below_plate: f64, measured: impl Iterator<Item = f64>) -> Self {
         let surface = measured.reduce(f64::max);
-        Self { below_plate, surface, has_started: false, in_material: None, raised: None, lowered: None }
+        Self {
+            below_plate,
+            surface,
+            has_started: false,
+            in_material: None,
+            raised: None,
+            lowered: None,
+            applied: Vec::new(),
+        }
     }
 
     /// Checks the first height without a formula, at which the tool moves before the first and after the last cut.
@@ -69,6 +82,7 @@ impl HeightRules {
 
     /// Records a cut that was drawn through the material and is not through any more, and one that goes deep below the plate.
     pub(super) fn corrected(&mut self, line: Line<'_>, spot: &FormulaSpan, drawn: f64, height: f64) {
+        self.applied.push(AppliedCorrection { line: line.number, correction: height - drawn });
         let warning = |message| {
             let problem = line.fault(message, spot.number.start..spot.formula.end).with("z", height);
             let problem = problem.with("depth", -height).with("limit", self.below_plate);
@@ -88,8 +102,19 @@ impl HeightRules {
         }
     }
 
-    pub(super) fn finish(self) -> Vec<Diagnostic> {
+    /// Returns PB606 for a cut that ends with a correction other than the one measured at its end.
+    pub(super) fn stale_correction(
+        &self,
+        program: Source<'_>,
+        surface: Option<&MeasuredSurface>,
+    ) -> Option<Diagnostic> {
+        surface?.stale_correction(program, &self.applied)
+    }
+
+    /// Returns the findings about the corrected program. `surface` is `None` if the places of its probes are not known.
+    pub(super) fn finish(self, program: Source<'_>, surface: Option<&MeasuredSurface>) -> Vec<Diagnostic> {
+        let below = || surface?.rapid_below(program);
         let extremes = [self.raised, self.lowered].into_iter().flatten().map(|(_, warning)| warning);
-        self.in_material.into_iter().chain(extremes).collect()
+        self.in_material.or_else(below).into_iter().chain(extremes).collect()
     }
 }

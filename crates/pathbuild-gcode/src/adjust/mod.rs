@@ -6,6 +6,7 @@
 mod check;
 mod heights;
 mod scan;
+mod surface;
 mod values;
 
 use std::collections::BTreeMap;
@@ -14,6 +15,7 @@ use std::ops::Range;
 use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes as messages;
+use pathbuild_toolpath::ZModel;
 
 use crate::native::{f3, push_exact};
 use crate::provenance::{is_same_program, without_comment_marks};
@@ -25,6 +27,7 @@ use scan::{
     Fault, FormulaSpan, Line, Probes, byte_order_mark, formula_spans, in_line, lines, located, number,
     value_of,
 };
+use surface::MeasuredSurface;
 use values::{ProbeTable, entry_of_line, is_header};
 pub(crate) use values::{ProgramProbe, probe_entry};
 
@@ -50,6 +53,8 @@ pub struct Inputs<'a> {
     pub max_correction: f64,
     /// Depth in mm below the plate beyond which a lowered height is reported.
     pub below_plate: f64,
+    /// The model of the surface between the probes with which the program was written.
+    pub model: ZModel,
 }
 
 /// The result of [`adjust`]: a program with measured heights, and findings about its probes.
@@ -142,8 +147,9 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     let survey = scan::ProbeSurvey::of(clean, &mut problems);
     let has_all = problems.is_empty() && survey.probes.keys().all(|probe| values.contains_key(probe));
     let (max_correction, below_plate) = (f64::INFINITY, f64::INFINITY);
-    let inputs = Inputs { program: clean, values: program, log: None, max_correction, below_plate };
-    has_all.then(|| evaluate_formulas(&inputs, &values).ok()).flatten().map(|adjusted| adjusted.program)
+    let model = ZModel::default();
+    let inputs = Inputs { program: clean, values: program, log: None, max_correction, below_plate, model };
+    has_all.then(|| evaluate_formulas(&inputs, &values).ok()).flatten().map(|(adjusted, _)| adjusted.program)
 }
 
 /// Returns the measured heights that comments of a program list, by the numbers of their probes. Unlike in [`states_heights`], the program may have
@@ -197,7 +203,11 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     if !problems.is_empty() {
         return Err(problems);
     }
-    let mut adjusted = evaluate_formulas(inputs, &values)?;
+    let (mut adjusted, rules) = evaluate_formulas(inputs, &values)?;
+    let surface = MeasuredSurface::new(&table.probes, &values, inputs.model);
+    let corrected = Source { file: inputs.program.file, bytes: &adjusted.program };
+    let stale = rules.stale_correction(corrected, surface.as_ref());
+    adjusted.warnings = rules.finish(corrected, surface.as_ref()).into_iter().chain(stale).collect();
     if adjusted.warnings.iter().any(Diagnostic::is_error) {
         return Err(adjusted.warnings);
     }
@@ -210,15 +220,15 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
 /// probe's does, because weights with three decimals need not sum to 1.
 const CORRECTION_SLACK: (f64, f64) = (1.002, 0.002);
 
-/// Evaluates all formulas and adds the measured heights to the header. Everything else is preserved byte for byte. The findings of
-/// [`HeightRules`] are among the warnings, also those that are errors.
+/// Evaluates all formulas and adds the measured heights to the header. Everything else is preserved byte for byte. Also returns the rules for the
+/// corrected heights, which have seen all of them.
 ///
 /// # Errors
 /// Formulas that cannot be evaluated, or whose result is too large.
-pub(super) fn evaluate_formulas(
+fn evaluate_formulas(
     inputs: &Inputs<'_>,
     values: &Values,
-) -> Result<AdjustedProgram, Vec<Diagnostic>> {
+) -> Result<(AdjustedProgram, HeightRules), Vec<Diagnostic>> {
     let bytes = inputs.program.bytes;
     let adjusted = AdjustedProgram::default();
     let rules = HeightRules::new(inputs.below_plate, values.values().copied());
@@ -237,8 +247,7 @@ pub(super) fn evaluate_formulas(
     if !writer.problems.is_empty() {
         return Err(writer.problems);
     }
-    writer.adjusted.warnings.extend(writer.rules.finish());
-    Ok(writer.adjusted)
+    Ok((writer.adjusted, writer.rules))
 }
 
 struct Writer<'w> {

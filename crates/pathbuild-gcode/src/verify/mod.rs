@@ -31,7 +31,7 @@ use pathbuild_motion::Step;
 
 pub use self::compare::same_move_lines;
 pub use self::rules::coarse_arc_finding;
-pub use against::{Agreement, ClampCollisions, Clamps, DrawingComparison, ExpectedProgram, ToolUse};
+pub use against::{Agreement, Clamps, DrawingComparison, ExpectedProgram, ToolUse};
 pub use bent_rapids::BentRapidRules;
 pub use blind_rapids::{BlindRapidRules, BlindRapids};
 pub use chip_load::ChipLoadRules;

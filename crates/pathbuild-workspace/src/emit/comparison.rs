@@ -3,7 +3,7 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, join};
-use pathbuild_db::{Db, MissingOption, Role, program};
+use pathbuild_db::{Db, MissingOption, Role, Target, program};
 use pathbuild_diagnostic::messages::outputs;
 use pathbuild_diagnostic::{Diagnostic, Note};
 use pathbuild_gcode::native::{
@@ -23,8 +23,8 @@ use crate::workspace::Workspace;
 /// The result of comparing a program with its drawing.
 #[derive(Debug)]
 pub enum DrawingComparison {
-    /// The drawing produces the same moves.
-    Same,
+    /// The drawing produces the same program, which is that of this target.
+    Same(Target),
     /// The drawing produces different moves.
     Other {
         /// Path of the drawing's file.
@@ -127,7 +127,7 @@ fn compare_with_path(
     let kind = if now.probes.is_empty() { OutputKind::Milling } else { OutputKind::Clean };
     match native_text(&session.workspace().settings, &now, kind) {
         Ok(expected) => match first_other_line(text, expected.as_bytes(), Parts::Code) {
-            None => DrawingComparison::Same,
+            None => DrawingComparison::Same(target),
             Some(other) => DrawingComparison::Edited { drawing: drawing(), other },
         },
         Err(problem) => DrawingComparison::Wrong(vec![*problem]),

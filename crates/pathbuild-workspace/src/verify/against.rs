@@ -3,15 +3,16 @@
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{Role, Target, Trace, check_file, placed_keep_outs, program};
+use pathbuild_db::{Db, Role, Target, Trace, check_file, placed_keep_outs, program};
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message};
 use pathbuild_gcode::adjust::{Source, adjusted_again, states_heights};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Options};
+use pathbuild_gcode::interpret::{self, Options, Text};
 use pathbuild_gcode::native::{self, OtherLine, Parts};
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::verify::{self, Agreement, ClampCollisions, Clamps, PostWords, ToolUse};
+use pathbuild_gcode::read::quote;
+use pathbuild_gcode::verify::{self, Agreement, Clamps, PostWords, ToolUse, text_beyond_machine};
 use pathbuild_motion::{Axes, Move, Position};
 use pathbuild_path::KeepOut;
 use pathbuild_post::{Job, ToolTable, program_number};
@@ -20,7 +21,7 @@ use super::MoveComparison;
 use crate::config::Settings;
 use crate::config::types::DwellTime;
 use crate::emit::{Provenances, missing_values, native_text, write_settings};
-use crate::post_processor::PostProcessor;
+use crate::post_processor::{PostProcessor, machine};
 use crate::program::Program;
 use crate::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths_error};
 use crate::workspace::Failure;
@@ -57,6 +58,33 @@ impl RewrittenProgram {
     }
 }
 
+/// Returns the clamps around the program of a target; `None` if there are none.
+fn clamps(db: &dyn Db, target: Target) -> Option<Clamps> {
+    let placed: Vec<KeepOut> = placed_keep_outs(db, target).into_iter().map(|clamp| clamp.placed).collect();
+    let cutter = program(db, target).as_ref()?.largest_cutter();
+    (!placed.is_empty()).then(|| Clamps::new(placed, cutter))
+}
+
+/// Returns the errors of a native program that cannot run on the machine, because it exceeds the machine's capabilities (PB747, PB748) or hits clamps
+/// around the program of this target (PB407). Heights are those to which the tool moves, with their corrections.
+///
+/// # Errors
+/// PB006 if a query triggers a bug.
+pub fn unmillable_moves(
+    session: &Session<'_>,
+    target: Option<Target>,
+    program: Source<'_>,
+) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
+    let machine = machine(&session.workspace().settings);
+    let clamps = target.map(|target| session.query_target(target, |db| clamps(db, target))).transpose()?;
+    let text = Text { text: program.bytes, dialect: Dialect::Native, options: Options::default() };
+    let collisions = clamps.flatten().map(|clamps| clamps.collisions(&text));
+    let beyond = machine.map(|machine| text_beyond_machine(program.bytes, &machine));
+    let mut found: Vec<Diagnostic> = collisions.into_iter().chain(beyond).flatten().collect();
+    quote(found.iter_mut(), program.bytes);
+    Ok(found.into_iter().map(|problem| problem.in_file(program.file)).collect())
+}
+
 impl ReferenceProgram {
     pub(super) fn new(session: &Session<'_>, name: &str) -> Result<Self, Failure> {
         let target = target(session, name)?;
@@ -69,13 +97,10 @@ impl ReferenceProgram {
             let names = checked.missing_options.iter().map(|option| option.name());
             return Err(Failure::Usage(missing_values(session.workspace(), names)));
         }
-        let outcome = session.query_target(target, |db| {
-            let placed = placed_keep_outs(db, target).into_iter().map(|clamp| clamp.placed);
-            (program(db, target).clone(), placed.collect::<Vec<KeepOut>>())
-        });
-        let (drawn, placed) = outcome.map_err(|problem| Failure::Found(vec![*problem]))?;
-        let drawn = drawn.ok_or_else(|| Failure::Found(Vec::new()))?;
-        let clamps = (!placed.is_empty()).then(|| Clamps::new(placed, drawn.largest_cutter()));
+        let outcome =
+            session.query_target(target, |db| Some((program(db, target).clone()?, clamps(db, target))));
+        let found = outcome.map_err(|problem| Failure::Found(vec![*problem]))?;
+        let (drawn, clamps) = found.ok_or_else(|| Failure::Found(Vec::new()))?;
         let file = target.file(session.db()).path(session.db()).clone();
         Ok(Self { drawn, file, clamps, trace: checked.trace.clone() })
     }
@@ -247,9 +272,9 @@ impl ReferenceProgram {
         Ok(differences)
     }
 
-    /// Starts a check of a program in a dialect against the clamps around it; `None` if there are no clamps.
-    pub(super) fn clamp_collisions(&self, dialect: Dialect) -> Option<ClampCollisions<'_>> {
-        self.clamps.as_ref().map(|clamps| ClampCollisions::new(clamps, dialect))
+    /// Returns PB407 for moves of a program into the clamps around it, at the heights to which the machine moves.
+    pub(super) fn moves_into_clamps(&self, program: &Program) -> Vec<Diagnostic> {
+        self.clamps.as_ref().map_or_else(Vec::new, |clamps| clamps.collisions(&program.as_executed()))
     }
 
     /// Returns the program number that posts write.

@@ -85,6 +85,8 @@ pub enum Reason {
     NoSurface,
     /// The material of the drawing has several heights, and only a native program shows where each of them applies.
     SeveralSurfaces,
+    /// The heights of the program were corrected by probes, and only a native program states by how much.
+    MeasuredSurface,
     /// The program cuts, but never starts the spindle with a speed.
     NoSpeed,
     /// The program cuts without limiting the rounding of corners.
@@ -246,6 +248,10 @@ impl CheckRecord {
                 en: "the native program, which shows where each of them counts",
                 de: "das native Programm, das zeigt, wo welche Höhe gilt",
             },
+            (Reason::MeasuredSurface, _) => &Text {
+                en: "the native program that adjust wrote, or --surface",
+                de: "das native Programm, das adjust geschrieben hat, oder --surface",
+            },
             (Reason::NotFollowed, _) => &Text {
                 en: "a program that is read without errors, such as PB703, PB720 or PB721",
                 de: "ein Programm, das sich ohne Fehler wie PB703, PB720 oder PB721 lesen lässt",
@@ -378,6 +384,10 @@ impl Reason {
             Self::SeveralSurfaces => &Text {
                 en: "the upper face of the drawing's material has several heights (several T, or H), so rapid moves were only compared with those of the drawing",
                 de: "die Oberseite des Materials der Zeichnung ist verschieden hoch (mehrere T, oder H), daher wurden Eilgänge nur mit denen der Zeichnung verglichen",
+            },
+            Self::MeasuredSurface => &Text {
+                en: "the heights were corrected by probes, so only rapid moves at cutting depth were examined",
+                de: "die Höhen sind nach Proben korrigiert, daher wurden nur Eilgänge in Frästiefe untersucht",
             },
             Self::TooLarge => &Text { en: "the program is too large", de: "das Programm ist zu groß" },
             Self::NoSpeed => &Text {

@@ -12,16 +12,16 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::gcode::{self as say, FEED_IGNORED, NO_DECIMAL_POINT};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
-use pathbuild_gcode::adjust::{Source, corrected_heights, first_open_formula};
+use pathbuild_gcode::adjust::{Source, corrected_heights, first_open_formula, listed_heights};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{Header, HeaderReader};
 use pathbuild_gcode::interpret::{EvidenceKind, Guess};
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
-    BentRapidRules, BlindRapidRules, ChipLoadRules, ClampCollisions, CornerRules, CuttingLengthRules,
-    DepthRules, DirectionRules, DrawingComparison, LengthRules, Machine, MachineRules, PostWords,
-    StatedStatistics, Stock, WordRules, coarse_arc_finding, verify,
+    BentRapidRules, BlindRapidRules, ChipLoadRules, CornerRules, CuttingLengthRules, DepthRules,
+    DirectionRules, DrawingComparison, LengthRules, Machine, MachineRules, PostWords, StatedStatistics,
+    Stock, WordRules, coarse_arc_finding, verify,
 };
 use pathbuild_motion::{Action, Group, Move, Pace, StatedWord, Step};
 use pathbuild_path::approx::above;
@@ -35,6 +35,7 @@ use crate::program::{DefinitionTranslation, Program, ReadingOptions};
 use crate::session::Session;
 use crate::workspace::{Failure, Workspace};
 
+pub use against::unmillable_moves;
 pub use checks::{
     APPROACH_ABOVE_MATERIAL, Assumption, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text,
     summary,
@@ -146,7 +147,7 @@ impl<'w> Verifier<'w> {
     }
 
     /// Verifies a program. If the program's heights are corrected, the check of rapid moves uses the nominal heights and the material as drawn: rapid
-    /// moves that follow an uneven plate do not mill it. The machine's limits apply to the actual moves.
+    /// moves that follow an uneven plate do not mill it. The machine's limits and the clamps apply to the actual moves.
     ///
     /// The text is interpreted twice instead of keeping its steps, because the rules need to know the material first.
     pub fn verify(&self, file: &Utf8Path, text: Vec<u8>) -> VerifiedProgram {
@@ -276,8 +277,26 @@ impl<'m> AsWrittenSteps<'m> {
         let statistics = if has_own_statistics { self.stated.finish() } else { Vec::new() };
         let travel_doubt = self.limits.as_ref().and_then(travel_doubt);
         let limits = self.limits.map(MachineRules::finish).unwrap_or_default();
-        (program.finish_header(self.header), AsWrittenFindings { statistics, limits, travel_doubt })
+        (header_of(self.header, program), AsWrittenFindings { statistics, limits, travel_doubt })
     }
+}
+
+/// Returns the data that the comments of a program state. The surface in the header of a program that was corrected by probes and then converted is
+/// that of the drawing, but all its heights are those of the measured surface.
+fn header_of(reader: HeaderReader, program: &Program) -> Header {
+    let header = program.finish_header(reader);
+    if is_converted_correction(program) {
+        Header { surface: None, is_of_pathbuild: false, ..header }
+    } else {
+        header
+    }
+}
+
+/// Whether a post-processor wrote the program from one that was corrected by probes. It no longer states how much of its heights is correction.
+fn is_converted_correction(program: &Program) -> bool {
+    program.dialect != Dialect::Native
+        && Provenance::of_head(&program.text).is_some()
+        && !listed_heights(&program.text).is_empty()
 }
 
 /// Returns the reason why the travel that a program needs is not known; `None` if it is.
@@ -293,7 +312,6 @@ fn travel_doubt(limits: &MachineRules<'_>) -> Option<Reason> {
 struct NominalSteps<'w, I: Iterator<Item = (u32, Move)>> {
     comparison: Option<DrawingComparison<'w, I>>,
     words: Option<WordRules<'w>>,
-    clamps: Option<ClampCollisions<'w>>,
 }
 
 impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
@@ -303,9 +321,6 @@ impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
         }
         if let Some(words) = &mut self.words {
             words.step(step);
-        }
-        if let Some(clamps) = &mut self.clamps {
-            clamps.step(step);
         }
     }
 
@@ -417,7 +432,7 @@ impl<'v> Examination<'v> {
     /// # Errors
     /// The problem that prevents the verification.
     fn run(&self, written: AsWrittenFindings) -> Result<VerifiedProgram, Vec<Diagnostic>> {
-        self.refuse_joined_paths()?;
+        self.refuse_incomparable()?;
         let rewritten = self.rewritten_program()?;
         let mut evidence = CheckEvidence {
             blind: self.sources.stock().and_then(BlindRapidRules::new),
@@ -445,13 +460,17 @@ impl<'v> Examination<'v> {
         Ok(VerifiedProgram { diagnostics, checks, comparison })
     }
 
-    /// Refuses to compare a program that joins several paths with one of them: each difference would be reported as a fault of the program.
-    fn refuse_joined_paths(&self) -> Result<(), Vec<Diagnostic>> {
+    /// Refuses to compare a program with a path if each difference would be reported as a fault of the program: a program that joins several paths,
+    /// and a converted one whose heights were corrected.
+    fn refuse_incomparable(&self) -> Result<(), Vec<Diagnostic>> {
         let title = Provenance::of_head(&self.program.text).map(|(_, title)| title);
-        if self.verifier.against.is_none() || title.and_then(|title| native::joined_paths(&title)).is_none() {
-            return Ok(());
-        }
-        let mut problems = vec![Diagnostic::new(&say::JOINED_PROGRAM)];
+        let message = match title.and_then(|title| native::joined_paths(&title)) {
+            _ if self.verifier.against.is_none() => return Ok(()),
+            Some(_) => &say::JOINED_PROGRAM,
+            None if is_converted_correction(self.program) => &say::CONVERTED_CORRECTION,
+            None => return Ok(()),
+        };
+        let mut problems = vec![Diagnostic::new(message)];
         self.program.place(&mut problems);
         Err(problems)
     }
@@ -481,7 +500,6 @@ impl<'v> Examination<'v> {
         let mut nominal = NominalSteps {
             comparison: self.milled.map(compared),
             words: against.is_none().then(|| WordRules::new(&self.words, program.dialect)),
-            clamps: against.and_then(|against| against.clamp_collisions(program.dialect)),
         };
         let tools = self.sources.cutting_tools();
         let loads = tools.iter().map(|(line, tool)| (*line, tool.and_then(Tool::chip_load)));
@@ -528,7 +546,7 @@ impl<'v> Examination<'v> {
             nominal.check_omitted_word(word.line, &word.word);
         }
         found.extend(nominal.words.into_iter().flat_map(WordRules::finish));
-        found.extend(nominal.clamps.into_iter().flat_map(ClampCollisions::finish));
+        found.extend(against.into_iter().flat_map(|against| against.moves_into_clamps(program)));
         found.extend(coarse_arc_finding(program.code(), program.dialect));
         found.extend(written.limits);
         found.extend(chip_loads.finish());
@@ -545,7 +563,8 @@ impl<'v> Examination<'v> {
             found.extend(self.unadjusted_heights());
             let source = Source { file: &program.file, bytes: &program.text };
             let below_plate = verifier.settings.warnings.below_plate.value;
-            found.extend(corrected_heights(source, below_plate));
+            let model = verifier.settings.general.z_model.value;
+            found.extend(corrected_heights(source, below_plate, model));
         }
         found.extend(written.statistics);
         found.extend(self.sources.disagreements());

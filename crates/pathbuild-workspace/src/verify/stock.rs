@@ -12,7 +12,7 @@ use pathbuild_motion::Turning;
 
 use super::against::ReferenceProgram;
 use super::checks::{Assumption, Origin, Outcome, RapidValues, Reason};
-use super::{Verifier, VerifyOptions};
+use super::{Verifier, VerifyOptions, is_converted_correction};
 use crate::config::types::Tool;
 use crate::program::Program;
 
@@ -178,8 +178,11 @@ impl<'s> Sources<'s> {
             return Outcome::NotMade(Reason::NoCutter);
         };
         let Some((surface_origin, surface)) = self.surface() else {
-            let is_drawn = self.verifier.against.is_some();
-            return Outcome::NotMade(if is_drawn { Reason::SeveralSurfaces } else { Reason::NoSurface });
+            return Outcome::NotMade(match self.verifier.against {
+                Some(_) => Reason::SeveralSurfaces,
+                None if is_converted_correction(self.program) => Reason::MeasuredSurface,
+                None => Reason::NoSurface,
+            });
         };
         if !self.are_moves_known() {
             return Outcome::NotMade(Reason::NotFollowed);

@@ -133,7 +133,7 @@ fn no_program_is_held_against_what_took_too_long() {
         let workspace = place.workspace(&Inputs::default(), busy(*time), false);
         let beside = place.path().join("lib");
         match compare_with_drawing(&mut Session::new(&workspace), &program, &beside, None) {
-            DrawingComparison::Same => false,
+            DrawingComparison::Same(_) => false,
             DrawingComparison::Wrong(found) if matches!(&*found, [one] if one.code() == Code::LimitReached) => {
                 true
             }

@@ -1,8 +1,8 @@
 //! `pathbuild adjust`: inserts measured heights into programs. (book: language/probes)
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::catch_bugs;
 use pathbuild_db::system::{FileKind, WriteOutcome, join};
+use pathbuild_db::{Target, catch_bugs};
 use pathbuild_diagnostic::messages::probes;
 use pathbuild_diagnostic::{Code, Diagnostic, with_decimal_separator};
 use pathbuild_gcode::adjust::{AdjustedProgram, Inputs, Source, adjust};
@@ -23,6 +23,7 @@ use pathbuild_workspace::emit::{DrawingComparison, compare_with_drawing};
 use pathbuild_workspace::files::write_error;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::session::{OutputKind, Session};
+use pathbuild_workspace::verify::unmillable_moves;
 
 /// Runs the command. If there are several programs, an error in one does not prevent writing the others.
 pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
@@ -198,7 +199,8 @@ impl<'a> Adjustment<'a> {
     fn run(&mut self, job: &Job) -> Result<(), Vec<Diagnostic>> {
         let (clean, values, log) = self.read(job)?;
         self.show(&clean);
-        let is_as_emitted = self.compare(job, &clean)?;
+        let mut session = Session::new(self.context);
+        let target = self.compare(&mut session, job, &clean)?;
         let source = |file, bytes| Source { file, bytes };
         let adjusted = adjust(&Inputs {
             program: source(&job.clean, &clean),
@@ -206,13 +208,21 @@ impl<'a> Adjustment<'a> {
             log: self.log.zip(log.as_deref()).map(|(file, bytes)| source(file, bytes)),
             max_correction: self.max_correction,
             below_plate: self.context.settings.warnings.below_plate.value,
+            model: self.context.settings.general.z_model.value,
         })?;
-        if !is_as_emitted {
+        if target.is_none() {
             let edited = edited_heights(job, &adjusted);
             if !edited.is_empty() {
                 return Err(edited);
             }
         }
+        let corrected = source(&job.clean, &adjusted.program);
+        let unmillable = unmillable_moves(&session, target, corrected).map_err(|problem| vec![*problem])?;
+        let (errors, warnings): (Vec<_>, Vec<_>) = unmillable.into_iter().partition(Diagnostic::is_error);
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        self.warnings.extend(warnings);
         let written = self.context.system.write(&job.milling, &adjusted.program);
         let written = written.map_err(|reason| vec![write_error(&job.milling, reason)])?;
         self.report_written(&job.milling, written, &adjusted);
@@ -220,17 +230,21 @@ impl<'a> Adjustment<'a> {
         Ok(())
     }
 
-    /// Compares a program with its drawing. Returns whether the program is known to be up to date.
+    /// Compares a program with its drawing. Returns the target whose program it is, if the program is known to be up to date.
     ///
     /// # Errors
     /// The drawing has errors or now produces a different program, or the program was edited.
-    fn compare(&self, job: &Job, clean: &[u8]) -> Result<bool, Vec<Diagnostic>> {
+    fn compare(
+        &self,
+        session: &mut Session<'_>,
+        job: &Job,
+        clean: &[u8],
+    ) -> Result<Option<Target>, Vec<Diagnostic>> {
         let context = self.context;
         let not_compared =
             context.choose("not compared with its drawing", "nicht mit der Zeichnung verglichen");
         let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));
-        let mut session = Session::new(context);
-        let comparison = compare_with_drawing(&mut session, clean, beside, job.drawing.as_deref());
+        let comparison = compare_with_drawing(session, clean, beside, job.drawing.as_deref());
         let is_other = matches!(
             comparison,
             DrawingComparison::Other { .. } | DrawingComparison::Edited { .. } | DrawingComparison::Wrong(_)
@@ -245,7 +259,7 @@ impl<'a> Adjustment<'a> {
                 .in_file(&job.clean)
         };
         match comparison {
-            DrawingComparison::Same => return Ok(true),
+            DrawingComparison::Same(target) => return Ok(Some(target)),
             DrawingComparison::Unknown => {}
             DrawingComparison::Wrong(problems) => return Err(problems),
             DrawingComparison::Other { drawing } => {
@@ -267,7 +281,7 @@ impl<'a> Adjustment<'a> {
                 context.printer.status(format_args!("{}: {not_compared}: {give} --{options}", job.clean));
             }
         }
-        Ok(false)
+        Ok(None)
     }
 
     /// Returns PB608 if the program is up to date with the opposite setting of `--compatible`.
@@ -281,7 +295,7 @@ impl<'a> Adjustment<'a> {
             if is_compatible { &probes::NOT_COMPATIBLE_PROGRAM } else { &probes::COMPATIBLE_PROGRAM };
         let name = job.clean.file_name().unwrap_or_default();
         let problem = || Diagnostic::new(message).quoting("name", name).in_file(&job.clean);
-        matches!(comparison, DrawingComparison::Same).then(problem)
+        matches!(comparison, DrawingComparison::Same(_)).then(problem)
     }
 
     /// Reads the program, the measured values and the log. Reports every file that cannot be read.

@@ -10,6 +10,7 @@ use pathbuild_path::{KeepOut, KeepOutMap};
 use pathbuild_toolpath::{kind_of_move, tip_move};
 
 use crate::dialect::Dialect;
+use crate::interpret::{Program, Text};
 use crate::read::Problems;
 use crate::verify::compare::{
     Difference, DifferenceKind, Ends, Stretch, Tolerance, are_alike, check_pace, check_shape,
@@ -589,9 +590,8 @@ pub struct Clamps {
     radius: f64,
 }
 
-/// Checker for collisions with clamps: pass every step of a program, then call [`finish`](Self::finish).
-#[derive(Debug)]
-pub struct ClampCollisions<'c> {
+/// The collisions of a program with clamps that were found so far.
+struct ClampCollisions<'c> {
     clamps: &'c Clamps,
     /// Maximum error in mm due to rounding, and to chords that replace helices. A move that touches a clamp in the drawing may be written slightly
     /// inside it.
@@ -605,17 +605,22 @@ impl Clamps {
         let map = KeepOutMap::new(clamps.iter().map(|clamp| (clamp.height, &*clamp.outline)));
         Self { all: clamps, map, radius: cutter / 2.0 }
     }
+
+    /// Returns the moves of a program that hit the clamps, ordered by line.
+    pub fn collisions(&self, program: &Text<'_>) -> Vec<Diagnostic> {
+        let mut collisions = ClampCollisions::new(self, program.dialect);
+        program.each(&mut |step| collisions.step(step));
+        collisions.problems.into_diagnostics()
+    }
 }
 
 impl<'c> ClampCollisions<'c> {
-    /// Creates the checker for a program in this dialect.
-    pub fn new(clamps: &'c Clamps, dialect: Dialect) -> Self {
+    fn new(clamps: &'c Clamps, dialect: Dialect) -> Self {
         let chord = if dialect.rules().arcs.helix { 0.0 } else { CHORD_TOLERANCE };
         Self { clamps, slack: POSITION_TOLERANCE + chord, problems: Problems::default() }
     }
 
-    /// Processes the next step of the program.
-    pub fn step(&mut self, step: &Step) {
+    fn step(&mut self, step: &Step) {
         let Action::Move(it) = &step.action else { return };
         let Some(way) = tip_move(it) else { return };
         let Clamps { all, map, radius } = self.clamps;
@@ -631,10 +636,5 @@ impl<'c> ClampCollisions<'c> {
                     .with("z", way.lowest())
             });
         }
-    }
-
-    /// Returns the collisions found, ordered by line.
-    pub fn finish(self) -> Vec<Diagnostic> {
-        self.problems.into_diagnostics()
     }
 }

@@ -15,8 +15,8 @@ use super::words::{PostWords, WordRules};
 use crate::dialect::Dialect;
 use crate::read::Problems;
 
+pub use cuts::Clamps;
 use cuts::CutComparison;
-pub use cuts::{ClampCollisions, Clamps};
 use setup::Setup;
 
 /// The program that a drawing and the configuration require.

@@ -1,0 +1,158 @@
+//! Compares the moves of a corrected program with the measured surface. (book: language/probes)
+
+use std::collections::BTreeMap;
+
+use pathbuild_diagnostic::messages::probes as messages;
+use pathbuild_diagnostic::{Diagnostic, Message, Point};
+use pathbuild_motion::{Move, Pace, Position};
+use pathbuild_path::Xy;
+use pathbuild_path::approx::above;
+use pathbuild_toolpath::{MIN_REPORTED_DEVIATION, Surface, ZModel};
+
+use super::scan::lines;
+use super::values::ProgramProbe;
+use super::{Source, check::Values};
+use crate::dialect::Dialect;
+use crate::interpret::{Options, interpret_each};
+
+/// The surface of the material according to the measured heights.
+pub(super) struct MeasuredSurface {
+    model: Surface,
+    probes: Vec<MeasuredProbe>,
+    /// Least height in mm at which a probe was drawn.
+    drawn: f64,
+    /// Greatest difference in mm between a measured and a drawn height.
+    highest: f64,
+}
+
+struct MeasuredProbe {
+    at: Xy,
+    correction: f64,
+}
+
+/// A correction of a program's heights: it applies from this line, counted from 1, up to the next correction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AppliedCorrection {
+    pub(super) line: u32,
+    /// Difference in mm between the corrected and the drawn height.
+    pub(super) correction: f64,
+}
+
+/// Distance in mm between the points of a rapid move at which it is compared with the surface.
+const SAMPLE_DISTANCE: f64 = 1.0;
+
+/// Maximum number of these points, which limits the time that a very long move takes.
+const MAX_SAMPLES: f64 = 2000.0;
+
+impl MeasuredSurface {
+    /// Creates the surface; `None` unless all probes of the program have a place and a measured height.
+    pub(super) fn new(
+        stated: &BTreeMap<u32, ProgramProbe>,
+        measured: &Values,
+        model: ZModel,
+    ) -> Option<Self> {
+        let probe = |(number, probe): (&u32, &ProgramProbe)| {
+            Some(MeasuredProbe { at: probe.at?, correction: measured.get(number)? - probe.height })
+        };
+        let probes: Vec<MeasuredProbe> = stated.iter().map(probe).collect::<Option<_>>()?;
+        let places: Vec<Xy> = probes.iter().map(|probe| probe.at).collect();
+        let drawn = stated.values().map(|probe| probe.height).reduce(f64::min)?;
+        let highest = probes.iter().map(|probe| probe.correction).reduce(f64::max)?;
+        Some(Self { model: Surface::new(model, &places), probes, drawn, highest })
+    }
+
+    fn correction(&self, at: Xy) -> f64 {
+        self.model.weights(at).into_iter().map(|(probe, weight)| weight * self.probes[probe].correction).sum()
+    }
+
+    /// Returns PB602 for the rapid move that is farthest below the surface over which it leads, if there is one. Descents are not examined: they end
+    /// on the surface.
+    pub(super) fn rapid_below(&self, program: Source<'_>) -> Option<Diagnostic> {
+        let mut deepest: Option<(u32, f64, SurfacePoint)> = None;
+        each_move(program, &mut |line, motion| {
+            if motion.pace != Pace::Rapid || motion.is_vertical() {
+                return;
+            }
+            let z = motion.from.z().min(motion.to.z());
+            let Some(point) = self.highest_along(motion, z).filter(|point| !above(z, point.z)) else {
+                return;
+            };
+            if deepest.as_ref().is_none_or(|(_, known, below)| point.z - z > below.z - known) {
+                deepest = Some((line, z, point));
+            }
+        });
+        let (line, z, point) = deepest?;
+        let problem = problem_of_line(program, line, &messages::SWEEP_INTO_MEASURED)?;
+        Some(problem.with("z", z).with("surface", point.z).with("at", Point::new(point.at.x, point.at.y)))
+    }
+
+    /// Returns the highest point of the surface under a rapid move; `None` if even the greatest correction leaves the surface below this height.
+    fn highest_along(&self, motion: &Move, z: f64) -> Option<SurfacePoint> {
+        let [from, to] = [xy(&motion.from), xy(&motion.to)];
+        let point = |at: Xy| SurfacePoint { at, z: self.drawn + self.correction(at) };
+        let (start, end) = (point(from), point(to));
+        let highest = (self.drawn + self.highest).max(start.z).max(end.z);
+        if above(z, highest) {
+            return None;
+        }
+        let way = to - from;
+        let beside = self.probes.iter().map(|probe| (probe.at - from).dot(&way) / way.norm_squared());
+        let count = (way.norm() / SAMPLE_DISTANCE).ceil().min(MAX_SAMPLES);
+        let evenly = (1..).map(f64::from).take_while(|number| *number < count).map(|number| number / count);
+        let shares = beside.filter(|share| (0.0..=1.0).contains(share)).chain(evenly);
+        let points = shares.map(|share| point(from + share * way)).chain([end]);
+        Some(points.fold(start, |highest, point| if point.z > highest.z { point } else { highest }))
+    }
+
+    /// Returns PB606 for the cut whose end is corrected most differently from what was measured there, if the difference matters.
+    pub(super) fn stale_correction(
+        &self,
+        program: Source<'_>,
+        applied: &[AppliedCorrection],
+    ) -> Option<Diagnostic> {
+        let mut rest = applied.iter().peekable();
+        let mut current = 0.0;
+        let mut greatest: Option<(u32, f64, Xy)> = None;
+        each_move(program, &mut |line, motion| {
+            while let Some(next) = rest.next_if(|next| next.line <= line) {
+                current = next.correction;
+            }
+            let at = xy(&motion.to);
+            let off = current - self.correction(at);
+            let is_cut = matches!(motion.pace, Pace::Feed(_));
+            if is_cut
+                && above(off.abs(), MIN_REPORTED_DEVIATION)
+                && greatest.is_none_or(|(_, known, _)| off.abs() > known.abs())
+            {
+                greatest = Some((line, off, at));
+            }
+        });
+        let (line, off, at) = greatest?;
+        let message = if off > 0.0 { &messages::END_TOO_HIGH } else { &messages::END_TOO_LOW };
+        let problem = problem_of_line(program, line, message)?;
+        Some(problem.with("off", off.abs()).with("at", Point::new(at.x, at.y)))
+    }
+}
+
+struct SurfacePoint {
+    at: Xy,
+    z: f64,
+}
+
+fn xy(position: &Position) -> Xy {
+    Xy::new(position.x(), position.y())
+}
+
+/// Passes the moves of a native program with known ends, with their lines, at the heights that the machine executes.
+fn each_move(program: Source<'_>, take: &mut dyn FnMut(u32, &Move)) {
+    interpret_each(program.bytes, Dialect::Native, &Options::default(), &mut |step| {
+        if let Some((line, motion)) = step.as_move().filter(|(_, motion)| motion.is_known()) {
+            take(line, &motion);
+        }
+    });
+}
+
+fn problem_of_line(program: Source<'_>, number: u32, message: &'static Message) -> Option<Diagnostic> {
+    let line = lines(program).find(|line| line.number == number)?;
+    Some(line.fault(message, 0..line.content().len()))
+}
