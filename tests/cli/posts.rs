@@ -251,6 +251,62 @@ fn holes_become_cycles_when_asked() {
     assert!(!grbl.contains("G83") && grbl.matches("G1").count() > moves.matches("G1").count(), "{grbl}");
 }
 
+/// A native program has no word for pecks, and probes need one; with `cycles = true`, the drawing's C is meant to count.
+#[test]
+fn a_peck_depth_is_told_to_have_no_effect_in_a_program_with_probes() {
+    let path = |text: &str, probe: &str| {
+        let holes =
+            format!("sweep 0,0 10,0\ncircle 10,0 d 2 \"B0{text}\"\nsweep 10,0 20,0\nend 20,0\n{probe}");
+        dxf(&format!("layer 1700.1P\nstart 0,0 \"T5 O2 I1 B4 MPlate\"\n{holes}"))
+    };
+    for (text, probe, is_told) in
+        [(" C2", "probe 5,5\n", true), (" C2", "", false), ("", "probe 5,5\n", false)]
+    {
+        let run = library("cycles = true").file("1700.dxf", path(text, probe)).run("emit 1700.1P");
+        assert_eq!(run.status, Some(0), "{run}");
+        assert_eq!(run.stderr.contains("warning[PB210]"), is_told, "{text} {probe}: {run}");
+    }
+}
+
+/// Between holes, the tool would move at R if the program before has left G99.
+#[test]
+fn cycles_without_g98_are_an_error_on_controls_that_keep_it() {
+    for post in ["mach3", "fanuc", "haas"] {
+        let place = library("cycles = true");
+        let program = place.run(&format!("emit 1500.1P --post {post} -o -")).stdout;
+        assert!(program.contains("G98"), "{program}");
+        let place = place.file("good.nc", &*program).file("bad.nc", program.replace("G98", ""));
+        let verify = |name: &str, more: &str| {
+            place.run(&format!("verify {name} --dialect {post} --format concise {more}"))
+        };
+        let run = verify("good.nc", "--against 1500.1P");
+        assert_eq!(run.status, Some(0), "{run}");
+        let run = verify("bad.nc", "");
+        assert!(run.stderr.contains("warning[PB731]"), "{run}");
+        let run = verify("bad.nc", "--against 1500.1P");
+        assert!(run.status == Some(1) && run.stderr.contains("error[PB731]"), "{run}");
+        let run = place.run(&format!("post bad.nc --dialect {post} --post linuxcnc -o -"));
+        assert!(run.status == Some(1) && run.stderr.contains("error[PB731]"), "{run}");
+    }
+}
+
+#[test]
+fn a_program_without_its_number_is_an_error_on_controls_that_know_it_by_that() {
+    for (post, is_numbered) in [("fanuc", true), ("haas", true), ("mach3", false)] {
+        let place = library("");
+        let program = place.run(&format!("emit 1234.1P --post {post} -o -")).stdout;
+        let rest: Vec<&str> = program.lines().filter(|line| !line.starts_with('O')).collect();
+        assert_eq!(rest.len() < program.lines().count(), is_numbered, "{program}");
+        let place = place.file("good.nc", &*program).file("bad.nc", rest.join("\r\n"));
+        for (name, is_found) in [("good.nc", false), ("bad.nc", is_numbered)] {
+            let run =
+                place.run(&format!("verify {name} --dialect {post} --against 1234.1P --format concise"));
+            assert_eq!(run.status, Some(i32::from(is_found)), "{run}");
+            assert_eq!(run.stderr.contains("the program has no number"), is_found, "{run}");
+        }
+    }
+}
+
 #[test]
 fn holes_drilled_in_pecks_are_as_drawn() {
     for post in ["linuxcnc", "fanuc", "grbl"] {

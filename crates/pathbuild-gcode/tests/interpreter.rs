@@ -697,6 +697,24 @@ fn g99_stays_at_the_cycles_own_height() {
     );
 }
 
+/// These controls keep G98 or G99 of the program before, so that a program without either may find the lower height.
+#[test]
+fn a_program_must_say_how_high_the_tool_rises_after_holes() {
+    for dialect in [Mach3, Fanuc, Haas] {
+        let holes = |words: &str, height: &str| {
+            format!("G0 X0. Y0. Z{height}\n{words} G81 X1. Y2. Z-2. R1. F100.\nX3.\nG80")
+        };
+        assert_eq!(wrong(dialect, &holes("", "5.")), ["3 modes-not-stated"], "{dialect}");
+        assert!(run(dialect, &holes("", "5.")).contains(&"4 rapid to 3 2 1".to_owned()), "{dialect}");
+        for stated in [holes("G98", "5."), holes("G99", "5."), holes("", "1.")] {
+            assert_eq!(wrong(dialect, &stated), FINE, "{dialect}: {stated}");
+        }
+    }
+    // DIN 66025 has neither word.
+    let din = run(Dialect::Din, "G0 X0 Y0 Z5\nG81 X1 Y2 Z-2 R1 F100\nX3\nG80");
+    assert!(din.contains(&"4 rapid to 3 2 5".to_owned()), "{din:?}");
+}
+
 /// LinuxCNC rises on the way to the hole. Fanuc's operation 1 moves in the plane alone, and G98 returns to the initial height after the hole.
 #[test]
 fn the_first_hole_with_g98_after_g99_is_approached_at_the_present_height() {
@@ -1760,7 +1778,7 @@ fn an_offset_is_set_again_after_a_change_of_the_unit() {
 #[test]
 fn the_heights_of_a_cycle_are_stated_again_after_a_change_of_the_unit() {
     let drilled = |dialect, words: &str| {
-        judged(dialect, &format!("G83 X10. Y0. Z-2. R2. Q1. F100\nG20\nF4\n{words}\nX1.\nG80"))
+        judged(dialect, &format!("G98 G83 X10. Y0. Z-2. R2. Q1. F100\nG20\nF4\n{words}\nX1.\nG80"))
     };
     for dialect in [LinuxCnc, Fanuc, Mach3] {
         assert_eq!(drilled(dialect, "X.5"), refused("6 unit-changed"), "{dialect:?}");
@@ -1773,7 +1791,7 @@ fn the_heights_of_a_cycle_are_stated_again_after_a_change_of_the_unit() {
 #[test]
 fn a_cycle_does_not_outlive_a_tool_change() {
     let drilled = |dialect, words: &str| {
-        judged(dialect, &format!("G81 X10. Y0. Z-2. R2. F100\n{words}\nX30.\nX40.\nG80"))
+        judged(dialect, &format!("G98 G81 X10. Y0. Z-2. R2. F100\n{words}\nX30.\nX40.\nG80"))
     };
     for dialect in [LinuxCnc, Fanuc, Haas, Mach3] {
         assert_eq!(drilled(dialect, "T2 M6\nG43 H2"), warned("6 cycle-left-on"), "{dialect:?}");

@@ -272,6 +272,13 @@ messages! {
         help_en: "state it: the control keeps what the previous program set",
         help_de: "das Wort angeben: die Steuerung behält sonst, was das vorige Programm gesetzt hat",
     }
+    /// A program that does not state to which height the tool rises after a hole.
+    RETRACT_NOT_STATED: ModesNotStated {
+        en: "there is neither G98 nor G99 before the first hole; G99 is assumed, so the tool goes to the next hole at R",
+        de: "vor dem ersten Loch fehlt G98 oder G99; G99 wird angenommen, das Werkzeug fährt also auf R zum nächsten Loch",
+        help_en: "state it: the control keeps what the previous program set",
+        help_de: "das Wort angeben: die Steuerung behält sonst, was das vorige Programm gesetzt hat",
+    }
     /// Coordinates without a motion word, as XpertMILL accepts them.
     MOTION_NOT_STATED: MotionNotStated {
         en: "these coordinates have no motion word and are read as another {word}; it is not known whether {dialect} does the same",

@@ -81,8 +81,9 @@ pub struct Rules {
     /// Whether a hole with G98 is approached at the initial height even after holes with G99, so that the tool rises on a slant. Other controls move
     /// in the plane at the present height.
     pub rises_on_way_to_holes: bool,
-    /// Whether drilling cycles return to their initial height (G98) by default.
-    pub lifts_to_start: bool,
+    /// Whether a program must state whether holes retract to the initial height (G98) or to R (G99), because the control keeps the mode of the program
+    /// before.
+    pub keeps_retract_mode: bool,
     /// Whether G80 is allowed on a line with a motion word, which then applies.
     pub ends_cycles_beside_motion: bool,
     /// Whether drilling cycles and G80 are a modal group of their own, so that G80 restores the motion that was in effect before the cycle.
@@ -331,7 +332,7 @@ const BASE: Rules = Rules {
     rises_before_holes: true,
     // interp_cycles.cc of LinuxCNC traverses to X and Y at `old_cc`, which with G98 is the height before the series.
     rises_on_way_to_holes: true,
-    lifts_to_start: false,
+    keeps_retract_mode: false,
     ends_cycles_beside_motion: false,
     cycles_are_apart: false,
     lengths: LengthRules { keeps_entry: false, keeps_length: false },
@@ -488,7 +489,7 @@ pub(super) static MACH3: Rules = Rules {
     keeps_offsets: true,
     // From memory of "Using Mach3Mill", as in RS274/NGC: "a straight traverse parallel to the XY-plane to the given XY-position".
     rises_on_way_to_holes: false,
-    lifts_to_start: true,
+    keeps_retract_mode: true,
     // From memory of "Using Mach3Mill": G59 P1 to P253 select a system; P1 to P6 are G54 to G59.
     systems: Some(SystemNumbers { code: 590, regular: 6, most: 253 }),
     // Vectric's post for Mach3 begins programs with `G00G21G17G90G40G49G80` and `G71G91.1`.
@@ -508,7 +509,7 @@ const ISO: Rules = Rules {
     // return to the initial height (G98) comes after the hole.
     rises_before_holes: false,
     rises_on_way_to_holes: false,
-    lifts_to_start: true,
+    keeps_retract_mode: true,
     // G80 is in a modal group of its own (09), so its line may contain another motion word.
     ends_cycles_beside_motion: true,
     cycles_are_apart: true,
@@ -620,6 +621,7 @@ pub(super) static DIN: Rules = Rules {
     dwell: DwellRules { p: DwellUnit::Seconds, seconds: b"XF", counts_turns: true },
     program_numbers: false,
     least_increments: false,
+    keeps_retract_mode: false,
     m_order: MCodeOrder::StopsLast,
     ..ISO
 };

@@ -50,6 +50,7 @@ impl Interpreter<'_> {
         self.check_unit_of_cycle(block, coordinates[axis].is_some());
         self.store_cycle_words(block, coordinates[axis]);
         let Some(hole) = self.hole(block, cycle) else { return };
+        self.check_retract_mode_stated(block, &hole);
         let retracted = self.retract_height();
         let mut old = self.approach_height();
         self.mark_axis_stated(axis);
@@ -73,6 +74,17 @@ impl Interpreter<'_> {
             }
             self.drill(block, &hole);
             old = hole.clear;
+        }
+    }
+
+    /// Reports that the program has not stated the height to which holes retract, if it matters and the control keeps it from the program before.
+    fn check_retract_mode_stated(&mut self, block: &Block<'_>, hole: &Hole) {
+        let is_same = self.state.cycle.initial[self.state.plane.third()] <= hole.r;
+        if is_same || !self.rules.keeps_retract_mode {
+            return;
+        }
+        if !std::mem::replace(&mut self.state.stated.retract_mode, true) {
+            self.report(block, &say::RETRACT_NOT_STATED, block.span(), |d| d);
         }
     }
 

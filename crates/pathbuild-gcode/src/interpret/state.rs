@@ -56,6 +56,7 @@ pub(super) struct State {
     pub(super) layer_speeds: Vec<(u32, f64)>,
     /// Feed of the last rapid move in mm/min, if it depends on F.
     pub(super) rapid_feed: Option<f64>,
+    /// Whether holes retract to R (G99). A program that does not state the mode may find either, and R is the more dangerous one.
     pub(super) retract_to_r: bool,
     /// The line of a tool change at which a drilling cycle was in effect, if there has been no motion word since then.
     pub(super) change_within_cycle: Option<u32>,
@@ -107,6 +108,7 @@ pub(super) struct StatedModes {
     pub(super) distance: bool,
     pub(super) plane: bool,
     pub(super) centres: bool,
+    pub(super) retract_mode: bool,
     pub(super) feed_missing: bool,
     pub(super) program_number: bool,
     /// Whether a refused change of the unit has been reported.
@@ -147,7 +149,7 @@ impl State {
             layer: 1,
             layer_speeds: Vec::new(),
             rapid_feed: None,
-            retract_to_r: !rules.lifts_to_start,
+            retract_to_r: rules.words.has_g(990),
             change_within_cycle: None,
             shift_stated: None,
             cycle: CycleState::default(),

@@ -203,7 +203,10 @@ impl Interpreter<'_> {
                     self.state.incremental_centres = incremental;
                     self.state.stated.centres = true;
                 }
-                Command::RetractToR(to_r) => self.state.retract_to_r = to_r,
+                Command::RetractToR(to_r) => {
+                    self.state.retract_to_r = to_r;
+                    self.state.stated.retract_mode = true;
+                }
                 Command::System(system) => {
                     if let Some(system) = self.numbered_system(block, code, span, Some(system)) {
                         self.select_system(block, system, span);

@@ -205,10 +205,12 @@ fn report_as_left_out(problem: &mut Diagnostic) {
     }
 }
 
-/// Converts the warning about a value that only the machine knows to an error, because the post would write an assumed number.
+/// Converts the warnings about a value or a height that only the machine knows to errors, because the post would write an assumed number.
 fn refuse_machine_value(problem: &mut Diagnostic) {
     if problem.message == &gcode::MACHINE_VALUE {
         problem.message = &posts::JOB_MACHINE_VALUE;
+        problem.severity = Severity::Error;
+    } else if problem.message == &gcode::RETRACT_NOT_STATED {
         problem.severity = Severity::Error;
     }
 }
