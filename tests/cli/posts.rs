@@ -1,6 +1,6 @@
 //! Tests `emit` through a post: names, tools, joined programs, rejections. (book: program/posts)
 
-use crate::support::{Place, runs};
+use crate::support::{Place, dxf, runs};
 use insta::assert_snapshot;
 
 const LIBRARY: &str = r#"

@@ -599,6 +599,13 @@ messages! {
         help_en: "to peck, set `cycles = true` and write the program with a post-processor; otherwise remove it",
         help_de: "zum Bohren in Stufen `cycles = true` setzen und das Programm mit einem Postprozessor schreiben; sonst entfernen",
     }
+    /// C in a program with Z-probes, which is native.
+    PECKS_WITH_PROBES: ParameterWithoutEffect {
+        en: "{letter} has no effect: programs with Z-probes drill holes in one stroke, also after `adjust` and `post`",
+        de: "{letter} hat keine Wirkung: Programme mit Z-Proben bohren Löcher in einem Zug, auch nach `adjust` und `post`",
+        help_en: "to peck, drill these holes in a path without probes, and write it with a post-processor; otherwise remove it",
+        help_de: "zum Bohren in Stufen diese Löcher in einem Pfad ohne Proben bohren und ihn mit einem Postprozessor schreiben; sonst entfernen",
+    }
     /// A chain parameter on a segment other than the first.
     WITHOUT_EFFECT_IN_CHAIN: ParameterWithoutEffect {
         en: "{letter} has no effect here: the first segment's {letter} applies to the whole chain",

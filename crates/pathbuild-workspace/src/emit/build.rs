@@ -18,7 +18,7 @@ use pathbuild_gcode::verify::{
     Machine, beyond_machine, rapids_into_joined_material, rapids_into_material, text_beyond_machine,
 };
 use pathbuild_path::approx::near;
-use pathbuild_path::{Curve, KeepOutMap, Line, TipMove, Xy};
+use pathbuild_path::{Curve, KeepOutMap, Letter, Line, TipMove, Xy};
 use pathbuild_post::Job as PostJob;
 use pathbuild_toolpath::{Correction, Program, ProgramStep, UnprobedPoint, kind_of_move, memory, tip_move};
 
@@ -222,6 +222,12 @@ fn write_native(
         Some(outside) => delivered.problems.push(at(unprobed_point_warning(&outside))),
         // Unused probes are reported only if no move lies outside the probes: otherwise, the warning above suffices.
         None => delivered.problems.extend(unused_probes(program, correction).map(&at)),
+    }
+    // Without cycles, `check` reports each C. Without probes, any post-processor could write the program with its pecks.
+    let has_pecks = || program.pecks().iter().any(|(_, depth)| depth.is_some());
+    if settings.has_cycles && !program.probes.is_empty() && has_pecks() {
+        let problem = Diagnostic::new(&parameters::PECKS_WITH_PROBES).with("letter", Letter::C.as_char());
+        delivered.problems.push(at(problem));
     }
     let fault = |problem: Box<Diagnostic>| vec![at(*problem)];
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {

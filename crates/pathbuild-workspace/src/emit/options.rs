@@ -107,6 +107,8 @@ pub(super) struct OutputSettings<'a> {
     pub(super) provenances: Provenances,
     pub(super) sheets: SheetSettings,
     pub(super) machine: Option<Machine>,
+    /// Whether drilled holes are to be written as canned cycles, or pecked.
+    pub(super) has_cycles: bool,
 }
 
 impl<'a> OutputSettings<'a> {
@@ -120,6 +122,7 @@ impl<'a> OutputSettings<'a> {
             provenances,
             sheets,
             machine: machine(settings),
+            has_cycles: settings.general.cycles.value,
         }
     }
 }
