@@ -160,6 +160,7 @@ fn holes_with_c_are_drilled_in_pecks() {
     assert_eq!(drilled(&by_hand("-1", "1"), Some(2.0)), 0);
     assert_eq!(drilled(&by_hand("-1.01", "1"), Some(2.0)), 1);
     assert_eq!(drilled(&by_hand("-1", "-1"), Some(2.0)), 1, "the tool does not rise");
+    assert_eq!(drilled(&by_hand("-1", "0.9"), Some(2.0)), 1, "the tool rises inside the hole");
     assert_eq!(drilled("G98 G83 X9 Y0 Z-3 R1 Q2 F100", Some(2.0)), 0);
     assert_eq!(drilled("G98 G83 X9 Y0 Z-3 R1 Q3 F100", Some(2.0)), 1);
     assert_eq!(drilled("G98 G81 X9 Y0 Z-3 R1 F100", Some(2.0)), 1);

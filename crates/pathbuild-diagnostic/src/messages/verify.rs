@@ -127,6 +127,13 @@ messages! {
         help_en: "write the program again with `pathbuild emit`; if the control uses a different number for it, set `program-number`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben; hat es in der Steuerung eine andere Nummer, `program-number` setzen",
     }
+    /// `verify --against`: a program without the number by which the control identifies it.
+    NUMBER_MISSING: MovesDiffer {
+        en: "the program has no number, but the drawing's is O{expected}: the control may take the first N for it, and overwrite another program",
+        de: "das Programm hat keine Nummer, für die Zeichnung ist sie O{expected}: die Steuerung nimmt vielleicht das erste N dafür und überschreibt ein anderes Programm",
+        help_en: "write O{expected} at the beginning, or write the program again with `pathbuild emit`",
+        help_de: "O{expected} an den Anfang schreiben, oder das Programm mit `pathbuild emit` neu schreiben",
+    }
     /// `verify --against`: a tool length offset (G43, H) other than that of the tool in the spindle.
     LENGTHS_DIFFER: MovesDiffer {
         en: "the tool length in effect is not that of the tool in the spindle",

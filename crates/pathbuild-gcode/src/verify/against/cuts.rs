@@ -129,10 +129,12 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
     /// Compares the rapid moves before this cut, or at the end of the program, with the expected ones.
     fn rapids(&mut self, cut: Option<(u32, &Move)>) -> Result<(), Box<Difference>> {
         let mut chain = std::mem::replace(&mut self.chain, RapidSequence::after_cut());
-        if let Some(share) = cut.and_then(|_| chain.peck_fraction(&self.begun_plunge()?)) {
-            let bottom = self.place().z();
-            if chain.highest() > bottom + self.slack_of_height() {
-                self.left_at = Some(bottom);
+        let plunge = self.begun_plunge().filter(|_| cut.is_some());
+        if let Some((plunge, share)) = plunge.and_then(|plunge| Some((plunge, chain.peck_fraction(&plunge)?)))
+        {
+            // A lift inside the hole breaks the chip, but does not clear it.
+            if chain.highest() >= plunge.movement.from.z() - self.slack_of_height() {
+                self.left_at = Some(self.place().z());
             }
             (self.done, chain) = (share, RapidSequence::after_cut());
         }

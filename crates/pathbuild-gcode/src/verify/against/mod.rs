@@ -118,6 +118,8 @@ pub struct DrawingComparison<'w, M: Iterator<Item = (u32, Move)>> {
     words: WordRules<'w>,
     cuts: CutComparison<M>,
     number: Option<u32>,
+    /// Whether the control must find the program's number in the program, and has not yet.
+    lacks_number: bool,
     problems: Problems,
 }
 
@@ -129,6 +131,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
             words: WordRules::strict(words, dialect),
             cuts: CutComparison::new(drawn.moves, drawn.pecks, drawn.start, drawn.clearance, dialect),
             number: drawn.number,
+            lacks_number: matches!(dialect, Dialect::Fanuc | Dialect::Haas) && !words.is_of_definition(),
             problems: Problems::default(),
         }
     }
@@ -137,6 +140,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
     pub fn step(&mut self, step: &Step) {
         self.words.step(step);
         self.setup.step(step, &mut self.problems);
+        self.lacks_number &= !matches!(step.action, Action::ProgramNumber(_));
         if let (Action::ProgramNumber(found), Some(expected)) = (&step.action, self.number)
             && *found != expected
         {
@@ -157,6 +161,9 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
     /// Completes the comparison at the end of the program and returns its result.
     pub fn finish(mut self) -> Agreement {
         self.setup.finish(&mut self.problems);
+        if let Some(expected) = self.number.filter(|_| self.lacks_number) {
+            self.problems.add_at_line(&say::NUMBER_MISSING, 1, |d| d.with("expected", u64::from(expected)));
+        }
         let mut differences = self.problems.into_diagnostics();
         differences.extend(self.words.finish());
         let (found, equal) = self.cuts.finish();
