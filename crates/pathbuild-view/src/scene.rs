@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use pathbuild_diagnostic::shown;
+use pathbuild_diagnostic::{Lang, shown};
 use pathbuild_gcode::verify::Cutter;
 use pathbuild_motion as motion;
 use pathbuild_motion::{Axes, MoveShape, Pace};
@@ -508,6 +508,13 @@ pub struct Finding {
 pub struct BilingualText {
     pub en: String,
     pub de: String,
+}
+
+impl BilingualText {
+    /// Asks for a text in each language.
+    pub fn of(text: impl Fn(Lang) -> String) -> Self {
+        Self { en: text(Lang::En), de: text(Lang::De) }
+    }
 }
 
 impl Scene {

@@ -94,7 +94,7 @@ pub fn program_scene(
     scene.program = Some(ProgramRecord {
         dialect: program.shown.name(),
         dialects: Vec::new(),
-        read_as: bilingual(|lang| program.describe_reading(lang)),
+        read_as: BilingualText::of(|lang| program.describe_reading(lang)),
         checks: verified.checks.iter().map(shown_check).collect(),
         cutters,
         surface: checked_surface.or(given_surface).or(header.surface),
@@ -196,9 +196,9 @@ fn shown_check(record: &CheckRecord) -> ShownCheck {
         Outcome::Assumed(..) => "assumed",
         Outcome::Incomplete(..) | Outcome::NotMade(_) => "not-made",
     };
-    ShownCheck { check: record.requirement.name(), outcome, text: bilingual(|lang| record.text(lang)) }
-}
-
-fn bilingual(text: impl Fn(Lang) -> String) -> BilingualText {
-    BilingualText { en: text(Lang::En), de: text(Lang::De) }
+    ShownCheck {
+        check: record.requirement.name(),
+        outcome,
+        text: BilingualText::of(|lang| record.text(lang)),
+    }
 }

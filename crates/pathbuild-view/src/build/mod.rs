@@ -7,7 +7,7 @@ mod program;
 use std::collections::HashMap;
 
 use pathbuild_diagnostic::messages::part;
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, Value, shown};
+use pathbuild_diagnostic::{Code, Diagnostic, Message, Value, shown};
 
 use crate::scene::{BilingualText, Finding, Label, Point, Scene, ScenePath, Shape};
 
@@ -141,18 +141,13 @@ fn finding(number: usize, diagnostic: &Diagnostic, file: &str) -> Finding {
     let is_here = diagnostic.file.as_ref().is_some_and(|found| found == file);
     let outermost = diagnostic.trace.first().filter(|step| step.file == file).map(|step| step.point);
     let own = diagnostic.place.point.filter(|_| is_here);
-    let help = |lang| diagnostic.help(lang).unwrap_or_default();
     Finding {
         number,
         code: diagnostic.code().to_string(),
         is_error: diagnostic.is_error(),
-        message: BilingualText { en: diagnostic.text(Lang::En), de: diagnostic.text(Lang::De) },
-        help: BilingualText { en: help(Lang::En), de: help(Lang::De) },
-        notes: diagnostic
-            .notes
-            .iter()
-            .map(|note| BilingualText { en: note.text(Lang::En), de: note.text(Lang::De) })
-            .collect(),
+        message: BilingualText::of(|lang| diagnostic.text(lang)),
+        help: BilingualText::of(|lang| diagnostic.help(lang).unwrap_or_default()),
+        notes: diagnostic.notes.iter().map(|note| BilingualText::of(|lang| note.text(lang))).collect(),
         file: diagnostic.file.as_ref().map(|file| shown::line(file.as_str()).into_owned()),
         path: diagnostic.path.as_deref().map(str::to_owned),
         line: diagnostic.place.line,

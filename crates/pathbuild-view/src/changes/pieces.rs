@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use pathbuild_motion::{Axes, Move, MoveShape, Plane, Position};
+use pathbuild_motion::{Move, MoveShape, Plane, Position};
 
 use super::is_rapid;
 use crate::scene::{Point, SceneMove};
@@ -116,7 +116,7 @@ impl Divider {
         let way = &movement.way;
         let is_divisible = !self.is_exhausted
             && !is_rapid(movement)
-            && way.from.known.and(way.to.known) == Axes::ALL
+            && way.is_known()
             && way.named.is_none()
             && way.is_finite()
             && !way.is_vertical()

@@ -8,7 +8,7 @@ use pathbuild_db::{
     Database, Role, SourceFile, Target, assigned_texts, check_file, drawn_path, effective_parameters,
     file_index, keep_outs, path_names, placed_keep_outs, remaining_layers, traced_program, uncut_rings,
 };
-use pathbuild_diagnostic::{Diagnostic, Lang};
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_path::{KeepOut, PathName};
 use pathbuild_view::{self as view, BilingualText, EmittedText, Parameter, Scene, ScenePath, Sheet};
@@ -187,7 +187,7 @@ impl Session<'_> {
         let with_place = |problem: Diagnostic| if problem.file.is_some() { problem } else { at(problem) };
         let refused = refused.into_iter().filter(|problem| problem.is_error() && is_written);
         let refused: Vec<Diagnostic> = refused.map(with_place).collect();
-        let refusal = refused.first().map(bilingual);
+        let refusal = refused.first().map(|problem| BilingualText::of(|lang| problem.text(lang)));
         refusals.extend(refused);
         let emitted = emitted.as_ref().map(|emitted| EmittedText {
             file: is_written.then_some(emitted.file.as_str()),
@@ -228,10 +228,6 @@ impl Session<'_> {
         let drawn = drawn.map(|drawn| view::drawn_path(&drawn_source(self.db(), file, drawn, &parameters)));
         (drawn, diagnostics, Vec::new())
     }
-}
-
-fn bilingual(problem: &Diagnostic) -> BilingualText {
-    BilingualText { en: problem.text(Lang::En), de: problem.text(Lang::De) }
 }
 
 /// A sheet with the diagnostics of its path.

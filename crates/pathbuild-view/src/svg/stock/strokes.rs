@@ -1,6 +1,6 @@
 //! The areas that cutters sweep, as strokes.
 
-use pathbuild_motion::{Axes, Move, MoveShape, Position};
+use pathbuild_motion::{Move, MoveShape, Position};
 
 use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath, Tip, ToolSpan};
 
@@ -157,7 +157,7 @@ pub(super) struct CuttingConditions {
 }
 
 pub(super) fn is_known(way: &Move) -> bool {
-    way.from.known.and(way.to.known) == Axes::ALL && way.named.is_none()
+    way.is_known() && way.named.is_none()
 }
 
 /// Returns the area swept by a piece of a move of one of these paths.
