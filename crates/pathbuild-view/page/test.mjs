@@ -1,6 +1,6 @@
 // The page in a browser: node test.mjs PATHBUILD LIBRARY [PICTURES]; BROWSER=firefox tries Firefox.
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import assert from "node:assert/strict";
@@ -559,4 +559,5 @@ await browser.close();
   }
   await still.close();
 }
+rmSync(directory, { recursive: true });
 console.log(`page${isFirefox ? ", in Firefox" : ""}: all passed`);
