@@ -17,16 +17,16 @@ use crate::approx::{above, is_negligible};
 use crate::bind::uncut_runs::{SupportSegment, uncut_runs};
 use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape, diagnostic_point};
-use crate::geometry::{Curve, Line, PlaceKey};
+use crate::geometry::{Curve, PlaceKey};
 use crate::language::{Language, PathTool};
 use crate::letter::{ElementClass, Letter, LetterUse, Letters};
 use crate::names::name_regex;
+use crate::part::first_enclosing;
 use crate::path::{
     CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath, SubpathName, SubpathValue,
     Surface, Turn,
 };
 use crate::raw::{DrawingFaults, Faults, RawPath};
-use crate::read::{Ring, RingPart, rings};
 use crate::text::{LetterValue, ParameterText, TextId};
 use crate::values::{GivenNumber, Values, check_cutting_depth, check_doubts, check_limits, check_mark};
 use crate::variables::{Bindings, Interpolation};
@@ -648,17 +648,6 @@ fn push_indexed<T>(list: &mut Vec<T>, thing: T) -> u32 {
     u32::try_from(list.len() - 1).unwrap_or(u32::MAX)
 }
 
-/// Whether a cutter of this diameter closes the gap between the ends of an outline, and leaves material standing inside: the area of the outline
-/// is larger than the area that the cutter removes from it.
-fn is_closed_by(tool: f64, outline: &[Curve]) -> bool {
-    let ([first, ..], [.., last]) = (outline, outline) else { return false };
-    let gap = Curve::Line(Line { start: last.end(), end: first.start() });
-    let ring = || outline.iter().chain([&gap]);
-    let perimeter: f64 = ring().map(Curve::length).sum();
-    let area: f64 = ring().map(|curve| curve.area_from(first.start())).sum();
-    above(tool, gap.length()) && above(area.abs(), perimeter * tool / 2.0)
-}
-
 const BAR_LETTERS: [Letter; 2] = [Letter::P, Letter::U];
 
 impl Binder<'_> {
@@ -701,20 +690,14 @@ impl Binder<'_> {
             let Shape::Curve(curve) = elements[segment.element as usize].shape else { return None };
             (cut.cut == Cut::Mill && !above(cut.bottom, 0.0)).then_some((segment.element, curve))
         });
-        let part = |(entity, curve): (u32, Curve)| RingPart { curve, group: None, entity: entity as usize };
-        let parts: Vec<RingPart> = outline.map(part).collect();
-        let closed = rings(&parts).into_iter().find_map(|ring| match ring {
-            Ring::Closed(parts) => parts.iter().map(|part| part.entity).min(),
-            Ring::Open { part, curves } if tool.is_some_and(|tool| is_closed_by(tool, &curves)) => {
-                Some(part.entity)
-            }
-            Ring::Open { .. } | Ring::Branch { .. } => None,
-        });
-        let Some(first) = closed else { return };
+        let radius = tool.unwrap_or_default() / 2.0;
+        let (numbers, cuts): (Vec<u32>, Vec<_>) =
+            outline.map(|(element, curve)| (element, (curve, radius))).unzip();
+        let Some(first) = first_enclosing(&cuts) else { return };
         let letters = BAR_LETTERS.into_iter().filter(|letter| self.values.has(*letter));
         let letters: Value = letters.map(|letter| letter.as_char().to_string()).collect();
         let problem = Diagnostic::new(&messages::LOST_BARS).with("letters", letters);
         let problem = problem.in_path(self.raw.name.as_str());
-        self.problems.push(self.raw.drawn.origin(&elements[first]).at(problem));
+        self.problems.push(self.raw.drawn.origin(&elements[numbers[first] as usize]).at(problem));
     }
 }

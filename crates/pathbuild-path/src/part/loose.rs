@@ -1,5 +1,6 @@
 //! Determines whether cuts form a closed ring around a part. (book: language/part)
 
+use std::cell::LazyCell;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use super::boxes::{BoxIndex, may_be_near, square};
@@ -50,8 +51,44 @@ pub(super) fn is_enclosed(at: Xy, cuts: &[(Curve, f64)]) -> bool {
     is_in_ring(at, &swept_by(cuts))
 }
 
+/// Returns the index of the first through cut beside which the cuts, each with its cutter radius, close a ring round material.
+pub(crate) fn first_enclosing(cuts: &[(Curve, f64)]) -> Option<usize> {
+    let sweeps = swept_by(cuts);
+    let points = || (0..).zip(cuts).flat_map(|(cut, (curve, radius))| beside_cut(cut, curve, *radius));
+    let is_removed = |at: Xy| cuts.iter().any(|(curve, radius)| curve.distance_to(at) < *radius);
+    let contacts = LazyCell::new(|| contacts(&sweeps));
+    let is_enclosed = |at: Xy| !can_escape(at, &sweeps) && is_ring_closed(at, &sweeps, &contacts);
+    let step = points().count() * sweeps.len() / MAX_TESTED_SWEEPS + 1;
+    points().step_by(step).find(|(_, at)| !is_removed(*at) && is_enclosed(*at)).map(|(cut, _)| cut)
+}
+
+/// Upper bound on the sweeps that are tested for all points beside cuts together. Among more cuts, only some of the points are tested.
+const MAX_TESTED_SWEEPS: usize = 300_000;
+
+/// Distance in mm between the points beside a cut; more for a cut so long that it would have more than [`MAX_POINTS`] on each side.
+const POINT_DISTANCE: f64 = 5.0;
+
+/// Maximum number of points on each side of a cut.
+const MAX_POINTS: f64 = 200.0;
+
+/// Returns points on both sides of a cut just beyond its edge, each with the number of the cut.
+fn beside_cut(cut: usize, curve: &Curve, radius: f64) -> impl Iterator<Item = (usize, Xy)> {
+    let away = radius + MAX_WEAK_BRIDGE;
+    [away, -away].into_iter().filter_map(|away| offset_curve(curve, away)).flat_map(move |beside| {
+        let length = beside.length();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a small number from 1 up"
+        )]
+        let count = (length / POINT_DISTANCE).ceil().clamp(1.0, MAX_POINTS) as u32;
+        let along = move |number: u32| length * (f64::from(number) + 0.5) / f64::from(count);
+        (0..count).map(move |number| (cut, beside.at(along(number))))
+    })
+}
+
 fn is_in_ring(at: Xy, sweeps: &[SweptLine]) -> bool {
-    !can_escape(at, sweeps) && is_ring_closed(at, sweeps)
+    !can_escape(at, sweeps) && is_ring_closed(at, sweeps, &contacts(sweeps))
 }
 
 /// Whether cuts, each with its cutter radius, close a ring round a part.
@@ -105,13 +142,15 @@ fn can_escape(at: Xy, sweeps: &[SweptLine]) -> bool {
     end < PI
 }
 
-/// Whether sweeps close a ring around a point that none of them covers.
-///
-/// Groups overlapping sweeps by union-find. Each sweep stores its angle around the point relative to its parent. If two sweeps of one group overlap
-/// at an angle that differs from the stored one, they close a ring.
-fn is_ring_closed(centre: Xy, sweeps: &[SweptLine]) -> bool {
+/// Two sweeps that overlap, by their numbers, and their points that are nearest to each other.
+struct Contact {
+    sweeps: [usize; 2],
+    points: [Xy; 2],
+}
+
+fn contacts(sweeps: &[SweptLine]) -> Vec<Contact> {
     let boxes = BoxIndex::new(sweeps.iter().map(|sweep| widened_box(&Curve::Line(sweep.line), sweep.radius)));
-    let mut groups = Groups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };
+    let mut contacts = Vec::new();
     for (number, sweep) in sweeps.iter().enumerate() {
         for other in boxes.near(widened_box(&Curve::Line(sweep.line), sweep.radius)) {
             if other <= number {
@@ -119,17 +158,25 @@ fn is_ring_closed(centre: Xy, sweeps: &[SweptLine]) -> bool {
             }
             let met = &sweeps[other];
             let (here, there) = nearest_points(&sweep.line, &met.line);
-            if (there - here).norm() > sweep.radius + met.radius - MIN_OVERLAP {
-                continue;
-            }
-            let way = [sweep.line.start, here, there, met.line.start];
-            let angle = way.windows(2).map(|step| turn(centre, step[0], step[1])).sum();
-            if groups.unite(number, other, angle) {
-                return true;
+            if (there - here).norm() <= sweep.radius + met.radius - MIN_OVERLAP {
+                contacts.push(Contact { sweeps: [number, other], points: [here, there] });
             }
         }
     }
-    false
+    contacts
+}
+
+/// Whether sweeps close a ring around a point that none of them covers.
+///
+/// Groups overlapping sweeps by union-find. Each sweep stores its angle around the point relative to its parent. If two sweeps of one group overlap
+/// at an angle that differs from the stored one, they close a ring.
+fn is_ring_closed(centre: Xy, sweeps: &[SweptLine], contacts: &[Contact]) -> bool {
+    let mut groups = Groups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };
+    contacts.iter().any(|Contact { sweeps: [one, other], points: [here, there] }| {
+        let way = [sweeps[*one].line.start, *here, *there, sweeps[*other].line.start];
+        let angle = way.windows(2).map(|step| turn(centre, step[0], step[1])).sum();
+        groups.unite(*one, *other, angle)
+    })
 }
 
 /// Minimum overlap in mm of two sweeps that are considered connected.

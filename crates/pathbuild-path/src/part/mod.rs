@@ -24,6 +24,7 @@ use crate::names::{LayerPattern, PathName};
 
 pub(crate) use boxes::{BoxIndex, square};
 pub(crate) use intervals::{Stretch, add_stretches_within, join_stretches};
+pub(crate) use loose::first_enclosing;
 pub(crate) use open::OpenOutline;
 
 pub use bars::LostBar;

@@ -385,16 +385,16 @@ fn on_layer(layer: &str, mut problem: Diagnostic) -> Diagnostic {
 
 /// A curve that may be part of a ring.
 #[derive(Clone, Copy)]
-pub(crate) struct RingPart {
-    pub(crate) curve: Curve,
+struct RingPart {
+    curve: Curve,
     /// Number of the curve's polyline; the parts of a polyline are consecutive.
-    pub(crate) group: Option<u32>,
+    group: Option<u32>,
     /// The index of the curve's entity.
-    pub(crate) entity: usize,
+    entity: usize,
 }
 
 /// The result of joining curves.
-pub(crate) enum Ring {
+enum Ring {
     /// A closed sequence of curves.
     Closed(Vec<RingPart>),
     /// An open sequence of curves, from one end to the other, and the curve at its last end.
@@ -404,7 +404,7 @@ pub(crate) enum Ring {
 }
 
 /// Returns the rings formed by curves: first polylines that are closed themselves, then everything else.
-pub(crate) fn rings(parts: &[RingPart]) -> Vec<Ring> {
+fn rings(parts: &[RingPart]) -> Vec<Ring> {
     let (mut rings, mut loose) = (Vec::new(), Vec::new());
     for polyline in parts.chunk_by(|one, other| one.group.is_some() && one.group == other.group) {
         if is_closed(polyline) {

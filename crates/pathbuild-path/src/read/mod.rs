@@ -30,7 +30,6 @@ use crate::read::parameters::{Start, Starts};
 
 pub use entities::TextCircle;
 pub use keep_outs::keep_outs;
-pub(crate) use keep_outs::{Ring, RingPart, rings};
 pub use likely_parameters::may_be_stray_text;
 pub use listing::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines};
 pub use near_names::{NearNames, is_near_clamps_or_parts};

@@ -513,8 +513,21 @@ fn rims_that_have_lost_their_bars_are_doubtful() {
     let arcs = "mill arc 0,0 to 40,0 centre 20,0\nmill arc 40,0 to 0,0 centre 20,0\nend 0,0";
     assert_eq!(found(BARS, arcs), ["PB212 "]);
     let open = |gap: f64| found(BARS, &format!("mill 0,0 40,0 40,30 0,30 0,{gap}\nend 0,{gap}"));
-    assert_eq!(open(1.99), ["PB212 "]);
-    assert_eq!(open(2.0), [""; 0]);
+    assert_eq!(open(2.09), ["PB212 "]);
+    assert_eq!(open(2.11), [""; 0]);
+    // The last line runs over the first one, or ends in its middle.
+    assert_eq!(found(BARS, "mill 0,0 25,0 25,20 -5,20 -5,0 10,0\nend 10,0"), ["PB212 "]);
+    let t_joint = |end: f64| found(BARS, &format!("mill 0,0 30,0 30,20 10,20 10,{end}\nend 10,{end}"));
+    assert_eq!(t_joint(0.0), ["PB212 "]);
+    assert_eq!(t_joint(2.09), ["PB212 "]);
+    assert_eq!(t_joint(2.11), [""; 0]);
+    // Lines that cross at the corners, near one end of each.
+    let crossing = |last: &str| {
+        let lines = "mill 0,0 0,90\nsweep 0,90 -1,20\nmill -1,20 90,20\nsweep 90,20 21,21\nmill 21,21 21,-90";
+        found(BARS, &format!("{lines}\nsweep 21,-90 22,0\nmill {last}"))
+    };
+    assert_eq!(crossing("22,0 -90,0\nend -90,0"), ["PB212 "]);
+    assert_eq!(crossing("22,0 2.2,0\nend 2.2,0"), [""; 0]);
     // The tool mills in both directions, along lines so close that nothing is left between them.
     assert_eq!(found(BARS, "mill 0,0 40,0 40,1.9 0,1.9\nend 0,1.9"), [""; 0]);
     assert_eq!(found(BARS, "mill 0,0 1.5,0\nend 1.5,0"), [""; 0]);
