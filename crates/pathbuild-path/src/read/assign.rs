@@ -8,6 +8,7 @@ use pathbuild_diagnostic::messages::drawing as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Value, words};
 use pathbuild_dxf::LayoutObstacle;
 
+use crate::approx::above;
 use crate::element::{END_RADIUS, Element, Marker, Role, Shape, TURN_RADIUS, diagnostic_point};
 use crate::letter::{Letter, LetterUse, Letters};
 use crate::names::is_tilde_layer;
@@ -17,7 +18,7 @@ use crate::read::candidates::{
 };
 use crate::read::collect::PathCollector;
 use crate::read::entities::{FoundText, TextCircle};
-use crate::read::texts::{LayerTexts, MAX_EXAMINED_ELEMENTS, MAX_SEARCHED_LAYERS, Texts};
+use crate::read::texts::{GivenText, LayerTexts, MAX_EXAMINED_ELEMENTS, MAX_SEARCHED_LAYERS, Texts};
 use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 
 /// Maximum number of other layers with a suitable element that the finding about a text without an element lists.
@@ -40,25 +41,15 @@ impl Default for HintBudgets {
     }
 }
 
-/// A text with the candidate of its layer that it belongs to.
-struct GivenText<'d> {
-    text: FoundText<'d>,
-    found: AssignedCandidate,
-}
-
 impl<'d> Texts<'d> {
     /// Assigns each text to its element. Reports PB107 for a text without an element, and PB116 if another element is nearer, or less than `margin`
     /// mm farther away.
     pub(crate) fn assign(&mut self, path: &mut PathCollector<'_>, margin: f64) {
         let budget = SearchBudget::new(MAX_EXAMINED_ELEMENTS);
         let has_several = self.layers.iter().filter(|layer| !layer.candidates.is_empty()).nth(1).is_some();
-        let mut given = Vec::new();
+        let given = &mut self.given;
         for layer in &mut self.layers {
-            let remember = |text: &FoundText<'d>, found| {
-                if has_several {
-                    given.push(GivenText { text: *text, found });
-                }
-            };
+            let remember = |text: &FoundText<'d>, found| given.push(GivenText { text: *text, found });
             if let Some(problem) = layer.assign(path, margin, &budget, remember) {
                 // The elements of the remaining texts are unknown.
                 path.diagnostics.push(problem);
@@ -71,7 +62,7 @@ impl<'d> Texts<'d> {
         }
         self.prepare();
         if has_several {
-            self.check_other_layers(&given, path);
+            self.check_other_layers(path);
         }
         let budgets = HintBudgets::default();
         for (number, layer) in self.layers.iter().enumerate() {
@@ -91,28 +82,57 @@ impl<'d> Texts<'d> {
         }
     }
 
-    /// Reports PB116 for each text if an element without a text, on another layer of the path, is nearer than the text's own element. Texts on tilde
-    /// layers are exempt: they are kept apart from the elements of other layers on purpose.
-    fn check_other_layers(&self, given: &[GivenText<'_>], path: &mut PathCollector<'_>) {
+    /// Reports PB116 for each text if an element without a text, on another layer of the path, is nearer than the text's own element.
+    fn check_other_layers(&self, path: &mut PathCollector<'_>) {
         let budget = SearchBudget::new(MAX_EXAMINED_FOR_HINTS);
-        for GivenText { text, found } in given {
+        for GivenText { text, found } in &self.given {
             let number = text.source.layer as usize;
-            let layer = &self.layers[number];
-            if is_tilde_layer(&layer.name) {
-                continue;
-            }
             let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
-            let doubt = others.take(MAX_SEARCHED_LAYERS).find_map(|(_, other)| {
-                let is_nearer = |doubt| matches!(doubt, Doubt::NearerOfLaterKind | Doubt::NearerOfSameKind);
-                let (_, doubt) = layer.doubt(text, found, (other, 0.0), &budget, path, is_nearer)?;
-                Some(
-                    Diagnostic { message: &messages::NEARER_ON_OTHER_LAYER, ..doubt }
-                        .quoting("layer", &*other.name),
-                )
-            });
+            let rivals = others.map(|(_, layer)| Rivals { layer, path: &*path, margin: 0.0 });
+            let doubt = self.layers[number].doubt_by_other_layer(text, found, rivals, &budget, |_| true);
             path.diagnostics.extend(doubt);
         }
     }
+}
+
+/// Reports PB116 for each text that lies on an element of another path of the drawing, to within `margin` mm, and not on its own element: it was
+/// probably drawn on the wrong path's layer.
+pub(super) fn check_other_paths(paths: &mut [PathCollector<'_>], margin: f64) {
+    if paths.len() < 2 {
+        return;
+    }
+    for path in &mut *paths {
+        path.texts.prepare();
+    }
+    let budget = SearchBudget::new(MAX_EXAMINED_FOR_HINTS);
+    for number in 0..paths.len() {
+        let path = &paths[number];
+        if path.faults.has_broken_entity {
+            continue;
+        }
+        let others = || paths.iter().enumerate().filter(|(other, _)| *other != number);
+        let doubt = |GivenText { text, found }: &GivenText<'_>| {
+            let is_on = |distance| !above(distance, margin);
+            let layers =
+                others().flat_map(|(_, path)| path.texts.layers.iter().map(move |layer| (layer, path)));
+            let rivals = layers.map(|(layer, path)| Rivals { layer, path, margin: 0.0 });
+            let layer = &path.texts.layers[text.source.layer as usize];
+            let doubt = layer.doubt_by_other_layer(text, found, rivals, &budget, |rival| {
+                is_on(found.visible_distance + rival.farther) && !is_on(found.visible_distance)
+            })?;
+            Some(doubt.in_path(path.name.as_str()))
+        };
+        let doubts: Vec<Diagnostic> = path.texts.given.iter().filter_map(doubt).collect();
+        paths[number].diagnostics.extend(doubts);
+    }
+}
+
+/// The elements of a layer that a text may have been meant for.
+struct Rivals<'r> {
+    layer: &'r LayerTexts<'r>,
+    path: &'r PathCollector<'r>,
+    /// See [`find_rival`].
+    margin: f64,
 }
 
 impl<'d> LayerTexts<'d> {
@@ -128,9 +148,14 @@ impl<'d> LayerTexts<'d> {
         let mut beside_text = Vec::new();
         let last = self.each_match(budget, |layer, text, circle, owners, found| {
             let has_owner = !owners.is_empty();
-            let is_of_layer = |doubt| doubt != Doubt::NearerOfSameKind;
-            let doubt =
-                found.and_then(|found| layer.doubt(text, &found, (layer, margin), budget, path, is_of_layer));
+            let doubt = found.and_then(|found| {
+                let is_of_layer = |rival: &Rival| {
+                    let owners =
+                        [found.candidate, rival.candidate].map(|index| layer.candidates[index].owner);
+                    rival.doubt != Doubt::NearerOfSameKind && !are_copies_of_subpath(owners, &path.elements)
+                };
+                layer.doubt(text, &found, &Rivals { layer, path, margin }, budget, is_of_layer)
+            });
             match doubt {
                 Some((rival, doubt)) if !is_overlapped(&circle, &layer.candidates[rival.candidate].shape) => {
                     beside_text.push((rival.candidate, doubt));
@@ -179,11 +204,11 @@ impl<'d> LayerTexts<'d> {
         &self,
         text: &FoundText<'_>,
         found: &AssignedCandidate,
-        (rivals, margin): (&Self, f64),
+        rivals: &Rivals<'_>,
         budget: &SearchBudget,
-        path: &PathCollector<'_>,
-        is_reported: impl Fn(Doubt) -> bool,
+        is_reported: impl Fn(&Rival) -> bool,
     ) -> Option<(Rival, Diagnostic)> {
+        let Rivals { layer: rivals, path, margin } = *rivals;
         let element = &self.candidates[found.candidate];
         let string = without_percent_codes(text.string());
         let texts = OnceCell::new();
@@ -193,9 +218,8 @@ impl<'d> LayerTexts<'d> {
             let refuses = |text: ParameterText<'_>| refuses(other.owner, text, &path.elements);
             let is_part =
                 std::ptr::eq(self, rivals) && self.parts(found.candidate).contains(&rival.candidate);
-            is_reported(rival.doubt)
+            is_reported(rival)
                 && !is_part
-                && !are_copies_of_subpath([element.owner, other.owner], &path.elements)
                 && discriminant(&element.owner) == discriminant(&other.owner)
                 && !read().is_some_and(refuses)
         };
@@ -223,6 +247,30 @@ impl<'d> LayerTexts<'d> {
         }
         doubt.text = read().map(ParameterText::whole_text_fault);
         Some((rival, self.origin(text.source, text.anchor()).at(doubt)))
+    }
+
+    /// Returns PB116 if an element without a text, on another layer than the text, is nearer than the text's own element. Texts on tilde layers are
+    /// exempt: they are kept apart from the elements of other layers on purpose.
+    fn doubt_by_other_layer<'r>(
+        &self,
+        text: &FoundText<'_>,
+        found: &AssignedCandidate,
+        others: impl Iterator<Item = Rivals<'r>>,
+        budget: &SearchBudget,
+        is_possible: impl Fn(&Rival) -> bool,
+    ) -> Option<Diagnostic> {
+        if is_tilde_layer(&self.name) {
+            return None;
+        }
+        let is_nearer = |rival: &Rival| {
+            matches!(rival.doubt, Doubt::NearerOfLaterKind | Doubt::NearerOfSameKind) && is_possible(rival)
+        };
+        others.take(MAX_SEARCHED_LAYERS).find_map(|rivals| {
+            let name = &rivals.layer.name;
+            let (_, doubt) = self.doubt(text, found, &rivals, budget, is_nearer)?;
+            let doubt = Diagnostic { message: &messages::NEARER_ON_OTHER_LAYER, ..doubt };
+            Some(doubt.quoting("layer", &**name))
+        })
     }
 
     /// Returns PB116 for a text that the CAD program shows in a place that is unknown.

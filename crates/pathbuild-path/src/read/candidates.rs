@@ -69,7 +69,7 @@ pub(crate) struct AssignedCandidate {
     /// The distance in mm from the centre of the text's circle to the centre of a circle, or to the arc or line.
     distance: f64,
     /// The distance in mm that a person sees between the text's centre and the candidate.
-    visible_distance: f64,
+    pub(crate) visible_distance: f64,
 }
 
 /// A candidate that a person could take for the one that a text belongs to.

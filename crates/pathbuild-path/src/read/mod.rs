@@ -25,6 +25,7 @@ use crate::element::Origin;
 use crate::language::Language;
 use crate::letter::Letter;
 use crate::raw::RawFile;
+use crate::read::assign::check_other_paths;
 use crate::read::collect::PathCollector;
 use crate::read::parameters::{Start, Starts};
 
@@ -53,6 +54,7 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
     for path in &mut collected {
         path.assign_texts(language);
     }
+    check_other_paths(&mut collected, language.doubts.text_margin);
     let starts = starts(&collected);
     RawFile { paths: collected.into_iter().map(|path| path.finish(&starts)).collect(), diagnostics }
 }

@@ -20,6 +20,14 @@ use crate::text::{ParameterTexts, without_percent_codes};
 #[derive(Default)]
 pub(crate) struct Texts<'d> {
     pub(super) layers: Vec<LayerTexts<'d>>,
+    /// The texts that belong to an element.
+    pub(super) given: Vec<GivenText<'d>>,
+}
+
+/// A text with the candidate of its layer that it belongs to.
+pub(super) struct GivenText<'d> {
+    pub(super) text: FoundText<'d>,
+    pub(super) found: AssignedCandidate,
 }
 
 #[derive(Default)]
@@ -136,7 +144,7 @@ impl<'d> Texts<'d> {
         matched
     }
 
-    /// Builds the spatial indexes of all layers for [`free_candidates`](Self::free_candidates).
+    /// Builds the spatial indexes of all layers.
     pub(crate) fn prepare(&mut self) {
         for layer in &mut self.layers {
             layer.boxes = CandidateIndex::new(&layer.candidates);

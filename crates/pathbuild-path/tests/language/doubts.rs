@@ -384,6 +384,32 @@ fn a_text_nearer_to_an_element_on_another_layer_is_doubtful() {
     assert_eq!(found(["1234.1P", "1234.1P~A"], 1.49, line), [""; 0]);
 }
 
+/// The text is on the layer of one path, but on the line of another one.
+#[test]
+fn a_text_on_an_element_of_another_path_is_doubtful() {
+    let found = |layer: &str, above: f64, margin: f64, other: &str| {
+        let own = format!(
+            "layer 1234.1P\nstart 500,0 \"T5 O3 I1 B0 D2\"\nend 500,90\nlayer {layer}\nmill 0,3 40,3"
+        );
+        let other = format!("layer 1235.1P\nstart 600,0 \"T5 O3 I1 B0 D2\"\nend 600,90\n{other}");
+        let text = format!("text 20,{above} \"F100\" height 6 align centre middle");
+        let language = Language { doubts: DoubtThresholds { text_margin: margin, ..MACHINE }, ..language() };
+        codes(&read_as(&format!("{own}\n{text}\n{other}"), &language).paths[0].0.diagnostics)
+    };
+    let line = "mill 0,0 40,0";
+    assert_eq!(found("1234.1P", 0.0, 0.1, line), ["PB116"]);
+    assert_eq!(found("1234.1P", 0.09, 0.1, line), ["PB116"]);
+    assert_eq!(found("1234.1P", 0.11, 0.1, line), [""; 0]);
+    assert_eq!(found("1234.1P", 0.11, 0.12, line), ["PB116"]);
+    assert_eq!(found("1234.1P", 0.0, 0.0, line), ["PB116"]);
+    // Both lie on the same line, the other one has a text, does not take F, or the text is kept apart on purpose.
+    assert_eq!(found("1234.1P", 3.0, 0.1, "mill 0,3 40,3"), [""; 0]);
+    let with_text = format!("{line}\ntext 10,0.2 \"F50\" height 2 align centre middle");
+    assert_eq!(found("1234.1P", 0.0, 0.1, &with_text), [""; 0]);
+    assert_eq!(found("1234.1P", 0.0, 0.1, "sweep 0,0 40,0"), [""; 0]);
+    assert_eq!(found("1234.1P~A", 0.0, 0.1, line), [""; 0]);
+}
+
 #[test]
 fn a_feed_has_no_separator_of_thousands() {
     for doubtful in ["F1.200", "F1,200", "F9.999", "F,150"] {
