@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value, is_slip};
 use regex::Regex;
 use smol_str::SmolStr;
 
-use crate::approx::{at_least, is_written_above, near};
+use crate::approx::{above, at_least, is_written_above, near};
 use crate::effective::{PathNumbers, PathOptions, PathRole};
 use crate::element::Origin;
 use crate::language::Language;
@@ -623,16 +623,31 @@ impl<'a> SubpathChecker<'a> {
             .quoting("outer", self.outer.name.as_str())
             .with("here", self.outer.thickness)
             .quoting("name", inner.name.as_str())
-            .with("there", inner.thickness);
+            .with("there", inner.thickness)
+            .with("lowest", inner.thickness + call.subpath.height);
+        let problem = match self.materials(call) {
+            Some((outer, segment)) if outer != segment => problem.note(
+                &messages::MATERIALS_DIFFER_IN_CASE,
+                vec![("outer_material", Value::quoted(outer)), ("material", Value::quoted(segment))],
+            ),
+            _ => problem,
+        };
         let problem = self.at(call, problem, call.fault(Letter::T));
         let is_doubt = self.is_compatible || self.outer.material.is_none();
         Some(if is_doubt { as_warning(problem) } else { problem })
     }
 
-    /// Whether the material of an embedded path is another sheet than that of the embedding path: it lies on shims (H), or has another name (M).
+    /// Whether the material of an embedded path is another sheet than that of the embedding path: it lies on shims (a positive H), or has another
+    /// name (M), which is not a matter of case.
     fn is_own_sheet(&self, call: &SubpathCall) -> bool {
-        let materials = self.outer.material.as_ref().zip(call.subpath.material.as_ref());
-        !near(call.subpath.height, 0.0) || materials.is_some_and(|(outer, here)| outer != here)
+        let is_other =
+            |(outer, segment): (&SmolStr, &SmolStr)| outer.to_lowercase() != segment.to_lowercase();
+        above(call.subpath.height, 0.0) || self.materials(call).is_some_and(is_other)
+    }
+
+    /// Returns M of the path and M of a segment.
+    fn materials<'s>(&'s self, call: &'s SubpathCall) -> Option<(&'s SmolStr, &'s SmolStr)> {
+        self.outer.material.as_ref().zip(call.subpath.material.as_ref())
     }
 
     fn material_mismatch(&self, call: &SubpathCall, inner: &PathSignature) -> Option<Diagnostic> {

@@ -389,12 +389,17 @@ messages! {
         help_en: "if {here} suits both, let its `paths` match {name} as well; otherwise embed the path in a project that is milled with {there}",
         help_de: "passt {here} für beide, soll sein `paths` auch auf {name} passen; sonst den Pfad in einem Projekt einbetten, das mit {there} gefräst wird",
     }
-    /// An embedding path with a greater thickness (T) than the embedded one, although both are of one sheet: the same M, and no H.
+    /// An embedding path with a greater thickness (T) than the embedded one, although both are of one sheet: the same M, and no H that raises it.
     THICKNESS_OF_PROJECT: SubpathParameterDiffers {
-        en: "path {name} is drawn for a sheet of {there} mm, but path {outer}, which embeds it, has T{here}: rapid moves go down to Z {there}, into the material of {outer}",
-        de: "Pfad {name} ist für ein Blech von {there} mm gezeichnet, Pfad {outer}, der ihn einbettet, hat aber T{here}: Eilgänge gehen bis Z {there} hinab, in das Material von {outer}",
+        en: "path {name} is drawn for a sheet of {there} mm, but path {outer}, which embeds it, has T{here}: rapid moves go down to Z {lowest}, into the material of {outer}",
+        de: "Pfad {name} ist für ein Blech von {there} mm gezeichnet, Pfad {outer}, der ihn einbettet, hat aber T{here}: Eilgänge gehen bis Z {lowest} hinab, in das Material von {outer}",
         help_en: "correct the T that is wrong. If sheets of different thickness lie side by side, give them different M, and the path that embeds them T and M of the thickest. If the thinner one lies on shims, write H on the segment",
         help_de: "das falsche T berichtigen. Liegen verschieden dicke Bleche nebeneinander, ihnen verschiedene M geben, und dem Pfad, der sie einbettet, T und M des dicksten. Liegt das dünnere auf Unterlagen, H an das Segment schreiben",
+    }
+    /// Note: the materials of the embedding path and of a segment differ in upper and lower case only.
+    MATERIALS_DIFFER_IN_CASE: SubpathParameterDiffers {
+        en: "{outer_material} and {material} differ in upper and lower case only, so both are taken for the same sheet",
+        de: "{outer_material} und {material} unterscheiden sich nur in Groß- und Kleinschreibung, gelten also als dasselbe Blech",
     }
     /// A subpath segment in a block that is inserted mirrored.
     MIRRORED_SUBPATH: MirroredSubpath {

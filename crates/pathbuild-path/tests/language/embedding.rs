@@ -219,6 +219,9 @@ fn a_thinner_sheet_has_another_m_or_lies_on_shims() {
     // Sheets of their own.
     assert_eq!(found("T5 Mx", "T4 My", "T4 My", false), []);
     assert_eq!(found("T5 Mx", "T4 H0.5", "T4 Mx", false), []);
+    // A sheet that lies lower is none of its own, nor is one with an M that differs in case only.
+    assert_eq!(found("T5 Mx", "T4 H-0.5", "T4 Mx", false), error);
+    assert_eq!(found("T5 MX", "T4 Mx", "T4 Mx", false), error);
     // The path may be one for several sheets, but it does not say so.
     assert_eq!(found("T5", "T4 Mx", "T4 Mx", false), warning);
     assert_eq!(found("T5", "T5 Mx", "T5 Mx", false), []);

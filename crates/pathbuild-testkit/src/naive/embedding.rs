@@ -247,9 +247,10 @@ fn allows(definition: &Definition, value: &str) -> bool {
 fn is_thinner_in_one_sheet(path: &Path, subpath: &Subpath, inner: &Path) -> bool {
     let letters = [Letter::T, Letter::M, Letter::H];
     let is_known = !letters.into_iter().any(|letter| path.hides(letter) || subpath.hides(letter));
-    let is_one_sheet = subpath.height == 0.0
-        && subpath.material.is_some()
-        && (path.material.is_none() || path.material == subpath.material);
+    let [outer, segment] =
+        [&path.material, &subpath.material].map(|name| name.as_deref().map(str::to_lowercase));
+    let is_one_sheet =
+        subpath.height <= 0.0 && subpath.material.is_some() && (outer.is_none() || outer == segment);
     let is_of_component = (subpath.thickness - inner.thickness).abs() <= LENGTH_TOLERANCE;
     is_known && is_one_sheet && is_of_component && path.thickness > inner.thickness + LENGTH_TOLERANCE
 }
