@@ -202,6 +202,16 @@ pub(crate) struct DrawingFaults {
     pub(crate) path_text: Option<(SmolStr, Xy)>,
 }
 
+/// How certain the walk along a path with errors is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum WalkCertainty {
+    Known,
+    /// A text that is not read may give N to a segment, which then comes earlier where several segments meet.
+    MayHideOrder,
+    /// The start, the order or a segment is unknown, so that the walk cannot be checked.
+    Unknown,
+}
+
 /// Properties of a path that errors leave unknown, after its variables are bound.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Faults {
@@ -210,8 +220,7 @@ pub(crate) struct Faults {
     pub(crate) is_infeed_unknown: bool,
     /// Whether all cuts are known nevertheless: the only errors are texts without an element, none of which may belong to a cut.
     pub(crate) are_cuts_known: bool,
-    /// Whether the walk cannot be checked, because its start, its order or a segment is unknown.
-    pub(crate) is_walk_unknown: bool,
+    pub(crate) walk: WalkCertainty,
     /// Possible ends of the path; empty if the end is unknown.
     pub(crate) ends: Vec<Xy>,
     /// See [`DrawingFaults::unclear_circles`].

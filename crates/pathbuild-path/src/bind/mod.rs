@@ -26,7 +26,7 @@ use crate::path::{
     CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath, SubpathName, SubpathValue,
     Surface, Turn,
 };
-use crate::raw::{DrawingFaults, Faults, RawPath};
+use crate::raw::{DrawingFaults, Faults, RawPath, WalkCertainty};
 use crate::text::{LetterValue, ParameterText, TextId};
 use crate::values::{GivenNumber, Values, check_cutting_depth, check_doubts, check_limits, check_mark};
 use crate::variables::{Bindings, Interpolation};
@@ -81,6 +81,8 @@ struct Binder<'a> {
     /// The finding about the first segment without a gap.
     gapless: Option<Diagnostic>,
     unknown: UnknownValues,
+    /// Whether the text of some segment may have been meant to give N.
+    may_hide_order: bool,
 }
 
 /// Kinds of values that errors leave unknown.
@@ -138,6 +140,7 @@ impl<'a> Binder<'a> {
             has_gap: false,
             gapless: None,
             unknown: UnknownValues::default(),
+            may_hide_order: false,
         }
     }
 
@@ -208,16 +211,22 @@ impl<'a> Binder<'a> {
             _ => self.values.is_unknown(*letter),
         };
         let ends = self.raw.end.iter().map(|end| end.at).chain(other_ends.iter().copied());
+        let is_walk_unknown =
+            self.raw.start.is_none() || *has_broken_entity || *has_second_start || self.unknown.order;
+        let walk = if is_walk_unknown {
+            WalkCertainty::Unknown
+        } else if self.may_hide_order || self.raw.faults.stray_letters.contains(Letter::N) {
+            WalkCertainty::MayHideOrder
+        } else {
+            WalkCertainty::Known
+        };
         path.faults = Some(Box::new(Faults {
             letters: letters
                 .filter(is_unknown)
                 .fold(Letters::default(), |all, one| all.and(Letters::of(&[one]))),
             is_infeed_unknown: self.unknown.infeed || self.values.is_unknown(Letter::I),
             are_cuts_known: self.are_cuts_known(),
-            is_walk_unknown: self.raw.start.is_none()
-                || *has_broken_entity
-                || *has_second_start
-                || self.unknown.order,
+            walk,
             ends: ends.collect(),
             unclear_circles: unclear_circles.clone(),
         }));
@@ -533,6 +542,7 @@ impl Binder<'_> {
     fn order(&mut self, scope: &Scope<'_>) -> f64 {
         self.unknown.order |=
             scope.values.number(Letter::N) == GivenNumber::Faulty && scope.values.has(Letter::N);
+        self.may_hide_order |= scope.values.unread.contains(Letter::N);
         self.value(scope, Letter::N).unwrap_or(UNNUMBERED)
     }
 

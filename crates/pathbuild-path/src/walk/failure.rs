@@ -140,7 +140,7 @@ impl Walker<'_> {
     }
 
     /// Returns the first segment that was not reached although it branches off at a point that the walk passed, with that point.
-    fn passed_branch(&self) -> Option<(usize, Xy)> {
+    pub(super) fn passed_branch(&self) -> Option<(usize, Xy)> {
         self.unreached_segments().find_map(|segment| {
             let end = self.ends.of(segment).into_iter().find(|end| self.is_passed(*end))?;
             Some((segment, end))

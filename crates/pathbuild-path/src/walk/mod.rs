@@ -15,6 +15,7 @@ use crate::chain::{ChainBuilder, Passage, WalkedPath};
 use crate::element::{Origin, diagnostic_point};
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
+use crate::raw::WalkCertainty;
 use crate::walk::failure::{Curves, embedded_twice};
 use crate::walk::order::{Ends, Junctions, Turns, comes_before};
 
@@ -128,7 +129,7 @@ impl<'a> Walker<'a> {
     }
 
     fn run(&mut self) -> Result<(), Failure> {
-        if self.path.faults.as_ref().is_some_and(|faults| faults.is_walk_unknown) {
+        if self.path.faults.as_ref().is_some_and(|faults| faults.walk == WalkCertainty::Unknown) {
             return Err(None);
         }
         if self.path.segments.is_empty() {
@@ -182,11 +183,14 @@ impl<'a> Walker<'a> {
         (distance <= MAX_SKIPPED_GAP).then_some(end)
     }
 
-    /// Returns a failure, unless there is a circle without a meaning at the current point, where the walk may turn or end.
+    /// Returns a failure, unless there is a circle without a meaning at the current point, where the walk may turn or end, or the walk passed a segment
+    /// that an unread N may have put first.
     fn unless_unclear(&self, problem: impl FnOnce(&Self) -> Diagnostic) -> Failure {
-        let circles = self.path.faults.as_ref().map_or(&[][..], |faults| &faults.unclear_circles);
-        let is_unclear =
-            circles.iter().any(|circle| coincide(*circle, self.at) || self.path.segments.is_empty());
+        let is_unclear = self.path.faults.as_ref().is_some_and(|faults| {
+            let mut circles = faults.unclear_circles.iter();
+            circles.any(|circle| coincide(*circle, self.at) || self.path.segments.is_empty())
+                || faults.walk == WalkCertainty::MayHideOrder && self.passed_branch().is_some()
+        });
         (!is_unclear).then(|| problem(self).into())
     }
 

@@ -413,6 +413,21 @@ fn a_dead_end_that_is_passed_wants_a_smaller_n() {
     assert_eq!(found(" \"N2\"", " \"N1\""), [""; 0]);
 }
 
+/// The arm may have the N of a text that is not read, so that the path did not go past it. Another letter does not put it first.
+#[test]
+fn an_arm_whose_n_is_not_read_is_not_told_to_get_one() {
+    let found = |arm: &str| {
+        let drawn = format!("mill 0,0 20,0\nmill 20,0 40,0\nmill 20,0 20,30{arm}\nturn 20,30\nend 40,0");
+        codes_of(&drawn)
+    };
+    let beside = |string: &str| found(&format!("\ntext 30,15 \"{string}\" height 1 align centre middle"));
+    assert_eq!(beside("N1"), ["PB107"]);
+    assert_eq!(beside("F90"), ["PB107", "PB402"]);
+    assert_eq!(found(" \"n1\""), ["PB202"]);
+    assert_eq!(found(" \"f90\""), ["PB202", "PB402"]);
+    assert_eq!(found(""), ["PB402"]);
+}
+
 /// A text near the start marker takes it before the text with O and T, which comes later.
 #[test]
 fn a_text_that_took_the_start_marker_is_told() {
