@@ -124,6 +124,26 @@ fn a_native_program_gets_the_cutter_of_its_path() {
     assert!(!run.stdout.contains("S3000"), "{run}");
 }
 
+/// No `paths` matches the project; the tool of its component has a speed.
+#[test]
+fn a_project_without_a_tool_is_named() {
+    let emitted = |paths: &str| {
+        let place = Place::of(
+            "== 8001.1P.dxf ==\nlayer 8001.1P\nstart 0,0 \"T5 O2\"\nsubpath 0,0 40,0 \">1234.1P MX\"\nend 40,0\n\n== 1234.1P.dxf ==\nlayer 1234.1P\nstart 0,0 \"T5 O2 I1 B4 MX\"\nmill 0,0 40,0\nend 40,0\n",
+        );
+        let tools = format!("[tool.one]\ndiameter = 2\nspindle = 9000\npaths = '{paths}'\n");
+        let place =
+            place.file("pathbuild.toml", format!("feed = 150\nrapid = 1000\nsweep-height = 20\n{tools}"));
+        place.run("emit 8001.1P --post linuxcnc --format concise -o -")
+    };
+    let run = emitted("^7");
+    assert!(
+        run.stderr.contains("PB754") && run.stderr.contains("for path 8001.1P: `paths` of each"),
+        "{run}"
+    );
+    assert!(emitted("^8").stdout.contains("M3 S9000"));
+}
+
 #[test]
 fn tools_come_from_the_configuration() {
     let place = library("");

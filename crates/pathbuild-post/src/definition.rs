@@ -298,6 +298,9 @@ impl PostDefinition {
                     _ if !tool.is_named => Diagnostic::new(&posts::SPINDLE_UNSTATED),
                     _ if tool.diameter == 0.0 => Diagnostic::new(&posts::SPINDLE_UNKNOWN_OF_NUMBER)
                         .with("index", u64::from(tool.index)),
+                    _ if tool.is_for_other_paths => Diagnostic::new(&posts::SPINDLE_UNKNOWN_OF_PATH)
+                        .quoting("path", &*operation.part)
+                        .with("diameter", tool.diameter),
                     _ => Diagnostic::new(&posts::SPINDLE_UNKNOWN).with("diameter", tool.diameter),
                 };
                 Err(Box::new(diagnostic.quoting("operation", &*operation.name)))

@@ -404,7 +404,9 @@ impl<'a> ToolAssigner<'a> {
             || format!("{} mm", pathbuild_diagnostic::Number(diameter)),
             |entry| entry.name.to_string(),
         );
-        let tool = Tool::new(index, diameter, &name);
+        let is_for_other_paths =
+            entry.is_none() && !self.table.positions_where(diameter, |_| true).is_empty();
+        let tool = Tool { is_for_other_paths, ..Tool::new(index, diameter, &name) };
         self.fitted.push((key, tool.clone()));
         tool
     }

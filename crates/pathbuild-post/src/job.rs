@@ -288,12 +288,14 @@ pub struct Tool {
     pub diameter: f64,
     /// Name in the tool table.
     pub name: Box<str>,
+    /// Whether the tool table has no tool for the path, but tools of this diameter for other paths.
+    pub is_for_other_paths: bool,
 }
 
 impl Tool {
     /// Creates a tool that the program names.
     pub fn new(index: u32, diameter: f64, name: &str) -> Self {
-        Self { index, is_named: true, diameter, name: name.into() }
+        Self { index, is_named: true, diameter, name: name.into(), is_for_other_paths: false }
     }
 
     /// Returns the tool of a program that does not name any.

@@ -134,6 +134,13 @@ messages! {
         help_en: "add spindle = 12000 to [tool.NAME] with diameter = {diameter} in pathbuild.toml; if the spindle is switched by hand, write spindle = \"manual\" outside all tables",
         help_de: "spindle = 12000 in pathbuild.toml unter [tool.NAME] mit diameter = {diameter} eintragen; wird die Spindel von Hand geschaltet, spindle = \"manual\" außerhalb aller Tabellen schreiben",
     }
+    /// A path without a tool, and so without a known spindle speed, although tools of its diameter are configured for other paths.
+    SPINDLE_UNKNOWN_OF_PATH: MissingPostValue {
+        en: "no spindle speed is known for path {path}: `paths` of each [tool] with diameter = {diameter} matches other names only",
+        de: "für Pfad {path} ist keine Spindeldrehzahl bekannt: `paths` jedes [tool] mit diameter = {diameter} passt nur auf andere Namen",
+        help_en: "let `paths` of one of them match {path}, or add another [tool.NAME] with diameter = {diameter} and spindle to pathbuild.toml",
+        help_de: "`paths` eines von ihnen auch auf {path} passen lassen oder ein weiteres [tool.NAME] mit diameter = {diameter} und spindle in pathbuild.toml eintragen",
+    }
     /// A tool without a known spindle speed, in a program that states only the number of the tool.
     SPINDLE_UNKNOWN_OF_NUMBER: MissingPostValue {
         en: "no spindle speed is known for {operation} (T{index}): the spindle would not turn",
