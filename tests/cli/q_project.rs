@@ -197,6 +197,15 @@ fn a_wrong_proxy_line_is_not_copied() {
     is_refused(&DRAWING.replace(">1234.1P O2 H2", ">1234.1P O3 H2"), "PB517");
 }
 
+/// The values of the proxy line are those that a project gets.
+#[test]
+fn a_proxy_line_with_a_wrong_variable_is_not_copied() {
+    let drawing = DRAWING.replace("B0 MPlate\"\nmill 0,0 40,0", "MPlate :B0~1\"\nmill 0,0 40,0 \"B=B\"");
+    for (variables, code) in [(":B2", "PB517"), (":B0.5 :C1", "PB517"), (":B0.5 F100", "PB202")] {
+        is_refused(&drawing.replace("O2 H2", &format!("O2 H2 {variables}")), code);
+    }
+}
+
 /// A drawing and its Q-project that agree in path, proxy line and subpath.
 const PAIR: &str = r#"
 $ check .
@@ -280,6 +289,10 @@ fn a_q_project_without_its_drawing_is_a_warning() {
 fn a_value_other_than_the_proxy_lines_is_a_warning() {
     let other = EMBEDDING.replace(":B0,50", ":B0.6");
     expect(&[(EMBEDDING, &format!("{other} #! PB516 :B"))], 0);
+    // A proxy line may leave the value open.
+    for open in ["", ":B=B"] {
+        expect(&[(PROXY, &PROXY.replace(":B0.5", open))], 0);
+    }
 }
 
 /// A difference from the path itself is an error of the embedding instead.
@@ -317,6 +330,10 @@ fn a_proxy_line_must_agree_with_its_path() {
         expect(&[(PROXY, &format!("{} #! PB517", PROXY.replace(from, to)))], 1);
     }
     expect(&[(PROXY, &format!("{} #! PB517", PROXY.replace("1234.1P", "1234.2P")))], 1);
+    for (from, to) in [(":B0.5", ":B1.5"), (":B0.5", ":B0.5 :C1")] {
+        expect(&[(PROXY, &format!("{} #! PB517", PROXY.replace(from, to)))], 1);
+    }
+    expect(&[(PROXY, &format!("{} #! PB202", PROXY.replace(":B0.5", ":B0.5 F9")))], 1);
     expect(&[(PROXY, &PROXY.replace("40,0", "40.0009,0"))], 0);
     expect(&[(PROXY, &format!("{} #! PB517", PROXY.replace("40,0", "40.0011,0")))], 1);
     expect(&[(PROXY, &PROXY.replace("subpath 0,0 40,0", "subpath arc 0,30 40,30 r 30"))], 0);

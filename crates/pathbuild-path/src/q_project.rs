@@ -9,7 +9,7 @@ use crate::approx::{coincide, near};
 use crate::bind::bind;
 use crate::embedding::{CHORD_TOLERANCE, with_note_on_combined_letters};
 use crate::language::Language;
-use crate::letter::Letter;
+use crate::letter::{ElementClass, Letter};
 use crate::names::PathName;
 use crate::numbers::parse_number;
 use crate::path::{Path, Segment, SegmentKind, Subpath, SubpathName};
@@ -65,8 +65,8 @@ impl<'a> Component<'a> {
 fn values(raw: &RawPath, proxy: Option<&ProxyLine>) -> Bindings {
     let examples = Bindings::check_values(&raw.definitions);
     let value = |definition: &Definition| {
-        let given = proxy.and_then(|proxy| proxy.variables().find(|(name, _)| *name == definition.name));
-        let given = given.map(|(_, value)| value).filter(|value| definition.allows(value));
+        let given = proxy.and_then(|proxy| proxy.variables().find(|(name, ..)| *name == definition.name));
+        let given = given.map(|(_, value, _)| value).filter(|value| definition.allows(value));
         let value = given.or_else(|| examples.get(definition.name))?;
         Some((definition.name, value.into()))
     };
@@ -180,13 +180,13 @@ struct QProjectComparison<'a> {
 type Difference = (String, Value, Value, Option<TextFault>);
 
 impl<'a> QProjectComparison<'a> {
-    /// Returns PB517 for each proxy line that disagrees with its own path.
+    /// Returns PB517 for each proxy line that disagrees with its own path, and the errors in its text.
     fn proxy_problems(&self) -> Vec<Diagnostic> {
         let of_proxy = |proxy| self.problems(proxy).into_iter().map(|problem| at_proxy(proxy, problem));
         self.component.proxies.iter().flat_map(of_proxy).collect()
     }
 
-    /// Returns PB517 for a proxy line that disagrees with its own path, without a place.
+    /// Returns PB517 for a proxy line that disagrees with its own path, and the errors in its text, without places.
     fn problems(&self, proxy: &ProxyLine) -> Vec<Diagnostic> {
         let written = proxy.text().piece(Letter::Embed);
         let written = written.map(|piece| (proxy.text().value(piece), proxy.text().fault(piece)));
@@ -208,6 +208,9 @@ impl<'a> QProjectComparison<'a> {
         let mut problems: Vec<Diagnostic> = differences
             .map(|difference| differing(&messages::PROXY_VALUE_DIFFERS, difference, &name))
             .collect();
+        problems
+            .extend(proxy.text().problems(ElementClass::Subpath).into_iter().filter(Diagnostic::is_error));
+        problems.extend(wrong_variables(proxy, raw));
         let (here, there) = (proxy.curve.chord(), (path.end - path.start).norm());
         if (here - there).abs() > CHORD_TOLERANCE {
             let problem = Diagnostic::new(&messages::PROXY_LENGTH_DIFFERS).quoting("name", name.as_str());
@@ -365,16 +368,37 @@ fn differences_from_proxy(path: &Path, subpath: &Subpath, proxy: &ProxyLine) -> 
     differences
 }
 
+/// Returns PB517 for the variables of a proxy line that its path does not have, and for values that the path does not allow.
+fn wrong_variables(proxy: &ProxyLine, raw: &RawPath) -> Vec<Diagnostic> {
+    let wrong = |(variable, value, fault): (char, &str, TextFault)| {
+        let definition = raw.definitions.iter().find(|definition| definition.name == variable);
+        let problem = match definition {
+            None => Diagnostic::new(&messages::PROXY_VARIABLE_UNKNOWN),
+            Some(definition) if !definition.allows(value) => {
+                Diagnostic::new(&messages::PROXY_VALUE_NOT_ALLOWED)
+                    .quoting("value", value)
+                    .quoting("definition", definition.to_string())
+            }
+            Some(_) => return None,
+        };
+        let problem = problem.quoting("variable", variable.to_string());
+        Some(problem.quoting("name", raw.name.as_str()).with_text(fault))
+    };
+    proxy.variables().filter_map(wrong).collect()
+}
+
+/// Returns the differences in the variables that a proxy line sets.
 fn differing_variables(subpath: &Subpath, proxy: &ProxyLine) -> Vec<Difference> {
-    let on_proxy: BTreeMap<char, &str> = proxy.variables().collect();
+    let on_proxy: BTreeMap<char, &str> =
+        proxy.variables().map(|(variable, value, _)| (variable, value)).collect();
     let here = subpath.values.iter().filter_map(|given| Some((given.variable?, given)));
     let mut differences = Vec::new();
     let mut given = Vec::new();
     for (variable, value) in here {
         given.push(variable);
         let other = on_proxy.get(&variable).copied();
-        if other.is_none_or(|other| !is_same_value(&value.value, other)) {
-            let values = (Value::quoted(&value.value), or_dash(other));
+        if let Some(other) = other.filter(|other| !is_same_value(&value.value, other)) {
+            let values = (Value::quoted(&value.value), Value::quoted(other));
             differences.push((format!(":{variable}"), values.0, values.1, Some(value.text.clone())));
         }
     }

@@ -283,6 +283,20 @@ messages! {
         help_en: "write the path's {letter} on the proxy line, which is copied into projects",
         help_de: "das {letter} des Pfads an die Stellvertreterlinie schreiben, die in Projekte kopiert wird",
     }
+    /// A value of a variable on a proxy line that its path does not allow.
+    PROXY_VALUE_NOT_ALLOWED: ProxyDiffers {
+        en: "variable {variable} is {value} on the proxy line, but path {name} allows {definition}",
+        de: "Variable {variable} ist auf der Stellvertreterlinie {value}, Pfad {name} erlaubt aber {definition}",
+        help_en: "write a value that the path allows on the proxy line, which is copied into projects",
+        help_de: "einen Wert, den der Pfad erlaubt, an die Stellvertreterlinie schreiben, die in Projekte kopiert wird",
+    }
+    /// A variable on a proxy line that its path does not have.
+    PROXY_VARIABLE_UNKNOWN: ProxyDiffers {
+        en: "the proxy line gives variable {variable} a value, but path {name} has no such variable",
+        de: "die Stellvertreterlinie gibt der Variablen {variable} einen Wert, Pfad {name} hat aber keine solche",
+        help_en: "remove :{variable} from the proxy line, or correct its name",
+        help_de: ":{variable} von der Stellvertreterlinie entfernen oder den Namen berichtigen",
+    }
     /// A length of a proxy line that differs from that of its path.
     PROXY_LENGTH_DIFFERS: ProxyDiffers {
         en: "the proxy line is {here} mm long, but path {name} is {there} mm from start to end",

@@ -134,12 +134,13 @@ impl ProxyLine {
         self.known(self.text().piece(letter)?)
     }
 
-    /// The values that the line sets, each with its variable.
-    pub fn variables(&self) -> impl Iterator<Item = (char, &str)> {
+    /// The values that the line sets, each with its variable and its place in the text.
+    pub fn variables(&self) -> impl Iterator<Item = (char, &str, TextFault)> {
         let pieces = self.text().pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable));
         pieces.filter_map(|piece| {
-            let mut value = self.known(piece)?.0.chars();
-            Some((value.next()?, value.as_str()))
+            let (value, fault) = self.known(piece)?;
+            let mut value = value.chars();
+            Some((value.next()?, value.as_str(), fault))
         })
     }
 

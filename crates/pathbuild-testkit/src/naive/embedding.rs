@@ -387,7 +387,8 @@ impl Model {
         let raw = &paths[path].0;
         let examples = Bindings::check_values(&raw.definitions);
         let values = raw.definitions.iter().filter_map(|definition| {
-            let given = proxy.variables().find(|(name, _)| *name == definition.name).map(|(_, value)| value);
+            let given =
+                proxy.variables().find(|(name, ..)| *name == definition.name).map(|(_, value, _)| value);
             let given = given.filter(|value| allows(definition, value));
             Some((definition.name, given.or_else(|| examples.get(definition.name))?.into()))
         });
@@ -402,6 +403,11 @@ impl Model {
         }
         if material.is_some_and(|here| bound.material.as_deref() != Some(&*here)) {
             found.push(at("M"));
+        }
+        for (variable, value, _) in proxy.variables() {
+            let is_allowed =
+                raw.definitions.iter().any(|known| known.name == variable && allows(known, value));
+            found.extend((!is_allowed).then(|| at(&variable.to_string())));
         }
         if (proxy.curve.chord() - (bound.end - bound.start).norm()).abs() > LENGTH_TOLERANCE {
             found.push(at(""));
@@ -438,14 +444,9 @@ fn differing_letters(subpath: &Subpath, proxy: &ProxyLine) -> Vec<String> {
     if !is_same(height, &subpath.height.to_string()) {
         found.push("H".to_owned());
     }
-    let mut variables: Vec<char> = subpath.values.iter().filter_map(|given| given.variable).collect();
-    variables.extend(proxy.variables().map(|(name, _)| name));
-    variables.sort_unstable();
-    variables.dedup();
-    for variable in variables {
+    for (variable, there, _) in proxy.variables() {
         let here = subpath.values.iter().find(|given| given.variable == Some(variable));
-        let on_proxy = proxy.variables().find(|(name, _)| *name == variable);
-        let agree = matches!((here, on_proxy), (Some(here), Some((_, there))) if is_same(&here.value, there));
+        let agree = here.is_some_and(|here| is_same(&here.value, there));
         found.extend((!agree).then(|| format!(":{variable}")));
     }
     if ((subpath.end - subpath.start).norm() - proxy.curve.chord()).abs() > LENGTH_TOLERANCE {

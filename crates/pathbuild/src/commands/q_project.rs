@@ -127,9 +127,11 @@ fn draw_q_project(
     let mut preview = Session::with_drawing(context, output, bytes.clone());
     let (original, written) = (preview.file(drawing.path(session.db())), preview.file(output));
     let problems = preview.with_stable_files(|preview| {
-        let mut problems = faults(preview, written);
-        problems.extend_from_slice(pathbuild_db::q_project_findings(preview.db(), original, written));
-        problems
+        let compared = pathbuild_db::q_project_findings(preview.db(), original, written);
+        // The Q-project copies the errors of proxy lines, which are to be corrected in the drawing.
+        let copied =
+            if compared.iter().any(Diagnostic::is_error) { Vec::new() } else { faults(preview, written) };
+        [copied, compared.clone()].concat()
     });
     let is_wrong = |problem: &Diagnostic| problem.is_error() || problem.code() == Code::QProjectDiffers;
     let count = planned.iter().map(|path| path.lines.len()).sum();
