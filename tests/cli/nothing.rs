@@ -181,6 +181,36 @@ fn a_path_that_became_wrong_leaves_an_older_program() {
     assert!(!emit(".").stderr.contains("PB522"));
 }
 
+/// The drawing is damaged, empty or gone, so that the named path is unknown.
+#[test]
+fn a_lost_drawing_leaves_an_older_program() {
+    let place =
+        place(&[("pathbuild.toml", "feed = 150\nrapid = 1000\nsweep-height = 20\n"), ("1234.1P.dxf", PATH)]);
+    let emit = |arguments: &str| place.run(&format!("emit {arguments} --format concise"));
+    let drawing = place.path().join("1234.1P.dxf");
+    let sound = fs::read(&drawing).unwrap();
+    let told = "1234.1P_Milling.gcode: warning[PB522] path 1234.1P was not written";
+    assert!(emit("1234.1P").status == Some(0) && !emit("1234.1P").stderr.contains("PB522"));
+    for damaged in [Some(&b"x"[..]), Some(b""), Some(&sound[..sound.len() / 2]), None] {
+        match damaged {
+            Some(damaged) => fs::write(&drawing, damaged).unwrap(),
+            None => fs::remove_file(&drawing).unwrap(),
+        }
+        for arguments in ["1234.1P", "1234.1P.dxf", "1234.1P --no-cache"] {
+            let run = emit(arguments);
+            assert!(run.status == Some(1) && run.stderr.contains(told), "{run}");
+        }
+        let run = emit("1234.1P --check");
+        assert!(run.stderr.contains("1234.1P_Milling.gcode: error[PB522]"), "{run}");
+        assert_eq!(run.stdout, "1234.1P_Milling.gcode: not current\n");
+        assert!(!emit("1234.2P").stderr.contains("PB522"));
+    }
+    // Its program may be that of another drawing, which the name does not lead to.
+    fs::write(place.path().join("gear.dxf"), &sound).unwrap();
+    assert_eq!(emit("gear.dxf").status, Some(0));
+    assert!(!emit("1234.1P").stderr.contains("gear_Milling.gcode"));
+}
+
 #[test]
 fn a_program_of_another_path_is_not_older() {
     let both = format!("{PATH}{}", PATH.replace("1234.1P", "1234.2P").replace(",0", ",20"));

@@ -8,9 +8,9 @@ mod read_back;
 pub(crate) use number::push_exact;
 pub use number::{FIRST_PARAMETER, f3, unused_probes};
 pub use program::{
-    WriteOptions, drawing_of_title, has_title, is_compatible, is_title, is_title_of, joined_paths,
-    joined_title, left_out_lines, path_of_title, plain_title, probe_name, probing_program, title, too_large,
-    values_file, write_program,
+    WriteOptions, drawing_of_title, has_title, is_compatible, is_title, is_title_of, is_title_of_path,
+    joined_paths, joined_title, left_out_lines, path_of_title, plain_title, probe_name, probing_program,
+    title, too_large, values_file, write_program,
 };
 pub(crate) use program::{kind_of_label, stated_length};
 pub use read_back::{

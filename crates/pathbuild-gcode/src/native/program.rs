@@ -81,6 +81,11 @@ pub fn is_title(found: &str, drawing: &str, path: &str) -> bool {
     plain_title(found) == plain_title(&title(drawing, path))
 }
 
+/// Whether a title found in a program names the given path, of any drawing.
+pub fn is_title_of_path(found: &str, path: &str) -> bool {
+    plain_title(found).starts_with(&plain_title(&title("", path)))
+}
+
 /// Whether a title found in a program names the given drawing.
 pub fn is_title_of(found: &str, drawing: &str) -> bool {
     drawing_of_title(found).is_some_and(|titled| plain_title(titled) == plain_title(drawing))

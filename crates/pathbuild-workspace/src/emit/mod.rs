@@ -109,7 +109,7 @@ impl Request {
             Memo::default()
         };
         let run = session.with_stable_files(|session| emitter.perform(session, &memo, &matches));
-        Ok(emitter.conclude(session, &memo, run.map_err(Failure::Usage)?))
+        Ok(emitter.conclude(session, &memo, &matches, run.map_err(Failure::Usage)?))
     }
 
     /// Returns the reason why the request needs a post-processor; `None` if it does not need one.
@@ -190,7 +190,7 @@ impl Emitter<'_> {
     }
 
     /// Settles the stale programs of earlier runs, writes the dependency file, and caches the results of this run.
-    fn conclude(&self, session: &Session<'_>, memo: &Memo, run: Run) -> Emission {
+    fn conclude(&self, session: &Session<'_>, memo: &Memo, matches: &ArgumentMatches, run: Run) -> Emission {
         let Run { selection, mut plans, mut diagnostics } = run;
         let Request { task, join, deps, .. } = self.request;
         let workspace = session.workspace();
@@ -214,6 +214,8 @@ impl Emitter<'_> {
             post_processor: self.post_processor,
             join: join.as_deref(),
             targets: &selection.targets,
+            arguments: &matches.arguments,
+            named: &selection.named,
             covered: &|| &selection.covered,
             directories: &selection.directories,
             jobs: &jobs,

@@ -9,7 +9,7 @@ use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{Names, join};
+use pathbuild_db::system::{FileKind, Names, join};
 use pathbuild_db::{Db, Role, SourceFile, Target, program};
 use pathbuild_diagnostic::messages::{files, outputs as messages};
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -22,9 +22,9 @@ use super::options::Provenances;
 use super::outcome::{ProgramOutcome, State, Task};
 use super::plan::{Job, output_directory, program_name};
 use crate::files::{PROGRAM_EXTENSIONS, is_program};
-use crate::memo::{Answer, DrawingResult};
+use crate::memo::{Answer, DrawingResult, find};
 use crate::post_processor::PostProcessor;
-use crate::session::{OutputKind, Session};
+use crate::session::{Argument, OutputKind, Session};
 
 /// A program on disk that must not be run on the machine.
 #[derive(Debug)]
@@ -120,6 +120,9 @@ pub(super) struct EarlierPrograms<'a> {
     pub(super) join: Option<&'a str>,
     /// All paths of the run.
     pub(super) targets: &'a [Target],
+    pub(super) arguments: &'a [Argument],
+    /// Drawings that the arguments name, or that may define a named path.
+    pub(super) named: &'a [Answer<DrawingResult>],
     /// Returns the drawings whose paths were all considered.
     pub(super) covered: &'a dyn Fn() -> &'a [Answer<DrawingResult>],
     /// Directories that were searched for drawings.
@@ -234,7 +237,14 @@ impl<'a> EarlierPrograms<'a> {
             let name = target.name(self.session.db());
             programs.map(|program| earlier_outcome(program, name, self.task)).collect::<Vec<_>>()
         };
-        let older = open.flat_map(older).collect();
+        let mut older: Vec<ProgramOutcome> = open.flat_map(older).collect();
+        for (path, program) in
+            self.arguments.iter().flat_map(|named| self.programs_of_lost(named, &mut listings))
+        {
+            if known.insert(program.clone()) {
+                older.push(earlier_outcome(program, &path, self.task));
+            }
+        }
         diagnostics.append(&mut listings.problems);
         older
     }
@@ -258,6 +268,64 @@ impl<'a> EarlierPrograms<'a> {
         programs.into_iter().filter(is_of_target).collect()
     }
 
+    /// Returns the programs on disk of a drawing or path that an argument names, each with its path, if the drawing has no known path because it
+    /// cannot be read, or if it is gone.
+    fn programs_of_lost(
+        &self,
+        argument: &Argument,
+        listings: &mut ProgramListings,
+    ) -> Vec<(String, Utf8PathBuf)> {
+        let db = self.session.db();
+        let out_dir = self.session.out_dir();
+        let is_known = |file: &SourceFile| {
+            find(self.named, file.path(db)).is_some_and(|drawing| !drawing.value.names.is_empty())
+        };
+        let (directories, stem, drawing, path) = match argument {
+            Argument::Drawing(file) | Argument::Name { drawing: Some(file), .. } if !is_known(file) => {
+                let drawing = file.path(db);
+                let directory = output_directory(out_dir.as_deref(), drawing);
+                (vec![directory], "", Some(file_name(drawing)), None)
+            }
+            Argument::Name { name, candidates, drawing: None, directory: None } => {
+                if candidates.iter().any(is_known) {
+                    return Vec::new();
+                }
+                let beside = |file: &SourceFile| output_directory(None, file.path(db));
+                let mut directories = match out_dir {
+                    Some(directory) => vec![directory],
+                    None if candidates.is_empty() => self.session.name_directories(),
+                    None => candidates.iter().map(beside).collect(),
+                };
+                directories.dedup();
+                // Names of programs begin with that of the path or of its drawing.
+                let number = name.as_str().split('.').next().unwrap_or_default();
+                (directories, number, None, Some(name.as_str()))
+            }
+            _ => return Vec::new(),
+        };
+        let is_meant = |title: &str| {
+            drawing.is_none_or(|drawing| native::is_title_of(title, drawing))
+                && path.is_none_or(|path| native::is_title_of_path(title, path))
+        };
+        // A drawing that exists although no argument led to it may still yield its program.
+        let is_gone = |program: &Utf8Path, title: &str| {
+            let drawing = native::drawing_of_title(title).unwrap_or_default();
+            let beside = program.with_file_name(drawing);
+            drawing_or_candidate(argument) || db.system().kind(&beside) == FileKind::Missing
+        };
+        let mut programs = Vec::new();
+        for directory in &directories {
+            for program in listings.programs_beginning_with(self, directory, stem) {
+                let Some((_, title)) = provenance(self.session, program) else { continue };
+                if is_meant(&title) && is_gone(program, &title) {
+                    let path = native::path_of_title(&title).unwrap_or_default();
+                    programs.push((path.to_owned(), program.clone()));
+                }
+            }
+        }
+        programs
+    }
+
     /// Returns the program into which the targets were joined earlier.
     fn of_joined(&self, first: Target, name: &str, post_processor: &PostProcessor) -> Option<Utf8PathBuf> {
         let db = self.session.db();
@@ -265,6 +333,15 @@ impl<'a> EarlierPrograms<'a> {
         let program = join(&directory, program_name(name, post_processor));
         let (_, title) = provenance(self.session, &program)?;
         native::joined_paths(&title).map(|_| program)
+    }
+}
+
+/// Whether an argument names a drawing, or a path that a drawing may define judging by its file name.
+fn drawing_or_candidate(argument: &Argument) -> bool {
+    match argument {
+        Argument::Drawing(_) | Argument::Name { drawing: Some(_), .. } => true,
+        Argument::Name { candidates, .. } => !candidates.is_empty(),
+        Argument::Directory(_) => false,
     }
 }
 
@@ -281,6 +358,8 @@ pub(super) fn has_stale_adjusted_program(
         post_processor,
         join: None,
         targets: &[],
+        arguments: &[],
+        named: &[],
         covered: &|| &[],
         directories: &[],
         jobs: &[job],

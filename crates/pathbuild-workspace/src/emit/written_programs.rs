@@ -199,6 +199,8 @@ impl WrittenPrograms {
             post_processor,
             join: None,
             targets: &targets,
+            arguments: &[],
+            named: &[],
             covered: &|| &drawings,
             directories: scope.directories,
             jobs: &jobs,
