@@ -175,7 +175,7 @@ fn material_at_several_heights_is_several_pieces() {
 
 /// Sheets of different thickness lie side by side if they are of different materials.
 #[test]
-fn all_thicknesses_are_in_the_checklist() {
+fn all_materials_and_thicknesses_are_in_the_checklist() {
     let sheet = |outer: &str, second: &str| {
         let project = format!(
             "layer 8001.1P\nstart 0,0 \"{outer} O2 S30\"\nsubpath 0,0 40,0 \">1300.1P T3 MX\"\nsubpath 40,0 80,0 \">1301.1P {second}\"\nend 80,0"
@@ -191,13 +191,16 @@ fn all_thicknesses_are_in_the_checklist() {
         texts(&place.read("sheet.svg")).join(" ")
     };
     let found = sheet("T3 MX", "T2 MY");
-    let expected = "Material is ready: X, 2 / 3 mm thick, in separate pieces for 2 heights";
+    let expected = "Material is ready: X, 3 mm thick; Y, 2 mm thick, in separate pieces for 2 heights";
     assert!(found.contains(expected) && found.contains("its upper face is at Z 2 / 3"), "{found}");
     let found = sheet("T3 MX", "T3 MY");
-    assert!(found.contains("Material is ready: X, 3 mm thick, at least"), "{found}");
+    let expected = "X, 3 mm thick; Y, 3 mm thick, in separate pieces, which cover 82 × 2 mm together";
+    assert!(found.contains(expected) && found.contains("X / Y"), "{found}");
+    let found = sheet("T3 MX", "T3 MX");
+    assert!(found.contains("Material is ready: X, 3 mm thick, at least 82 × 2 mm"), "{found}");
     // Without M, the project does not say that the sheets are different ones: that is a warning.
     let found = sheet("T3", "T2 MX");
-    assert!(found.contains("Material is ready: 2 / 3 mm thick"), "{found}");
+    assert!(found.contains("Material is ready: X, 2 / 3 mm thick"), "{found}");
 }
 
 /// Each number of the picture is explained, or listed as one that does not fit. A table that continues on a new page repeats its title.

@@ -224,6 +224,9 @@ pub struct EmbeddedPath {
     pub thickness: f64,
     /// Sweep height in mm, raised by [`raised`](EmbeddedPath::raised).
     pub sweep_height: f64,
+    /// Name of the path's material (M), for setup sheets.
+    #[serde(skip)]
+    pub material: Option<String>,
 }
 
 /// A drawn element, a marker or a probe.

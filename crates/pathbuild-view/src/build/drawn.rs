@@ -58,6 +58,7 @@ pub fn drawn_path(source: &DrawnSource<'_>) -> ScenePath {
         raised: 0.0,
         thickness: 0.0,
         sweep_height: 0.0,
+        material: None,
     });
     scene.tool = source.raw.tool();
     scene.draw(source, &placement);

@@ -118,6 +118,7 @@ impl Builder {
             raised: *raised,
             thickness: raised + path.thickness,
             sweep_height: raised + occurrence.sweep_height,
+            material: path.material.as_ref().map(ToString::to_string),
         });
         let first = self.scene.draw(drawn, placement);
         self.first_elements.push(first);

@@ -59,21 +59,34 @@ fn program(sheet: &Sheet, lang: Lang) -> String {
 }
 
 fn material(sheet: &Sheet, lang: Lang) -> String {
-    let facts: Vec<String> =
-        materials(sheet)
-            .into_iter()
-            .chain(thicknesses(sheet).map(|thickness| with_decimal_separator(thickness, lang)).map(
-                |thickness| lang.choose(format!("{thickness} mm thick"), format!("{thickness} mm dick")),
-            ))
-            .chain(size(sheet, lang).map(|size| pieces(sheet, &size, lang)))
-            .collect();
-    let facts = facts.join(", ");
+    let thick = |material: Option<&str>| {
+        let thickness = format_numbers(&shims::thicknesses(sheet, material));
+        let thickness = with_decimal_separator(thickness?, lang);
+        Some(lang.choose(format!("{thickness} mm thick"), format!("{thickness} mm dick")))
+    };
+    let materials = shims::materials(sheet);
+    let sheets: Vec<Vec<String>> = match materials.as_slice() {
+        [] | [_] => vec![materials.iter().map(ToString::to_string).chain(thick(None)).collect()],
+        several => several
+            .iter()
+            .map(|material| std::iter::once((*material).to_owned()).chain(thick(Some(material))).collect())
+            .collect(),
+    };
+    let sheets = sheets.iter().map(|facts| facts.join(", ")).filter(|facts| !facts.is_empty());
+    let sheets = sheets.collect::<Vec<_>>().join("; ");
+    let size = size(sheet, lang).map(|size| pieces(sheet, &size, lang));
+    let facts =
+        [sheets].into_iter().filter(|facts| !facts.is_empty()).chain(size).collect::<Vec<_>>().join(", ");
     lang.choose(format!("Material is ready: {facts}"), format!("Material liegt bereit: {facts}"))
 }
 
-/// Describes how much material is needed. Material at different heights is not one plate.
+/// Describes how much material is needed. Material at different heights, or of different names, is not one plate.
 fn pieces(sheet: &Sheet, size: &str, lang: Lang) -> String {
     match shims::height_count(sheet) {
+        0 | 1 if shims::materials(sheet).len() > 1 => lang.choose(
+            format!("in separate pieces, which cover {size} together"),
+            format!("in getrennten Stücken, die zusammen {size} bedecken"),
+        ),
         0 | 1 => lang.choose(format!("at least {size}"), format!("mindestens {size}")),
         heights => lang.choose(
             format!("in separate pieces for {heights} heights, which cover {size} together"),
@@ -179,8 +192,8 @@ pub(super) fn facts(sheet: &Sheet, lang: Lang) -> Vec<Block> {
     facts.heading("Material", "Material");
     facts.fact("M", "M", materials(sheet));
     facts.fact("T", "T", thicknesses(sheet).map(|thickness| format!("{thickness} mm")));
-    let [en, de] =
-        if shims::height_count(sheet) > 1 { ["together", "zusammen"] } else { ["at least", "mindestens"] };
+    let is_one_piece = shims::height_count(sheet) <= 1 && shims::materials(sheet).len() <= 1;
+    let [en, de] = if is_one_piece { ["at least", "mindestens"] } else { ["together", "zusammen"] };
     facts.fact(en, de, size(sheet, lang));
     if let [tool] = sheet.tools.as_slice() {
         facts.heading("Cutter", "Fräser");
@@ -396,12 +409,12 @@ fn spindle(tool: &SheetTool, lang: Lang) -> Option<String> {
 }
 
 fn materials(sheet: &Sheet) -> Option<String> {
-    let materials = distinct(sheet.scene.paths.iter().filter_map(|path| path.material.clone()));
+    let materials = shims::materials(sheet);
     (!materials.is_empty()).then(|| materials.join(" / "))
 }
 
 fn thicknesses(sheet: &Sheet) -> Option<String> {
-    format_numbers(&shims::thicknesses(sheet))
+    format_numbers(&shims::thicknesses(sheet, None))
 }
 
 /// Describes the size of the removed material in X and Y; `None` if nothing is removed.

@@ -21,6 +21,8 @@ struct Run<'s> {
     heights: [f64; 2],
     /// Name of the piece's path.
     name: &'s str,
+    /// Name of the material (M).
+    material: Option<&'s str>,
     numbers: Vec<u32>,
     /// Lowest Z of the cuts in mm.
     lowest: f64,
@@ -42,13 +44,27 @@ pub(super) fn height_count(sheet: &Sheet) -> usize {
     distinct(sheet.scene.paths.iter().flat_map(runs).map(|run| run.heights)).len()
 }
 
-/// Returns the distinct thicknesses (T) of the paths and of the milled pieces in mm, in ascending order.
-pub(super) fn thicknesses(sheet: &Sheet) -> Vec<f64> {
-    let paths = sheet.scene.paths.iter();
-    let pieces = paths.clone().flat_map(runs).map(|run| rounded(run.heights[1] - run.heights[0]));
-    let mut thicknesses = distinct(paths.filter_map(|path| path.thickness).map(rounded).chain(pieces));
+/// Returns the materials (M) of the paths and of the milled pieces, each once.
+pub(super) fn materials(sheet: &Sheet) -> Vec<&str> {
+    distinct(sheets(sheet).into_iter().filter_map(|(material, _)| material))
+}
+
+/// Returns the distinct thicknesses (T) in mm of the paths and of the milled pieces that are of a material, or of all if it is `None`, in ascending
+/// order.
+pub(super) fn thicknesses(sheet: &Sheet, material: Option<&str>) -> Vec<f64> {
+    let sheets = sheets(sheet).into_iter();
+    let of_material = sheets.filter(|(other, _)| material.is_none() || *other == material);
+    let mut thicknesses = distinct(of_material.filter_map(|(_, thickness)| thickness));
     thicknesses.sort_by(f64::total_cmp);
     thicknesses
+}
+
+/// Returns M and T in mm of the paths and of the milled pieces.
+fn sheets(sheet: &Sheet) -> Vec<(Option<&str>, Option<f64>)> {
+    let paths = sheet.scene.paths.iter();
+    let pieces = paths.clone().flat_map(runs);
+    let pieces = pieces.map(|run| (run.material, Some(rounded(run.heights[1] - run.heights[0]))));
+    paths.map(|path| (path.material.as_deref(), path.thickness.map(rounded))).chain(pieces).collect()
 }
 
 /// Rounds a length to a thousandth of a millimetre.
@@ -96,24 +112,27 @@ fn runs(path: &ScenePath) -> Vec<Run<'_>> {
     let mut runs: Vec<Run<'_>> = Vec::new();
     for (number, piece, lowest) in numbered {
         let heights = [piece.raised, piece.thickness].map(rounded);
+        let material = piece.material.as_deref();
         match runs.last_mut() {
-            Some(last) if (last.name, last.heights) == (&piece.name, heights) => {
+            Some(last) if (last.name, last.heights, last.material) == (&piece.name, heights, material) => {
                 last.numbers.push(number);
                 last.lowest = last.lowest.min(lowest);
             }
-            _ => runs.push(Run { heights, name: &piece.name, numbers: vec![number], lowest }),
+            _ => runs.push(Run { heights, name: &piece.name, material, numbers: vec![number], lowest }),
         }
     }
     runs
 }
 
-/// Returns the outermost path whose material an embedded path shares: all paths between the two lie at the same height
-/// and are as thick.
+/// Returns the outermost path whose material an embedded path shares: all paths between the two lie at the same height, are as thick, and have the
+/// same M.
 fn piece(path: &ScenePath, occurrence: usize) -> Option<&EmbeddedPath> {
     let mut piece = path.embedded.get(occurrence)?;
     while let Some(by) = piece.by {
         let embedder = path.embedded.get(path.elements.get(by as usize)?.path as usize)?;
-        if (embedder.raised, embedder.thickness) != (piece.raised, piece.thickness) {
+        let is_same_sheet = (embedder.raised, embedder.thickness) == (piece.raised, piece.thickness)
+            && embedder.material == piece.material;
+        if !is_same_sheet {
             break;
         }
         piece = embedder;
