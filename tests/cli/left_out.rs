@@ -46,6 +46,8 @@ fn each_kind_is_told_by_program_sheet_and_last_line() {
         let program = place.read("1234.1P_Milling.gcode");
         let line = program.lines().nth(3).unwrap_or_default();
         assert_eq!(line, format!("(Not milled: 1 {kind} of path 1234.1P)"), "{program}");
+        let verified = place.run("verify 1234.1P_Milling.gcode --against 1234.1P --format concise");
+        assert!(verified.status == Some(0) && verified.stderr.contains("PB111"), "{verified}");
         // An unchanged program still lacks the entity, so the message is repeated.
         assert_eq!(last_line(&place.run("emit 1234.1P")), last_line(&run));
         assert!(last_line(&place.run("emit 1234.1P --lang de")).starts_with("nicht gefräst: 1 "));
@@ -62,6 +64,7 @@ fn a_whole_drawing_says_nothing() {
     let run = place.run("emit 1234.1P");
     assert!(!run.stderr.contains("not milled"), "{run}");
     assert!(!place.read("1234.1P_Milling.gcode").contains("Not milled"));
+    assert!(!place.run("verify 1234.1P_Milling.gcode --against 1234.1P").stderr.contains("PB111"));
     place.run("sheet 1234.1P -o sheet.svg");
     assert!(!place.read("sheet.svg").contains("Not milled"));
 }

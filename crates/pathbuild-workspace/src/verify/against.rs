@@ -5,7 +5,7 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Db, Role, Target, Trace, check_file, placed_keep_outs, program};
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Lang, Message};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message};
 use pathbuild_gcode::adjust::{Source, adjusted_again, states_heights};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options, Text};
@@ -34,6 +34,8 @@ pub(super) struct ReferenceProgram {
     file: Utf8PathBuf,
     /// The clamps around the program, if its drawings contain any.
     clamps: Option<Clamps>,
+    /// PB111 for elements on the layers of the program's paths that are not milled.
+    left_out: Vec<Diagnostic>,
     /// The inputs that the program depends on; `None` unless the session traces them.
     trace: Option<Trace>,
 }
@@ -102,7 +104,14 @@ impl ReferenceProgram {
         let found = outcome.map_err(|problem| Failure::Found(vec![*problem]))?;
         let (drawn, clamps) = found.ok_or_else(|| Failure::Found(Vec::new()))?;
         let file = target.file(session.db()).path(session.db()).clone();
-        Ok(Self { drawn, file, clamps, trace: checked.trace.clone() })
+        let is_left_out =
+            |found: &&Diagnostic| !drawn.left_out.is_empty() && found.code() == Code::UnsupportedCurve;
+        let left_out = checked.diagnostics.iter().filter(is_left_out).cloned().collect();
+        Ok(Self { drawn, file, clamps, left_out, trace: checked.trace.clone() })
+    }
+
+    pub(super) fn left_out(&self) -> &[Diagnostic] {
+        &self.left_out
     }
 
     pub(super) fn file(&self) -> &Utf8Path {

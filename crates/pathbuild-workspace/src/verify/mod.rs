@@ -457,6 +457,7 @@ impl<'v> Examination<'v> {
         self.program.place(&mut found);
         let mut diagnostics = self.doubts(rewritten.as_ref(), &mut found);
         diagnostics.append(&mut found);
+        diagnostics.extend(self.verifier.against.iter().flat_map(ReferenceProgram::left_out).cloned());
         Ok(VerifiedProgram { diagnostics, checks, comparison })
     }
 
