@@ -138,8 +138,12 @@ impl Language {
 
     /// Whether the name of a layer with clamps or finished parts may begin with this character.
     pub(crate) fn may_begin_with(&self, first: char) -> bool {
-        let patterns = self.keep_out.iter().chain(self.part.as_ref().map(|part| &part.pattern));
-        patterns.into_iter().any(|pattern| pattern.may_begin_with(first))
+        self.patterns_beside_paths().any(|pattern| pattern.may_begin_with(first))
+    }
+
+    /// Returns the patterns for layers with clamps and with finished parts.
+    pub(crate) fn patterns_beside_paths(&self) -> impl Iterator<Item = &LayerPattern> {
+        self.keep_out.iter().chain(self.part.as_ref().map(|part| &part.pattern))
     }
 
     /// Whether the contents of a layer have a meaning: the layer belongs to a path, to clamps or to finished parts.

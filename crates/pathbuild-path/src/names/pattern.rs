@@ -1,5 +1,6 @@
 //! Patterns with groups for names of paths and files. They match whole names, ignoring case.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -42,6 +43,8 @@ pub struct LayerPattern {
     whole: LazyRegex,
     /// The first character of all names that match, if the pattern begins with it. Most names of layers begin with another one.
     first: Option<char>,
+    /// The letters of the expression, each once.
+    letters: Box<str>,
 }
 
 /// The reason why a pattern is invalid.
@@ -192,7 +195,13 @@ impl LayerPattern {
     pub fn new(pattern: &str) -> Result<Self, PatternError> {
         let whole = LazyRegex::new(format!("^(?:{pattern})$"));
         whole.check()?;
-        Ok(Self { whole, first: first_character(pattern) })
+        let letters: BTreeSet<char> = pattern.chars().filter(|letter| letter.is_alphabetic()).collect();
+        Ok(Self { whole, first: first_character(pattern), letters: letters.into_iter().collect() })
+    }
+
+    /// Returns the letters of the expression: those that a name may lack.
+    pub(crate) fn letters(&self) -> &str {
+        &self.letters
     }
 
     /// Whether the pattern matches a layer.

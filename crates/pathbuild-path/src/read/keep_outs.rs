@@ -17,6 +17,7 @@ use crate::language::Language;
 use crate::letter::Letter;
 use crate::part::square;
 use crate::read::entities::{AnyText, TextCircle, at_entity, curve, xy};
+use crate::read::likely_parameters::parameters_between_words;
 use crate::text::{
     ParameterText, ParameterTexts, ValueKind, is_special_space, with_visible_spaces, without_percent_codes,
 };
@@ -80,7 +81,7 @@ pub(super) fn unread_clamps(
     }
     let height_at = |entity: &usize| {
         let text = AnyText::of(&drawing.entities[*entity].geometry)?;
-        let texts = ParameterTexts::from(&*without_percent_codes(text.string()));
+        let texts = ParameterTexts::from(&*parameters_between_words(&without_percent_codes(text.string())));
         texts.first().and_then(height).map(|_| (*entity, text))
     };
     let mut found = Vec::new();

@@ -10,8 +10,7 @@ pub(super) const ESSENTIAL_LETTERS: Letters =
 
 /// Whether the undecoded bytes of a text may be a parameter text that [`super::stray_findings`] reports. If not, it is certain that nothing is reported.
 pub fn may_be_stray_text(text: &[u8]) -> bool {
-    let is_weighty =
-        |byte: u8| byte == b'Z' || matches!(byte.to_ascii_uppercase(), b'B' | b'D' | b'F' | b'I' | b'W');
+    let is_weighty = |byte: u8| matches!(byte.to_ascii_uppercase(), b'B' | b'D' | b'F' | b'I' | b'W' | b'Z');
     // Bytes beyond ASCII, and a code such as `\\U+2212`, may be a dash instead of a minus.
     let is_value =
         |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b',' | b'=' | b'\\' | 128..);
@@ -86,6 +85,14 @@ pub(super) fn without_mistakes(text: &str) -> String {
             .unwrap_or(word)
     });
     numbers.collect::<Vec<_>>().join(" ")
+}
+
+/// Returns the parameters in a text with mistakes, without the words that contain no number: `Z20` for `Clamp z20mm`.
+pub(super) fn parameters_between_words(text: &str) -> String {
+    let is_parameter = |word: &&str| {
+        word.contains(char::is_alphabetic) && word.contains(|digit: char| digit.is_ascii_digit())
+    };
+    without_mistakes(text).split_whitespace().filter(is_parameter).collect::<Vec<_>>().join(" ")
 }
 
 /// Whether a text is meant as parameters that spoil a part if they are missing.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::language::Language;
 use crate::look_alikes;
-use crate::names::PathName;
+use crate::names::{LayerPattern, PathName};
 
 /// Maximum number of characters after a path name that are taken for a typing error.
 const MAX_SLIP_CHARACTERS: usize = 2;
@@ -93,16 +93,31 @@ impl<'n> NearLayer<'n> {
     }
 
     fn of_clamps_or_parts(layer: &str, language: &Language) -> Option<Self> {
-        let first = layer.trim_start().chars().next()?;
-        let first = look_alikes::ascii(first).unwrap_or(first);
-        if !language.may_begin_with(first) || language.is_part(layer) {
+        if language.is_part(layer) {
             return None;
         }
-        let similar = similar_names(layer);
-        if similar.iter().any(|name| language.is_keep_out(name)) {
+        let names: Vec<&str> = std::iter::once(layer.trim_start())
+            .chain(VERSIONS.iter().filter_map(|word| after_version(layer, word)))
+            .filter(|name| {
+                let first = name.chars().next().map(|first| look_alikes::ascii(first).unwrap_or(first));
+                first.is_some_and(|first| language.may_begin_with(first))
+            })
+            .collect();
+        let similar: Vec<String> = names.iter().flat_map(|name| similar_names(name)).collect();
+        let letters: String = language.patterns_beside_paths().map(LayerPattern::letters).collect();
+        let longer: Vec<String> = names.iter().flat_map(|name| with_another_letter(name, &letters)).collect();
+        let is_near = |is_layer: &dyn Fn(&str) -> bool| {
+            // `Part.*` matches `Partameters`, but `Parameters` does not lack a `t`.
+            let lacks_letter = |name: &String| {
+                let before_last = name.char_indices().next_back().map_or("", |(last, _)| &name[..last]);
+                is_layer(name) && !is_layer(before_last)
+            };
+            similar.iter().any(|name| is_layer(name)) || longer.iter().any(lacks_letter)
+        };
+        if is_near(&|name| language.is_keep_out(name)) {
             return Some(Self::Clamps);
         }
-        similar.iter().any(|name| language.is_part(name)).then_some(Self::Parts)
+        is_near(&|name| language.is_part(name)).then_some(Self::Parts)
     }
 }
 
@@ -139,6 +154,26 @@ fn without_version(name: &str, word: &str) -> Option<String> {
     let name = name.trim_end_matches(is_separator);
     let (before, last) = name.split_at_checked(name.len().checked_sub(word.len())?)?;
     last.eq_ignore_ascii_case(word).then(|| before.trim_end_matches(is_separator).to_owned())
+}
+
+/// Returns a name without the word for a version in front of it: `Part` for `old Part` and `Kopie von Part`.
+fn after_version<'n>(name: &'n str, word: &str) -> Option<&'n str> {
+    let is_separator = |character: char| !character.is_alphanumeric();
+    let (first, name) = name.trim_start_matches(is_separator).split_at_checked(word.len())?;
+    first.eq_ignore_ascii_case(word).then(|| name.trim_start_matches(is_separator))
+}
+
+/// Returns the names with one of these letters inserted behind the first character: `Part` for `Par` and `Prt`.
+fn with_another_letter(name: &str, letters: &str) -> Vec<String> {
+    let plain = look_alikes::with_keyboard_characters(name);
+    let plain = plain.trim_end();
+    if plain.chars().count() + 1 < MIN_NAME_CHARACTERS {
+        return Vec::new();
+    }
+    let places = plain.char_indices().skip(1).map(|(at, _)| at).chain([plain.len()]);
+    let inserted =
+        |at: usize| letters.chars().map(move |letter| format!("{}{letter}{}", &plain[..at], &plain[at..]));
+    places.flat_map(inserted).collect()
 }
 
 /// Returns the names with two neighbouring characters swapped: `Part` for `Prat`.

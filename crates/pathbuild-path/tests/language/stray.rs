@@ -288,6 +288,7 @@ fn the_first_look_at_bytes_is_certain() {
         "Z25",
         "{\\fArial;Z2.5}",
         "b2",
+        "z25",
         "B 2",
         "b  0,5",
         "x,F100",
@@ -316,7 +317,7 @@ fn the_first_look_at_bytes_is_certain() {
         "Bohrung",
         "Tief 2",
         "b ",
-        "z25",
+        "z",
         "L",
         "Links",
         "T",
@@ -365,6 +366,11 @@ fn a_layer_that_keep_out_nearly_matches_is_named() {
         ("Clamps", "Clamps_COPY"),
         ("Clamps", "Clamps (alt)"),
         ("Clamps", "Clmaps"),
+        ("Clamps", "Clmps"),
+        ("CLAX", "CLA"),
+        ("Clamps.*", "Clmps"),
+        ("Clamps", "old Clamps"),
+        ("Clamps", "Kopie von Clamps"),
     ] {
         assert_eq!(circle(keep_out, layer), ["PB120"], "{keep_out} {layer}");
     }
@@ -374,6 +380,10 @@ fn a_layer_that_keep_out_nearly_matches_is_named() {
         ("Clamps", "Clamps gold"),
         ("Clamps", "Clamps older"),
         ("Clamps", "old"),
+        ("Clamps", "gold Clamps"),
+        ("Clamps", "Clps"),
+        ("CLA", "CL"),
+        ("Clamp.*", "Clamboards"),
         ("Clamps", "Calpms"),
         ("Clamps", "Frame"),
         ("Clamps", "0"),
@@ -387,9 +397,12 @@ fn a_layer_that_keep_out_nearly_matches_is_named() {
 
 #[test]
 fn a_layer_that_part_nearly_matches_is_named() {
-    let circle =
-        |layer: &str| strays_beside("Clamps", Some("Outline"), &format!("layer {layer}\ncircle 20,40 d 9"));
+    let circle = |layer: &str| {
+        strays_beside("Clamps", Some("Outline"), &format!("layer \"{layer}\"\ncircle 20,40 d 9"))
+    };
     assert_eq!(circle("Outlines"), ["PB120"]);
+    assert_eq!(circle("Kopie von Outline"), ["PB120"]);
+    assert_eq!(circle("Outlin"), ["PB120"]);
     assert_eq!(circle("Outline"), [""; 0]);
     assert_eq!(circle("Contours"), [""; 0]);
     // The number that the pattern requires is forgotten.
@@ -427,7 +440,12 @@ fn a_height_in_an_outline_on_an_unread_layer_is_told() {
     assert_eq!(found(&clamp("Clamps", "Z25", "20,40")), [""; 0]);
     assert_eq!(found(&clamp("Outline", "Z25", "20,40")), [""; 0]);
     assert_eq!(found(&clamp("Vise", "Z25", "20,60")), [""; 0], "outside of the outline");
-    assert_eq!(found(&clamp("Vise", "Z25 Z1", "20,40")), [""; 0], "no height");
+    for text in ["z25", "Z25mm", "Z = 25", "Clamp Z25", "Z25 (Pratze 2)"] {
+        assert_eq!(found(&clamp("Vise", text, "20,40")), ["PB119"], "{text}");
+    }
+    for text in ["Z25 Z1", "Z25 B1", "Z-25", "Z", "Clamp 25", "Zone 25"] {
+        assert_eq!(found(&clamp("Vise", text, "20,40")), [""; 0], "{text} is no height");
+    }
     let open = "layer Vise\nline 10,40 20,40 20,50\ntext 15,40 \"Z25\"";
     assert_eq!(found(open), [""; 0]);
     // There is one finding for each layer, and none about the layer's name in addition.
