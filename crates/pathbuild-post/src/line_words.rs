@@ -17,6 +17,8 @@ pub(crate) struct LineWords {
     pub(crate) is_optional: bool,
     /// Whether the line begins with `%`, possibly after its number.
     pub(crate) is_percent: bool,
+    /// Whether a `%` follows other words than the line's number.
+    pub(crate) has_percent_behind_words: bool,
     /// The first sign of a parameter or an expression: `#` or `[`.
     pub(crate) formula: Option<char>,
     /// The names in front of `=`, as in `Z=-5` or `RNDM=5`, without their numbers.
@@ -47,6 +49,7 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
             let is_first = found.foreign.is_none() && found.words.iter().all(|word| word.letter == 'N');
             found.is_optional |= first == '/' && is_first;
             found.is_percent |= first == '%' && is_first;
+            found.has_percent_behind_words |= first == '%' && !is_first && found.foreign.is_none();
             let name = if first == '=' { name_at_end(&line[..line.len() - rest.len()]) } else { "" };
             found.assigned.extend((!name.is_empty()).then(|| name.to_owned()));
             found.formula = found.formula.or(Some(first).filter(|sign| matches!(sign, '#' | '[')));
@@ -149,6 +152,9 @@ mod tests {
         assert_eq!(read("%"), (String::new(), None));
         assert!(words("N10 %1234.1P", &CommentMarks::default()).is_percent);
         assert!(!words("FOO %1234.1P", &CommentMarks::default()).is_percent);
+        let is_behind = |line| words(line, &CommentMarks::default()).has_percent_behind_words;
+        assert!(is_behind("N10 G1 % X2") && is_behind("G1 X2 %") && is_behind("G1 X2 (50) %"));
+        assert!(!is_behind("N10 %") && !is_behind("G1 X2 (50 %)") && !is_behind("MSG(50 %)"));
     }
 
     #[test]

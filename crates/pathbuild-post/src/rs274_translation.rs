@@ -231,7 +231,7 @@ impl Rs274Translation {
             self.report("G10 L".to_owned(), Doubt::Dangerous);
         }
         self.has_ended |= line.is_percent && self.has_words;
-        if self.has_ended && !line.words.is_empty() {
+        if self.has_ended && !line.words.is_empty() || line.has_percent_behind_words {
             self.report("%".to_owned(), Doubt::Dangerous);
         }
         self.has_words |= !line.words.is_empty();

@@ -537,13 +537,23 @@ fn without_a_dialect_lines_that_may_move_are_refused() {
         "M30\nG0 Z9",
         "G80\nZ-5",
         "G80\nX5 Y5 Z9",
+        "G0 % Z9",
+        "G0 Z9 %",
     ] {
         let message = texts(&written(line).expect_err(line)).join("\n");
         assert!(message.starts_with("PB767"), "{line}: {message}");
     }
-    for line in
-        ["MSG(\"ROT\")", "TRANSFER", "G0 RL", "WAIT 5", "T=\"MILL\"", "SPOS=0 M1=3", "$32=0", "G80\nG0 Z9"]
-    {
+    for line in [
+        "MSG(\"ROT\")",
+        "TRANSFER",
+        "G0 RL",
+        "WAIT 5",
+        "T=\"MILL\"",
+        "SPOS=0 M1=3",
+        "$32=0",
+        "G80\nG0 Z9",
+        "G0 Z9 (50 %)",
+    ] {
         assert!(written(line).is_ok(), "{line}");
     }
 }
