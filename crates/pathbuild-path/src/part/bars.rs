@@ -133,7 +133,7 @@ fn meeting_point(one: &Curve, other: &Curve) -> Option<Xy> {
 /// Returns the midpoint of a bar, or the first corner round which it stands.
 fn middle_of(sections: &[Curve]) -> Xy {
     let corner = sections.windows(2).find_map(|pair| meeting_point(&pair[0], &pair[1]));
-    let middle = || sections.first().map(|only| only.middle());
+    let middle = || sections.first().map(Curve::middle);
     corner.or_else(middle).unwrap_or_else(Xy::origin)
 }
 
