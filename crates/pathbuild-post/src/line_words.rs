@@ -9,6 +9,7 @@ pub(crate) struct Word {
 }
 
 #[derive(Debug, Default, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub(crate) struct LineWords {
     pub(crate) words: Vec<Word>,
     /// The first text, up to the next blank, other than words, comments, `%`, `/` and `:`.
