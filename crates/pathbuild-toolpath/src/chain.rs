@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Bound;
 
-use pathbuild_path::approx::{above, at_least, coincide, near};
+use pathbuild_path::approx::{above, at_least, coincide, is_negligible, near};
 use pathbuild_path::{Chain, ChainSegment, Curve, Cut, CutParameters, Line, Path, Xy};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
@@ -68,9 +68,14 @@ impl<P: FoldPaths> Fold<'_, P> {
         let (cut, curve) = (member.cut(place.path), member.curve(place.path));
         let bottom = place.raised + cut.bottom;
         let bars = planned_bars(cut, place.path.tool, &curve);
+        let mut placed = place.placement.place_curve(&curve);
+        // All passes of an arc without length run the same way, as its ends are equally near. Printed 0.001 mm apart, they would drift away.
+        if is_negligible(placed.length()) {
+            placed = Curve::Line(Line { start: placed.start(), end: placed.end() });
+        }
         ChainEdge {
             comment: cut.comment.as_deref(),
-            curve: place.placement.place_curve(&curve),
+            curve: placed,
             depths: depths(first, infeed, bottom),
             bottom,
             bars: bars.map(|(top, plan)| (place.raised + top, plan)),

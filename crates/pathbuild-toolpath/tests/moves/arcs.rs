@@ -59,3 +59,14 @@ fn an_arc_over_zero_degrees_is_not_run_the_long_way() {
     assert_eq!(lengths("mill arc centre 0,10 r 10 from 270 to 180", "-10,10"), ["47.124"]);
     assert_eq!(lengths("arc CONTINUOUS centre 10,0 r 10 from 180 to 180", "0,0"), ["62.832"]);
 }
+
+/// The ends of such an arc would be printed 0.001 mm apart. As both are equally near, all passes run the same way, so each would end farther away.
+#[test]
+fn an_arc_without_length_is_a_line() {
+    let passes = |degrees: f64| {
+        let statement = format!("mill arc centre -10,0 r 10 from 0 to {degrees:?}");
+        arcs(&program(&path("T5 O3 I2 B0", &format!("{statement}\nend 0,0")))).len()
+    };
+    // 0.9e-9 and 1.7e-9 mm.
+    assert_eq!((passes(5e-9), passes(1e-8)), (0, 3));
+}
