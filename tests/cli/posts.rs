@@ -195,16 +195,17 @@ fn a_rewritten_program_names_its_own_dialect() {
     assert_eq!(place.run("emit 1600.1P 1234.1P").status, Some(0));
     for post in ["grbl", "linuxcnc", "mach3", "fanuc", "haas", "marlin"] {
         for program in ["1600_Probing.gcode", "1234_Milling.gcode"] {
-            let run = place.run(&format!("post {program} --post {post} -o 1234.{post}"));
+            let output = program.replace("gcode", post);
+            let run = place.run(&format!("post {program} --post {post} -o {output}"));
             assert_eq!(run.status, Some(0), "{run}");
-            let text = place.read(&format!("1234.{post}"));
+            let text = place.read(&output);
             assert!(text.to_lowercase().contains(&format!(" {post} o2 t5")), "{text}");
             assert!(!text.to_lowercase().contains(" native "), "{text}");
-            let verified = place.run(&format!("verify 1234.{post}"));
+            let verified = place.run(&format!("verify {output}"));
             assert!(verified.status == Some(0), "{verified}");
         }
     }
-    let again = place.run("post 1234.linuxcnc --post haas -o again.nc");
+    let again = place.run("post 1234_Milling.linuxcnc --post haas -o again.nc");
     assert_eq!(again.status, Some(0), "{again}");
     let text = place.read("again.nc").to_lowercase();
     assert!(text.contains(" haas o2 t5") && !text.contains(" linuxcnc "), "{text}");
@@ -738,6 +739,23 @@ fn a_program_that_the_posts_command_edited_has_its_moves() {
         // The command works on what the post has written, not on its own earlier result.
         assert_eq!(emitted(), first, "{edit}");
     }
+}
+
+/// Under the name of 1500.1P, the operator would start 1234.1P.
+#[test]
+fn post_does_not_replace_the_program_of_another_path() {
+    let place = library("");
+    assert_eq!(place.run("emit 1234.1P 1500.1P").status, Some(0));
+    let post = |to: &str| place.run(&format!("post 1234_Milling.gcode --post linuxcnc -o {to}"));
+    let kept = place.read("1500_Milling.gcode");
+    let run = post("1500_Milling.gcode");
+    assert!(run.status == Some(1) && run.stderr.contains("program of another path"), "{run}");
+    assert_eq!(place.read("1500_Milling.gcode"), kept);
+    for _ in 0..2 {
+        let run = post("1500.ngc");
+        assert_eq!(run.status, Some(0), "{run}");
+    }
+    assert!(post("1500_Z.txt").stderr.contains("PB004"));
 }
 
 /// A program that could not be written must not be processed.

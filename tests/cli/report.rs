@@ -203,6 +203,11 @@ fn the_summary_counts_and_agrees_in_number() {
 fn no_report_replaces_a_source_or_a_program() {
     let place =
         Place::new().file("pathbuild.toml", "library = [\".\"]\n").file("a.dxf", "x").file("a.nc", "M30\n");
+    let place = place
+        .file("a_Z.txt", "#51=2.1\n")
+        .file("own.cbpp", "x")
+        .file("own.toml", "x")
+        .file("notes.txt", "a note\n");
     let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0\nend 40,0\n";
     let place = place.file("b/1234.1P.dxf", pathbuild_testkit::sheet(drawing).unwrap().to_dxf());
     let commands = [
@@ -211,13 +216,21 @@ fn no_report_replaces_a_source_or_a_program() {
         "check --report html=pathbuild.toml",
         "check --baseline a.dxf --update-baseline",
         "verify a.nc --report json=a.nc",
+        "check --report json=a_Z.txt",
+        "check --report json=own.cbpp",
+        "check --baseline own.toml --update-baseline",
+        "check --baseline notes.txt --update-baseline",
+        "emit b --rapid 1000 --sweep-height 20 --deps a_Z.txt",
         "emit b --rapid 1000 --sweep-height 20 --deps a.dxf",
     ];
     for command in commands {
         let run = place.run(command);
         assert!(run.stderr.contains("PB004") && run.stderr.contains("would be lost"), "{run}");
     }
-    let kept = ["pathbuild.toml", "a.dxf", "a.nc"].map(|name| place.read(name));
-    assert_eq!(kept, ["library = [\".\"]\n", "x", "M30\n"]);
+    let kept = ["pathbuild.toml", "a.dxf", "a.nc", "a_Z.txt", "own.cbpp", "own.toml", "notes.txt"];
+    let kept = kept.map(|name| place.read(name));
+    assert_eq!(kept, ["library = [\".\"]\n", "x", "M30\n", "#51=2.1\n", "x", "x", "a note\n"]);
+    assert_eq!(place.run("check --report json=a_Zz.txt").status, Some(1), "written, with errors of a.dxf");
+    assert!(place.path().join("a_Zz.txt").exists());
     assert!(!place.path().join("a.NC").exists() || place.read("a.NC") == "M30\n");
 }

@@ -23,6 +23,14 @@ words! {
     NAME_OF_PROGRAM: "it has the name of a G-code program, which would be lost", "sie heißt wie ein G-Code-Programm, das verloren ginge";
     /// A report or similar output would overwrite the configuration.
     NAME_OF_CONFIGURATION: "it is the configuration, which would be lost", "sie ist die Konfiguration, die verloren ginge";
+    /// A report or similar output would overwrite a configuration or a post definition.
+    NAME_OF_DEFINITION: "it has the name of a configuration or a post definition, which would be lost", "sie heißt wie eine Konfiguration oder Postprozessor-Definition, die verloren ginge";
+    /// A report or similar output would overwrite measured values.
+    NAME_OF_VALUES: "it has the name of a file with measured values, which would be lost", "sie heißt wie eine Datei mit Messwerten, die verloren gingen";
+    /// `post --output` would overwrite the program of another path.
+    PROGRAM_OF_OTHER_PATH: "it is the program of another path, which would be lost", "sie ist das Programm eines anderen Pfades, das verloren ginge";
+    /// `--update-baseline` would overwrite a file that is not a baseline.
+    NO_BASELINE: "the file there is not a baseline, and would be lost", "die Datei dort ist keine Baseline und ginge verloren";
     /// q-project would overwrite a drawing that it did not write.
     DRAWN_BY_USER: "the drawing there was not written by q-project, or was edited since", "die Zeichnung dort stammt nicht von q-project oder wurde seither bearbeitet";
     /// A directory is in the place of a file to read.

@@ -81,6 +81,11 @@ impl Baseline {
         Ok((baseline, faults))
     }
 
+    /// Whether the baseline has no entries.
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
     /// Whether a baseline may accept a finding. Errors that say that something was not checked are never accepted: those of a file, of a directory and
     /// of a limit, and those about the arguments, which name no file.
     pub fn may_accept(finding: &Diagnostic) -> bool {

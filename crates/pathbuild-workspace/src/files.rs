@@ -9,11 +9,14 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::reasons::{
-    IS_THERE, LEADS_OUT, NAME_OF_CONFIGURATION, NAME_OF_DRAWING, NAME_OF_PROGRAM, NO_DIRECTORY, NOT_UTF_8,
-    cannot_write, reason,
+    IS_THERE, LEADS_OUT, NAME_OF_CONFIGURATION, NAME_OF_DEFINITION, NAME_OF_DRAWING, NAME_OF_PROGRAM,
+    NAME_OF_VALUES, NO_DIRECTORY, NOT_UTF_8, PROGRAM_OF_OTHER_PATH, cannot_write, reason,
 };
 use pathbuild_diagnostic::{Diagnostic, Text, Value};
+use pathbuild_gcode::native;
+use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 
+use crate::session::OutputKind;
 use crate::workspace::Workspace;
 
 /// A file other than a drawing that a result depends on.
@@ -106,8 +109,8 @@ pub fn replace_report(context: &Workspace, file: &Utf8Path, text: &str) -> Resul
     }
 }
 
-/// Returns the reason if a name is that of a drawing or of a configuration, which no other output may replace. Only the name matters, not whether
-/// the file exists.
+/// Returns the reason if a name is that of a drawing, a configuration, a post definition or a file of measured values, which no other output may
+/// replace. Only the name matters, not whether the file exists.
 pub fn name_of_source(context: &Workspace, file: &Utf8Path) -> Option<&'static Text> {
     let is = |extension: &str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(extension));
     let is_configuration = file.file_name().is_some_and(|name| name.eq_ignore_ascii_case(FILE_NAME))
@@ -115,7 +118,25 @@ pub fn name_of_source(context: &Workspace, file: &Utf8Path) -> Option<&'static T
     if is("dxf") || is("dwg") {
         return Some(&NAME_OF_DRAWING);
     }
-    is_configuration.then_some(&NAME_OF_CONFIGURATION)
+    if is_configuration {
+        return Some(&NAME_OF_CONFIGURATION);
+    }
+    if is("cbpp") || is("toml") {
+        return Some(&NAME_OF_DEFINITION);
+    }
+    let values = OutputKind::Values.suffix().to_ascii_lowercase();
+    file.as_str().to_ascii_lowercase().ends_with(&values).then_some(&NAME_OF_VALUES)
+}
+
+/// Returns the reason if a file contains the program of another path than `program`, which then must not replace it.
+pub fn program_of_other_path(context: &Workspace, file: &Utf8Path, program: &[u8]) -> Option<&'static Text> {
+    let owner = |text: &[u8]| {
+        let (_, title) = Provenance::of_head(text)?;
+        let joined = native::joined_paths(&title).map(|(_, name)| name);
+        Some(joined.unwrap_or_else(|| native::plain_title(&title)))
+    };
+    let current = owner(&context.system.read_head(file, HEAD_BYTES).ok()?)?;
+    (owner(program)? != current).then_some(&PROGRAM_OF_OTHER_PATH)
 }
 
 /// Like [`name_of_source`], for outputs that are not programs and must not replace a program either.

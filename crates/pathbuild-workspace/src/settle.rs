@@ -3,6 +3,7 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::messages::configuration as messages;
+use pathbuild_diagnostic::reasons::NO_BASELINE;
 use pathbuild_diagnostic::{Code, Diagnostic};
 
 use crate::baseline::Baseline;
@@ -80,7 +81,8 @@ impl Workspace {
         }
     }
 
-    /// Rewrites the baseline. Lines without a fingerprint are dropped. A baseline, depth, reason or date that cannot be read is an error.
+    /// Rewrites the baseline. Lines without a fingerprint are dropped, but a file with only such lines is not a baseline. A baseline, depth, reason or
+    /// date that cannot be read is an error.
     fn update_baseline(
         &self,
         file: &Utf8Path,
@@ -88,9 +90,13 @@ impl Workspace {
         coverage: &Coverage,
     ) -> Result<Settled, Failure> {
         let (baseline, mut faults) = self.read_or_new_baseline(file).map_err(Failure::Refused)?;
+        let has_faults = !faults.is_empty();
         faults.retain(|fault| fault.message.key != messages::BASELINE_LINE.key);
         if !faults.is_empty() {
             return Err(Failure::Refused(faults));
+        }
+        if has_faults && baseline.is_empty() {
+            return Err(Failure::Found(vec![files::replace_error(file, &NO_BASELINE)]));
         }
         self.write_baseline(file, &baseline.rewritten_text(findings, self, coverage), findings.len())
     }

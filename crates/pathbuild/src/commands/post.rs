@@ -20,7 +20,7 @@ use crate::exit::ExitStatus;
 use crate::render::Format;
 use pathbuild_workspace::Failure;
 use pathbuild_workspace::config::number;
-use pathbuild_workspace::files::{name_of_source, replace_error, write_error};
+use pathbuild_workspace::files::{name_of_source, program_of_other_path, replace_error, write_error};
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor, complete_tools, run_post_build};
 use pathbuild_workspace::program::Program;
 use pathbuild_workspace::session::Session;
@@ -142,7 +142,8 @@ fn rewrite_and_report(
         context.printer.result_bytes(&output.text);
         return Ok(());
     };
-    if let Some(reason) = name_of_source(context, to) {
+    let refusal = name_of_source(context, to).or_else(|| program_of_other_path(context, to, &program.text));
+    if let Some(reason) = refusal {
         return Err(vec![replace_error(to, reason)]);
     }
     let written = context.system.write(to, &output.text).map_err(|reason| vec![write_error(to, reason)])?;
