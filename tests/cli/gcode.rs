@@ -586,6 +586,27 @@ fn verify_against_finds_what_moves_the_machine_and_not_the_program() {
     }
 }
 
+/// Estlcam waits for the spindle by itself, and `emit` notes that its post does not write the time.
+#[test]
+fn only_programs_that_can_wait_for_the_spindle_must() {
+    let library = LIBRARY.replace("[tool.2mm]", "[machine]\nspin-up = 2\n[tool.2mm]");
+    let verified = |post: &str, waits: bool| {
+        let place = Place::of(&library);
+        let emitted = place.run(&format!("emit 1234.1P --post {post} -o -"));
+        assert_eq!(emitted.status, Some(0), "{emitted}");
+        let text = emitted.stdout;
+        let lines = text.lines().filter(|line| waits || !line.starts_with("G4"));
+        let place = place.file("x.nc", lines.collect::<Vec<_>>().join("\n") + "\n");
+        place.run(&format!("verify x.nc --against 1234.1P --post {post}"))
+    };
+    for (post, waits, status) in [("grbl", true, 0), ("estlcam", false, 0), ("grbl", false, 1)] {
+        let verified = verified(post, waits);
+        assert_eq!(verified.status, Some(status), "{post}: {verified}");
+        let is_reported = verified.stderr.contains("error[PB739] the tool starts cutting less than 2 s");
+        assert_eq!(is_reported, status == 1, "{post}: {verified}");
+    }
+}
+
 #[test]
 fn a_joined_program_is_not_compared_with_one_of_its_paths() {
     for post in ["linuxcnc", "grbl", "din", "xpertmill"] {

@@ -144,6 +144,14 @@ impl PostDefinition {
         matches!(&self.engine, Engine::CamBam(definition) if definition.has_own_axes())
     }
 
+    /// Whether the post's programs can wait until the spindle has reached its speed.
+    pub fn waits_for_spindle(&self) -> bool {
+        match &self.engine {
+            Engine::CamBam(definition) => definition.waits_for_spindle(),
+            Engine::Cad6(definition) => definition.uses("SpinUpTime"),
+        }
+    }
+
     /// Writes a program.
     ///
     /// # Errors

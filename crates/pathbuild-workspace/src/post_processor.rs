@@ -237,13 +237,15 @@ impl PostProcessor {
             let output = self.write_with(&job, options, &mut Vec::new());
             output.ok().map(|output| output.text)
         });
+        let leaves_spin_up = !self.post.waits_for_spindle();
         if !self.is_read_by_definition() {
-            return PostWords::of_programs(written, dialect);
+            return PostWords::of_programs(written, dialect).leaving_spin_up(leaves_spin_up);
         }
         let translated: Vec<TranslatedText> = written.map(|text| self.post.translate(&text)).collect();
         let left_out = translated.iter().flat_map(|text| &text.doubtful).map(|word| word.word.clone());
         PostWords::of_programs(translated.iter().map(|text| &text.text), dialect)
             .of_definition(&self.name(), left_out)
+            .leaving_spin_up(leaves_spin_up)
     }
 
     /// Translates a program of this post into the words of RS274 by means of the post's definition; `None` if such programs are read in a dialect.

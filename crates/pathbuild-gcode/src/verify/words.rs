@@ -39,6 +39,8 @@ pub struct PostWords {
     definition: Option<String>,
     /// Whether the post lets the control round corners without limit.
     pub(super) rounds_freely: bool,
+    /// Whether the post's programs do not wait for the spindle, so that the control or the operator must.
+    pub(super) leaves_spin_up: bool,
     /// Whether the post's first move in the plane begins at a height specified by the program; `None` before that move.
     raises_first: Option<bool>,
 }
@@ -117,6 +119,11 @@ impl PostWords {
     /// of its output that the translation to RS274 omits.
     pub fn of_definition(self, name: &str, others: impl IntoIterator<Item = String>) -> Self {
         Self { others: others.into_iter().collect(), definition: Some(name.to_owned()), ..self }
+    }
+
+    /// Sets whether the post's programs do not wait for the spindle.
+    pub fn leaving_spin_up(self, leaves_spin_up: bool) -> Self {
+        Self { leaves_spin_up, ..self }
     }
 
     /// Whether these are the words of a definition without a dialect, so that the control is unknown.

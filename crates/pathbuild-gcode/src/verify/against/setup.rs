@@ -75,7 +75,7 @@ impl<'w> Setup<'w> {
         } else {
             tool
         };
-        let spin_up = if dialect == Dialect::Native { 0.0 } else { spin_up };
+        let spin_up = if dialect == Dialect::Native || words.leaves_spin_up { 0.0 } else { spin_up };
         let missing = words.lead.clone();
         Self {
             dialect,
