@@ -177,6 +177,8 @@ enum Event {
     Unit(u16),
     /// One or more consecutive cuts.
     Cut,
+    /// One or more consecutive probes of the material, straight down.
+    Probe,
     Statement(Statement),
 }
 
@@ -185,6 +187,7 @@ impl HeaderReader {
     pub fn step(&mut self, step: &Step) {
         let event = match &step.action {
             Action::Move(movement) if matches!(movement.pace, Pace::Feed(_)) => Event::Cut,
+            Action::Move(movement) if movement.probes_down() => Event::Probe,
             Action::ChangeTool(number) => Event::Insert(number.unwrap_or(0)),
             Action::SelectTool(number) => Event::Select(*number),
             Action::Word(StatedWord { group: Some(Group::Units), code, .. }) => Event::Unit(*code),
@@ -195,7 +198,9 @@ impl HeaderReader {
             Action::Comment(text) => return self.comment(step.line, text),
             _ => return,
         };
-        if event != Event::Cut || self.events.last().is_none_or(|(_, last)| *last != Event::Cut) {
+        let is_repeated = matches!(event, Event::Cut | Event::Probe)
+            && self.events.last().is_some_and(|(_, last)| *last == event);
+        if !is_repeated {
             self.events.push((step.line, event));
         }
     }
@@ -216,7 +221,12 @@ impl HeaderReader {
     }
 
     /// Returns the tools and the stock that all comments of the program describe. `inch` is ten times the G code that selects inches (200 for G20).
-    pub fn finish(self, inch: u16) -> Header {
+    pub fn finish(mut self, inch: u16) -> Header {
+        let has = |searched: Event| self.events.iter().any(|(_, event)| *event == searched);
+        let is_probing = has(Event::Probe) && !has(Event::Cut);
+        if !is_probing {
+            self.events.retain(|(_, event)| *event != Event::Probe);
+        }
         let has_insertions = self.events.iter().any(|(_, event)| matches!(event, Event::Insert(_)));
         let has_selections = self.events.iter().any(|(_, event)| matches!(event, Event::Select(_)));
         let changed = |event: &Event| match event {
@@ -227,7 +237,7 @@ impl HeaderReader {
         };
         let changes = self.events.iter().filter_map(|(line, event)| Some((*line, changed(event)?)));
         let mut header =
-            Header { changes: changes.collect(), has_calls: self.has_calls, ..Header::default() };
+            Header { changes: changes.collect(), has_calls: self.has_calls, is_probing, ..Header::default() };
         let mut collector =
             Collector { in_inches: starts_in_inches(&self.events, inch), ..Collector::default() };
         collector.numbered(&self.events, inch);
@@ -262,7 +272,9 @@ pub struct Header {
     pub changes: Vec<(u32, u32)>,
     /// Whether the program has calls, loops or branches, so that its lines are executed out of order.
     pub has_calls: bool,
-    /// The tools that cut, with the lines from which they apply.
+    /// Whether the program only probes the material, and never cuts.
+    pub is_probing: bool,
+    /// The tools that cut, or that probe if none cuts, with the lines from which they apply.
     pub tools: Vec<CuttingTool>,
     /// The height of the stock's upper face in mm.
     pub surface: Option<f64>,
@@ -414,7 +426,7 @@ impl Collector {
         }
         match event {
             Event::Unit(code) => self.in_inches = *code == inch,
-            Event::Cut => self.assign_tool_to_cut(),
+            Event::Cut | Event::Probe => self.assign_tool_to_cut(),
             Event::Statement(statement) => self.statement(line, statement),
             Event::Select(_) | Event::Insert(_) => {}
         }

@@ -414,6 +414,13 @@ impl Move {
         self.named.is_some_and(|named| named.axes().has(Axes::Z))
     }
 
+    /// Whether the move probes straight down.
+    pub fn probes_down(&self) -> bool {
+        matches!(self.pace, Pace::Probe { toward: true, .. })
+            && self.keeps_xy()
+            && self.to.z() < self.from.z()
+    }
+
     /// Whether X and Y are the same at both ends.
     pub fn keeps_xy(&self) -> bool {
         self.from.at[..2] == self.to.at[..2]

@@ -233,6 +233,35 @@ fn a_changed_probing_run_is_found() {
     }
 }
 
+/// The sheet is 5 mm thick, and the drawing need not be at hand.
+#[test]
+fn heights_of_a_probing_program_are_checked_without_the_drawing_too() {
+    let place = adjusted("");
+    let good = place.read("a_Probing.gcode");
+    let descent = Regex::new(r"G00 Z[0-9.]+\nG38").unwrap().find(&good).unwrap().as_str().to_owned();
+    let probe = |changed: &str| {
+        write(&place, "x.gcode", changed);
+        place.run("verify x.gcode")
+    };
+    for (from, to, code) in [
+        (descent.as_str(), "G00 Z4.900\nG38", "error[PB741]"),
+        ("G04 P4\nG00 Z20.000\n", "G04 P4\nG00 Z4.900\n", "error[PB74"),
+        ("G38.2 Z0", "G38.2 Z-0.6", "warning[PB777]"),
+    ] {
+        let changed = good.replacen(from, to, 1);
+        assert_ne!(changed, good, "{from}");
+        let run = probe(&changed);
+        assert!(run.stderr.contains(code), "{from}: {run}");
+    }
+    write(&place, "x.gcode", &good.replacen(&descent, "G00 Z4.900\nG38", 1));
+    let refused = place.run("post x.gcode --post linuxcnc -o x.ngc");
+    assert!(refused.status == Some(1) && refused.stderr.contains("PB741"), "{refused}");
+    for (from, to) in [(descent.as_str(), "G00 Z5.000\nG38"), ("G38.2 Z0", "G38.2 Z-0.5")] {
+        let run = probe(&good.replacen(from, to, 1));
+        assert!(run.stderr.contains("errors: 0, warnings: 0"), "{to}: {run}");
+    }
+}
+
 #[test]
 fn formulas_in_a_program_without_probes_are_an_error() {
     let place = Place::new().file("a.dxf", drawing(PLATE)).file("pathbuild.toml", VALUES);

@@ -309,6 +309,13 @@ messages! {
         help_en: "check the numbers of a program that was edited, or compare it with its drawing (--against PATH); set `below-plate` under [warnings] to allow more than {limit} mm",
         help_de: "die Zahlen eines bearbeiteten Programms prüfen oder es mit seiner Zeichnung vergleichen (--against PFAD); mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
     }
+    /// A probe of a program by pathbuild that would go deep below the plate.
+    PROBE_BELOW_PLATE: Disagreement {
+        en: "the program is one of pathbuild, with Z 0 on the plate, but this probe goes down to Z {z} if it touches nothing: {depth} mm below the plate",
+        de: "das Programm ist von pathbuild, mit Z 0 auf der Platte, aber dieses Antasten geht bis Z {z} hinunter, wenn es nichts berührt: {depth} mm unter die Platte",
+        help_en: "check the numbers of a program that was edited, or compare it with its drawing (--against PATH); set `below-plate` under [warnings] to allow more than {limit} mm",
+        help_de: "die Zahlen eines bearbeiteten Programms prüfen oder es mit seiner Zeichnung vergleichen (--against PFAD); mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
+    }
     /// Inches in a program that pathbuild has written in millimetres.
     INCHES_OF_PATHBUILD: Disagreement {
         en: "the program is one of pathbuild, which writes millimetres, but this word selects inches",

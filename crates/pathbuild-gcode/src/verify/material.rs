@@ -100,7 +100,7 @@ fn apply_moves(
     }
     each(&mut |bench, line, movement| {
         look(bench, line, movement, problems);
-        if movement.pace != Pace::Rapid {
+        if matches!(movement.pace, Pace::Feed(_)) {
             bench.remove_material(line, movement);
         }
     });
@@ -375,10 +375,10 @@ fn capsule(part: &MovePiece, radius: f64) -> Capsule {
     Capsule::new(plane(&part.from), plane(&part.to), radius)
 }
 
-/// Returns the stock at a cutting move; `None` if it is unknown or the move does not cut below the surface.
+/// Returns the stock at a cutting move, or at a probe of a program that only probes; `None` if it is unknown or the move stays above the surface.
 pub(super) fn cutting_piece(line: u32, movement: &Move, stock: &Stock) -> Option<StockSpan> {
-    let is_known = movement.is_known();
-    let piece = stock.at(line).filter(|_| is_known && matches!(movement.pace, Pace::Feed(_)))?;
+    let is_in_material = matches!(movement.pace, Pace::Feed(_)) || stock.is_probed && movement.probes_down();
+    let piece = stock.at(line).filter(|_| movement.is_known() && is_in_material)?;
     (movement.lowest() < piece.surface).then_some(*piece)
 }
 
@@ -476,6 +476,8 @@ pub struct Stock {
     cells: u64,
     /// Maximum number of parts into which arcs and slopes are divided.
     pub(super) most_pieces: u64,
+    /// Whether the program only probes the material, so that it is known at the probes.
+    is_probed: bool,
 }
 
 /// The stock from a line on.
@@ -547,6 +549,7 @@ impl Stock {
             resolution: MIN_RESOLUTION,
             cells: DEFAULT_MAX_VISITED_CELLS,
             most_pieces: u64::MAX,
+            is_probed: false,
         };
         let resolution =
             stock.narrowest().map_or(MIN_RESOLUTION, |cutter| cutter / DEFAULT_CELLS_ACROSS_CUTTER);
@@ -638,6 +641,17 @@ impl Stock {
         Self { most_pieces: most, ..self }
     }
 
+    /// Sets whether the program only probes the material. Of a probe, only the centre is known.
+    pub fn with_probes(mut self, is_probed: bool) -> Self {
+        self.is_probed = is_probed;
+        if is_probed {
+            for piece in &mut self.pieces {
+                (piece.cutter.removed, piece.cutter.colliding) = (0.0, 0.0);
+            }
+        }
+        self
+    }
+
     /// Whether every cutter clears exactly the width with which it collides. The exact width of any other cutter is not known.
     fn is_flat(&self) -> bool {
         self.pieces
@@ -689,7 +703,7 @@ impl PathSection {
         if is_vertical(first)
             && is_vertical(second)
             && first.pace == Pace::Rapid
-            && second.pace != Pace::Rapid
+            && matches!(second.pace, Pace::Feed(_))
         {
             self.surface = Some(self.surface.map_or(first.to.z(), |known| known.max(first.to.z())));
         }

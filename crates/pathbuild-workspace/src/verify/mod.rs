@@ -362,6 +362,8 @@ struct CheckEvidence {
     corners: CornerRules,
     /// The lowest height in mm that a cut reaches, with the first line that reaches it.
     lowest_cut: Option<(f64, u32)>,
+    /// The lowest height in mm to which a probe goes down if it meets nothing, with the first line that reaches it.
+    lowest_probe: Option<(f64, u32)>,
     /// The line of the first word that selects inches.
     inch_line: Option<u32>,
     /// Ten times the G code that selects inches.
@@ -377,11 +379,16 @@ impl CheckEvidence {
         self.speeds.step(step);
         self.corners.step(step);
         if let Action::Move(movement) = &step.action
-            && matches!(movement.pace, Pace::Feed(_))
             && let [_, _, Some((low, _))] = movement.extent()
         {
-            let is_lowest = self.lowest_cut.is_none_or(|(lowest, _)| low < lowest);
-            self.lowest_cut = if is_lowest { Some((low, step.line)) } else { self.lowest_cut };
+            let lowest = match movement.pace {
+                Pace::Feed(_) => Some(&mut self.lowest_cut),
+                Pace::Probe { .. } => Some(&mut self.lowest_probe),
+                Pace::Rapid => None,
+            };
+            if let Some(lowest) = lowest.filter(|lowest| lowest.is_none_or(|(known, _)| low < known)) {
+                *lowest = Some((low, step.line));
+            }
         }
         if let Action::Word(StatedWord { group: Some(Group::Units), code, .. }) = &step.action
             && *code == self.inch_word
@@ -439,6 +446,7 @@ impl<'v> Examination<'v> {
             speeds: SpindleStarts::default(),
             corners: CornerRules::new(self.verifier.settings.general.part_tolerance.value),
             lowest_cut: None,
+            lowest_probe: None,
             inch_line: None,
             inch_word: self.program.inch_word(),
             travel_doubt: written.travel_doubt,
@@ -632,14 +640,17 @@ impl<'v> Examination<'v> {
             return Vec::new();
         }
         let limit = self.verifier.settings.warnings.below_plate.value;
-        let below = evidence.lowest_cut.filter(|(lowest, _)| above(-lowest, limit)).map(|(lowest, line)| {
-            let problem = Diagnostic::new(&say::CUT_BELOW_PLATE).with("z", lowest).with("depth", -lowest);
-            problem.with("limit", limit).at_line(line, None)
+        let reached =
+            [(&say::CUT_BELOW_PLATE, evidence.lowest_cut), (&say::PROBE_BELOW_PLATE, evidence.lowest_probe)];
+        let below = reached.into_iter().filter_map(|(message, reached)| {
+            let (lowest, line) = reached.filter(|(lowest, _)| above(-lowest, limit))?;
+            let problem = Diagnostic::new(message).with("z", lowest).with("depth", -lowest);
+            Some(problem.with("limit", limit).at_line(line, None))
         });
         let is_built_in = self.writer.is_none_or(|writer| writer.file().is_none());
         let inches = evidence.inch_line.filter(|_| is_built_in);
         let inches = inches.map(|line| Diagnostic::new(&say::INCHES_OF_PATHBUILD).at_line(line, None));
-        below.into_iter().chain(inches).collect()
+        below.chain(inches).collect()
     }
 
     /// Warns about a native program whose heights `adjust` has not corrected. If its header states measured heights, each such height is an error of

@@ -101,7 +101,7 @@ impl<'s> Sources<'s> {
             (None, Some(drawn)) => self.uniform(drawn),
             (None, None) => self.stated_stock(),
         };
-        stock.map(|stock| self.limited(stock))
+        stock.map(|stock| self.limited(stock).with_probes(self.header.is_probing))
     }
 
     /// Returns the material that the program states: up to the heights at which a native program's plunges begin to cut, else up to the surface in
