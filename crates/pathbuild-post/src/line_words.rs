@@ -20,6 +20,8 @@ pub(crate) struct LineWords {
     pub(crate) is_percent: bool,
     /// Whether a `%` follows other words than the line's number.
     pub(crate) has_percent_behind_words: bool,
+    /// The number of the line, or what begins it, if it does not begin with N: `:` is the letter O to some controls.
+    pub(crate) other_number: Option<String>,
     /// The first sign of a parameter or an expression: `#` or `[`.
     pub(crate) formula: Option<char>,
     /// The names in front of `=`, as in `Z=-5` or `RNDM=5`, without their numbers.
@@ -51,6 +53,9 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
             found.is_optional |= first == '/' && is_first;
             found.is_percent |= first == '%' && is_first;
             found.has_percent_behind_words |= first == '%' && !is_first && found.foreign.is_none();
+            if first == ':' && is_first {
+                found.other_number = Some(first.to_string());
+            }
             let name = if first == '=' { name_at_end(&line[..line.len() - rest.len()]) } else { "" };
             found.assigned.extend((!name.is_empty()).then(|| name.to_owned()));
             found.formula = found.formula.or(Some(first).filter(|sign| matches!(sign, '#' | '[')));

@@ -223,6 +223,9 @@ impl Rs274Translation {
         if let Some(Word { letter: 'O', number }) = line.words.first().filter(|_| line.foreign.is_some()) {
             self.report(format!("O{number}"), Doubt::Dangerous);
         }
+        if let Some(number) = line.other_number.as_ref().filter(|_| moves(line)) {
+            self.report(number.clone(), Doubt::Unknown);
+        }
         let has = |letter: char, numbers: &[i64]| {
             line.words.iter().any(|word| word.letter == letter && numbers.contains(&(tenths(word) / 10)))
         };

@@ -67,11 +67,15 @@ pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText 
     let end = if definition.options.end_of_line.ends_with('\r') { b'\r' } else { b'\n' };
     for line in text.split(|&byte| byte == end) {
         let line = String::from_utf8_lossy(line);
-        let line =
+        let code =
             if has_bare_numbers { line.trim_start_matches(|c: char| c.is_ascii_digit()) } else { &line };
         let motion =
-            own_words.iter().find(|(_, word)| line.contains(word.as_str())).map(|(number, _)| *number);
-        shadow.line(line, &words(line, &marks), motion, false);
+            own_words.iter().find(|(_, word)| code.contains(word.as_str())).map(|(number, _)| *number);
+        let mut words = words(code, &marks);
+        if code.len() < line.len() {
+            words.other_number = definition.options.numbering.other_number();
+        }
+        shadow.line(code, &words, motion, false);
     }
     shadow.finish()
 }

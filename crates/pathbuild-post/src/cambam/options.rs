@@ -49,6 +49,17 @@ pub(super) struct Numbering {
     pub(super) skip: Box<str>,
 }
 
+impl Numbering {
+    /// Returns the first number, or the prefix of all, if they do not begin with N; `None` if they do.
+    pub(super) fn other_number(&self) -> Option<String> {
+        match &*self.prefix {
+            "N" | "n" => None,
+            "" => Some(self.format.format(self.start.into())),
+            prefix => Some(prefix.to_owned()),
+        }
+    }
+}
+
 /// Settings for paths wrapped around a cylinder.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Rotary {

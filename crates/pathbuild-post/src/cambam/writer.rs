@@ -353,7 +353,9 @@ impl<'a> Writer<'a> {
         let found = words(&text[..code], &self.marks);
         self.check_replaced(&found, &text);
         self.machine.read(&found, line.code, self.number_format());
+        let other_number = self.lines.is_numbered(&text).then(|| self.lines.options.numbering.other_number());
         let meant = LineWords {
+            other_number: other_number.flatten().or(found.other_number),
             words: found.words.iter().map(|word| self.program_word(*word, &line)).collect(),
             ..found
         };
@@ -504,13 +506,16 @@ impl<'a> Lines<'a> {
 
     /// Adds a line, which must not be blank.
     pub(super) fn push(&mut self, line: &str) {
-        if self.options.add_line_numbers
-            && !line.starts_with(|first| self.options.numbering.skip.contains(first))
-        {
+        if self.is_numbered(line) {
             self.push_number();
         }
         self.text.push_str(line);
         self.text.push_str(&self.options.end_of_line);
+    }
+
+    fn is_numbered(&self, line: &str) -> bool {
+        self.options.add_line_numbers
+            && !line.starts_with(|first| self.options.numbering.skip.contains(first))
     }
 
     fn push_number(&mut self) {

@@ -428,12 +428,45 @@ fn what_the_reader_refuses_is_not_written() {
 
 /// Writes a cut with the spindle at 1000 1/min by a definition without a dialect that has these words in front of it.
 fn after_words(words: &str, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
+    with_elements(words, "", options)
+}
+
+fn with_elements(words: &str, elements: &str, options: &PostOptions<'_>) -> Result<Output, Vec<Diagnostic>> {
     let mut job =
         job(vec![rapid(1.0, 0.0, 1.0), feed(1.0, 0.0, -1.0), feed(9.0, 0.0, -1.0), rapid(9.0, 0.0, 5.0)]);
     job.operations[0].spindle = Some(Turning::Clockwise);
     job.operations[0].speed = Some(1000.0);
-    let mop = format!("<MOP>{{$toolchange}}\n{{$velocitymode}} {{$workplane}}\n{words}\n{{$blocks}}</MOP>");
+    let mop = format!(
+        "<MOP>{{$toolchange}}\n{{$velocitymode}} {{$workplane}}\n{words}\n{{$blocks}}</MOP>{elements}"
+    );
     read(&definition(&mop)).unwrap().write(&job, options)
+}
+
+/// A colon is the letter O to some controls, which begins another program, and others refuse a number without a letter.
+#[test]
+fn without_a_dialect_line_numbers_without_n_are_doubtful() {
+    let doubts = |line: &str, prefix: Option<&str>| {
+        let numbers = prefix.map(|prefix| {
+            format!("<AddLineNumbers>true</AddLineNumbers><LineNumberPrefix>{prefix}</LineNumberPrefix>")
+        });
+        let written = with_elements(
+            &format!("M3 S1000\n{line}"),
+            &numbers.unwrap_or_default(),
+            &PostOptions::default(),
+        );
+        texts(&written.unwrap_or_else(|errors| panic!("{line}: {:?}", texts(&errors))).warnings)
+    };
+    for (line, prefix, word) in [(":5 G0 Z5", None, ":"), ("", Some(":"), ":"), ("", Some(""), "1")] {
+        let doubts = doubts(line, prefix);
+        assert_eq!(doubts.len(), 1, "{line} {prefix:?}: {doubts:?}");
+        assert!(
+            doubts[0].starts_with("PB752") && doubts[0].contains(&format!("contains {word},")),
+            "{doubts:?}"
+        );
+    }
+    for (line, prefix) in [(":5", None), ("N5 G0 Z5", None), ("", Some("N")), ("", Some("n"))] {
+        assert_eq!(doubts(line, prefix), [""; 0], "{line} {prefix:?}");
+    }
 }
 
 /// Real definitions declare no dialect. Their output is interpreted as far as all controls agree.
