@@ -263,6 +263,20 @@ fn heights_of_a_probing_program_are_checked_without_the_drawing_too() {
 }
 
 #[test]
+fn a_converted_probing_program_is_not_compared_with_the_milling_program() {
+    let place = adjusted("");
+    for post in ["linuxcnc", "grbl", "mach3"] {
+        succeed(&place.run(&format!("post a_Probing.gcode --post {post} -o x.nc")));
+        let compared = place.run(&format!("verify x.nc --against a.dxf --dialect {post}"));
+        assert!(compared.stderr.contains("error[PB739]"), "{compared}");
+        assert!(compared.stderr.contains("the program only probes, and not in native words"), "{compared}");
+        assert!(compared.stderr.contains("errors: 1, warnings: 0"), "{compared}");
+        let alone = place.run(&format!("verify x.nc --dialect {post}"));
+        assert!(alone.stderr.contains("errors: 0"), "{alone}");
+    }
+}
+
+#[test]
 fn formulas_in_a_program_without_probes_are_an_error() {
     let place = Place::new().file("a.dxf", drawing(PLATE)).file("pathbuild.toml", VALUES);
     succeed(&place.run("emit a.dxf"));

@@ -99,6 +99,13 @@ messages! {
         help_en: "compare the NAME_Milling.gcode that adjust wrote, and verify this program without --against",
         help_de: "die NAME_Milling.gcode vergleichen, die adjust geschrieben hat, und dieses Programm ohne --against prüfen",
     }
+    /// `verify --against`: a probing program in the words of another control.
+    PROBING_CONVERTED: MovesDiffer {
+        en: "the program only probes, and not in native words: --against compares the probing program with the drawing only as `emit` writes it",
+        de: "das Programm tastet nur an, aber nicht in nativen Wörtern: --against vergleicht das Antastprogramm nur so mit der Zeichnung, wie `emit` es schreibt",
+        help_en: "compare the file NAME_Probing.gcode with --against, and verify this one without it",
+        help_de: "die Datei NAME_Probing.gcode mit --against vergleichen und diese ohne --against prüfen",
+    }
     /// `verify --against`: another tool than the drawing needs.
     TOOLS_DIFFER: MovesDiffer {
         en: "the tool is T{found}, but the drawing needs T{expected}",

@@ -469,13 +469,20 @@ impl<'v> Examination<'v> {
         Ok(VerifiedProgram { diagnostics, checks, comparison })
     }
 
+    /// Whether the program is the probing program of the path in the words of another control.
+    fn is_converted_probing(&self) -> bool {
+        let has_probes = self.verifier.against.as_ref().is_some_and(ReferenceProgram::has_probes);
+        has_probes && self.header.is_probing && self.program.dialect != Dialect::Native
+    }
+
     /// Refuses to compare a program with a path if each difference would be reported as a fault of the program: a program that joins several paths,
-    /// and a converted one whose heights were corrected.
+    /// and a converted one that only probes, or whose heights were corrected.
     fn refuse_incomparable(&self) -> Result<(), Vec<Diagnostic>> {
         let title = Provenance::of_head(&self.program.text).map(|(_, title)| title);
         let message = match title.and_then(|title| native::joined_paths(&title)) {
             _ if self.verifier.against.is_none() => return Ok(()),
             Some(_) => &say::JOINED_PROGRAM,
+            None if self.is_converted_probing() => &say::PROBING_CONVERTED,
             None if is_converted_correction(self.program) => &say::CONVERTED_CORRECTION,
             None => return Ok(()),
         };
