@@ -113,7 +113,7 @@ impl HeightRules {
 
     /// Returns the findings about the corrected program. `surface` is `None` if the places of its probes are not known.
     pub(super) fn finish(self, program: Source<'_>, surface: Option<&MeasuredSurface>) -> Vec<Diagnostic> {
-        let below = || surface?.rapid_below(program);
+        let below = || surface?.rapid_below(program, &self.applied);
         let extremes = [self.raised, self.lowered].into_iter().flatten().map(|(_, warning)| warning);
         self.in_material.or_else(below).into_iter().chain(extremes).collect()
     }

@@ -66,14 +66,21 @@ impl MeasuredSurface {
     }
 
     /// Returns PB602 for the rapid move that is farthest below the surface over which it leads, if there is one. Descents are not examined: they end
-    /// on the surface.
-    pub(super) fn rapid_below(&self, program: Source<'_>) -> Option<Diagnostic> {
+    /// on the surface. Neither are moves that were drawn at the surface or below it: the material there has been milled away.
+    pub(super) fn rapid_below(
+        &self,
+        program: Source<'_>,
+        applied: &[AppliedCorrection],
+    ) -> Option<Diagnostic> {
         let mut deepest: Option<(u32, f64, SurfacePoint)> = None;
         each_move(program, &mut |line, motion| {
             if motion.pace != Pace::Rapid || motion.is_vertical() {
                 return;
             }
             let z = motion.from.z().min(motion.to.z());
+            if !above(z - correction_at(applied, line), self.drawn) {
+                return;
+            }
             let Some(point) = self.highest_along(motion, z).filter(|point| !above(z, point.z)) else {
                 return;
             };
@@ -110,15 +117,10 @@ impl MeasuredSurface {
         program: Source<'_>,
         applied: &[AppliedCorrection],
     ) -> Option<Diagnostic> {
-        let mut rest = applied.iter().peekable();
-        let mut current = 0.0;
         let mut greatest: Option<(u32, f64, Xy)> = None;
         each_move(program, &mut |line, motion| {
-            while let Some(next) = rest.next_if(|next| next.line <= line) {
-                current = next.correction;
-            }
             let at = xy(&motion.to);
-            let off = current - self.correction(at);
+            let off = correction_at(applied, line) - self.correction(at);
             let is_cut = matches!(motion.pace, Pace::Feed(_));
             if is_cut
                 && above(off.abs(), MIN_REPORTED_DEVIATION)
@@ -132,6 +134,12 @@ impl MeasuredSurface {
         let problem = problem_of_line(program, line, message)?;
         Some(problem.with("off", off.abs()).with("at", Point::new(at.x, at.y)))
     }
+}
+
+/// Returns the correction that applies in a line.
+fn correction_at(applied: &[AppliedCorrection], line: u32) -> f64 {
+    let number = applied.partition_point(|correction| correction.line <= line);
+    number.checked_sub(1).map_or(0.0, |last| applied[last].correction)
 }
 
 struct SurfacePoint {
