@@ -597,7 +597,7 @@ fn only_programs_that_can_wait_for_the_spindle_must() {
         let text = emitted.stdout;
         let lines = text.lines().filter(|line| waits || !line.starts_with("G4"));
         let place = place.file("x.nc", lines.collect::<Vec<_>>().join("\n") + "\n");
-        place.run(&format!("verify x.nc --against 1234.1P --post {post}"))
+        place.run(&format!("verify x.nc --against 1234.1P --post {post} --format concise"))
     };
     for (post, waits, status) in [("grbl", true, 0), ("estlcam", false, 0), ("grbl", false, 1)] {
         let verified = verified(post, waits);

@@ -10,11 +10,9 @@ use pathbuild_db::System;
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::reasons::{
     IS_THERE, LEADS_OUT, NAME_OF_CONFIGURATION, NAME_OF_DEFINITION, NAME_OF_DRAWING, NAME_OF_PROGRAM,
-    NAME_OF_VALUES, NO_DIRECTORY, NOT_UTF_8, PROGRAM_OF_OTHER_PATH, cannot_write, reason,
+    NAME_OF_VALUES, NO_DIRECTORY, NOT_UTF_8, cannot_write, reason,
 };
 use pathbuild_diagnostic::{Diagnostic, Text, Value};
-use pathbuild_gcode::native;
-use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 
 use crate::session::OutputKind;
 use crate::workspace::Workspace;
@@ -126,17 +124,6 @@ pub fn name_of_source(context: &Workspace, file: &Utf8Path) -> Option<&'static T
     }
     let values = OutputKind::Values.suffix().to_ascii_lowercase();
     file.as_str().to_ascii_lowercase().ends_with(&values).then_some(&NAME_OF_VALUES)
-}
-
-/// Returns the reason if a file contains the program of another path than `program`, which then must not replace it.
-pub fn program_of_other_path(context: &Workspace, file: &Utf8Path, program: &[u8]) -> Option<&'static Text> {
-    let owner = |text: &[u8]| {
-        let (_, title) = Provenance::of_head(text)?;
-        let joined = native::joined_paths(&title).map(|(_, name)| name);
-        Some(joined.unwrap_or_else(|| native::plain_title(&title)))
-    };
-    let current = owner(&context.system.read_head(file, HEAD_BYTES).ok()?)?;
-    (owner(program)? != current).then_some(&PROGRAM_OF_OTHER_PATH)
 }
 
 /// Like [`name_of_source`], for outputs that are not programs and must not replace a program either.

@@ -12,7 +12,8 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, Names, join};
 use pathbuild_db::{Db, Role, SourceFile, Target, program};
 use pathbuild_diagnostic::messages::{files, outputs as messages};
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::reasons::PROGRAM_OF_OTHER_PATH;
+use pathbuild_diagnostic::{Diagnostic, Text, Value};
 use pathbuild_gcode::adjust::{Source, is_adjusted_from, listed_heights, states_other_values};
 use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
@@ -25,6 +26,7 @@ use crate::files::{PROGRAM_EXTENSIONS, is_program};
 use crate::memo::{Answer, DrawingResult, find};
 use crate::post_processor::PostProcessor;
 use crate::session::{Argument, OutputKind, Session};
+use crate::workspace::Workspace;
 
 /// A program on disk that must not be run on the machine.
 #[derive(Debug)]
@@ -620,6 +622,22 @@ fn has_name_of_title(program: &Utf8Path, title: &str) -> bool {
     let suffixes = PROGRAM_SUFFIXES.into_iter().chain([SHEET_SUFFIX]).map(str::to_lowercase);
     let stem = suffixes.into_iter().find_map(|suffix| name.strip_suffix(&*suffix));
     stem.is_some() && [drawing, path, joined.as_deref()].contains(&stem)
+}
+
+/// Returns the reason if a file is named after another path than that of `program` and contains the program of that path: `program` must not
+/// replace it.
+pub fn program_of_other_path(
+    workspace: &Workspace,
+    file: &Utf8Path,
+    program: &[u8],
+) -> Option<&'static Text> {
+    let owner = |title: &str| match native::joined_paths(title) {
+        Some((_, name)) => name,
+        None => plain_title(title),
+    };
+    let (_, current) = Provenance::of_head(&workspace.system.read_head(file, HEAD_BYTES).ok()?)?;
+    let (_, new) = Provenance::of_head(program)?;
+    (owner(&new) != owner(&current) && has_name_of_title(file, &current)).then_some(&PROGRAM_OF_OTHER_PATH)
 }
 
 /// Whether this is the file name of a program. The extension that a post definition chooses is recognised only while that definition is in use.
