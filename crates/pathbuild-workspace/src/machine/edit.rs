@@ -3,6 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::import as say;
+use rustc_hash::{FxHashMap, FxHashSet};
 use toml_edit::{Array, DocumentMut, Item, Key, Table, TableLike, Value};
 
 use super::{DescribedValue, Quantity, Target};
@@ -48,15 +49,16 @@ pub fn edit(
     let mut document: DocumentMut = text.parse().map_err(|_| fault())?;
     let (mut changes, mut problems) = (Vec::new(), Vec::new());
     // Tools that had no table in the configuration.
-    let mut added = Vec::new();
+    let mut added = FxHashSet::default();
+    let mut by_number = tools_by_number(&document);
     for value in values {
-        let path = table_path(&document, &value.target);
+        let path = table_path(&by_number, &value.target);
         let is_added = added.contains(&path);
         if value.is_for_new_tools && !is_added && table(&document, &path).is_some() {
             continue;
         }
         if !is_added && table(&document, &path).is_none() {
-            added.push(path.clone());
+            added.insert(path.clone());
         }
         let table = table_mut(&mut document, &path).ok_or_else(fault)?;
         let new = toml_value(&value.value);
@@ -72,6 +74,9 @@ pub fn edit(
         });
         if !is_new {
             continue;
+        }
+        if let (Target::Tool { number: Some(number), .. }, "number") = (&value.target, value.key) {
+            by_number.entry(i64::from(*number)).or_insert_with(|| path[1].clone());
         }
         problems.extend(replaced_tool(value, path.last().map_or("", String::as_str), old));
         match table.get_mut(value.key).and_then(Item::as_value_mut) {
@@ -99,15 +104,22 @@ fn replaced_tool(value: &DescribedValue, table: &str, old: Option<&Value>) -> Op
 
 /// Returns the path of a target's table: the names of the tables, outermost first. A tool with a number gets the configured table with the same
 /// number, whatever its name is.
-fn table_path(document: &DocumentMut, target: &Target) -> Vec<String> {
+fn table_path(by_number: &FxHashMap<i64, String>, target: &Target) -> Vec<String> {
     let Target::Tool { number, name } = target else { return vec!["machine".to_owned()] };
-    let has_number = |item: &Item| {
-        let known = item.get("number").and_then(Item::as_integer);
-        known.is_some() && known == number.map(i64::from)
-    };
-    let tools = document.get("tool").and_then(Item::as_table_like);
-    let known = tools.and_then(|tools| tools.iter().find(|(_, tool)| has_number(tool)).map(|(name, _)| name));
-    vec!["tool".to_owned(), known.unwrap_or(name).to_owned()]
+    let known = number.and_then(|number| by_number.get(&i64::from(number)));
+    vec!["tool".to_owned(), known.unwrap_or(name).clone()]
+}
+
+/// Returns the name of the first configured tool with each number.
+fn tools_by_number(document: &DocumentMut) -> FxHashMap<i64, String> {
+    let mut by_number = FxHashMap::default();
+    for (name, tool) in document.get("tool").and_then(Item::as_table_like).into_iter().flat_map(|t| t.iter())
+    {
+        if let Some(number) = tool.get("number").and_then(Item::as_integer) {
+            by_number.entry(number).or_insert_with(|| name.to_owned());
+        }
+    }
+    by_number
 }
 
 fn table<'d>(document: &'d DocumentMut, path: &[String]) -> Option<&'d Item> {

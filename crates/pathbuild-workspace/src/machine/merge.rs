@@ -3,6 +3,7 @@
 use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::import as say;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{DescribedTool, DescribedValue, Description, Target};
 
@@ -11,30 +12,32 @@ use super::{DescribedTool, DescribedValue, Description, Target};
 pub fn merge(descriptions: &[(&Utf8Path, Description)]) -> (Vec<DescribedValue>, Vec<Diagnostic>) {
     let mut values = Vec::new();
     let mut tools: Vec<ToolEntry<'_>> = Vec::new();
+    let mut by_number: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
     let mut problems = Vec::new();
     for (file, description) in descriptions {
         values.extend(description.values.iter().cloned());
         for tool in &description.tools {
             let mut entry = ToolEntry { file, tool, is_taken: true };
-            let mut earlier = tools.iter_mut().filter(|earlier| earlier.contradicts(&entry));
-            if let Some(first) = earlier.next() {
-                problems.push(entry.problem(first));
-                first.is_taken = false;
-                entry.is_taken = false;
+            if let Some(number) = tool.number {
+                let same_number = by_number.entry(number).or_default();
+                if let Some(first) = same_number.iter().find(|index| tools[**index].contradicts(&entry)) {
+                    problems.push(entry.problem(&tools[*first]));
+                    tools[*first].is_taken = false;
+                    entry.is_taken = false;
+                }
+                same_number.push(tools.len());
             }
             tools.push(entry);
         }
     }
-    let mut names = Vec::new();
+    let mut names = ToolNames::default();
+    let mut known: FxHashSet<(Target, &str)> =
+        values.iter().map(|value| (value.target.clone(), value.key)).collect();
     for entry in tools.iter().filter(|entry| entry.is_taken) {
-        let target = Target::Tool { number: entry.tool.number, name: unique_name(entry.tool, &mut names) };
+        let target = Target::Tool { number: entry.tool.number, name: names.unique_name(entry.tool) };
         let with_target = |value: &DescribedValue| DescribedValue { target: target.clone(), ..value.clone() };
-        for value in entry.tool.values.iter().map(with_target) {
-            let is_known = |other: &DescribedValue| other.target == value.target && other.key == value.key;
-            if !values.iter().any(is_known) {
-                values.push(value);
-            }
-        }
+        let new = entry.tool.values.iter().filter(|value| known.insert((target.clone(), value.key)));
+        values.extend(new.map(with_target));
     }
     (values, problems)
 }
@@ -76,18 +79,26 @@ impl ToolEntry<'_> {
     }
 }
 
-/// Returns the name for a tool: that of an earlier tool with the same number, or else its own, with a number appended if the name is taken.
-fn unique_name<'d>(tool: &'d DescribedTool, names: &mut Vec<(String, &'d DescribedTool)>) -> String {
-    let number = tool.number.map(|number| format!("T{number}"));
-    let own = Some(tool.name.clone()).filter(|name| !name.is_empty()).or(number.clone());
-    let own = own.unwrap_or_else(|| "tool".to_owned());
-    let is_same = |other: &DescribedTool| tool.number.is_some() && other.number == tool.number;
-    if let Some((name, _)) = names.iter().find(|(_, other)| is_same(other)) {
-        return name.clone();
+/// The names that tools have been given.
+#[derive(Default)]
+struct ToolNames {
+    by_number: FxHashMap<u32, String>,
+    taken: FxHashSet<String>,
+}
+
+impl ToolNames {
+    /// Returns the name for a tool: that of an earlier tool with the same number, or else its own, with a number appended if the name is taken.
+    fn unique_name(&mut self, tool: &DescribedTool) -> String {
+        if let Some(name) = tool.number.and_then(|number| self.by_number.get(&number)) {
+            return name.clone();
+        }
+        let number = tool.number.map(|number| format!("T{number}"));
+        let own = Some(tool.name.clone()).filter(|name| !name.is_empty()).or(number.clone());
+        let own = own.unwrap_or_else(|| "tool".to_owned());
+        let suffix = number.unwrap_or_else(|| self.taken.len().to_string());
+        let name = if self.taken.contains(&own) { format!("{own} ({suffix})") } else { own };
+        self.taken.insert(name.clone());
+        self.by_number.extend(tool.number.map(|number| (number, name.clone())));
+        name
     }
-    let is_known = names.iter().any(|(known, _)| *known == own);
-    let suffix = number.unwrap_or_else(|| names.len().to_string());
-    let name = if is_known { format!("{own} ({suffix})") } else { own };
-    names.push((name.clone(), tool));
-    name
 }

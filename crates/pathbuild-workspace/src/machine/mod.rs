@@ -89,7 +89,7 @@ pub struct DescribedValue {
 }
 
 /// A table of the configuration that takes values.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Target {
     /// The table `[machine]`.
     Machine,
