@@ -387,10 +387,64 @@ fn a_zero_set_by_probing_is_a_change() {
     let run = programs(&format!("{head}{cuts}"), &probed);
     let lines = [
         "  zero set by the program: G10 instead of none (line 5)\n",
-        "  probe: G38 instead of none (line 4)\n",
+        "  probe: G38.2 instead of none (line 4)\n",
     ];
     assert_prints(&run, 0, &lines);
     assert_prints(&programs(&probed, &probed), 0, &["0 of 1 path changed\n"]);
+    // Without contact, there is no alarm.
+    let quiet = probed.replace("G38.2", "G38.3");
+    assert_prints(&programs(&probed, &quiet), 0, &["  probe: G38.3 instead of G38.2 (line 4)\n"]);
+}
+
+/// On `LinuxCNC`, T only prepares the tool that M6 inserts. Other controls take the tool at T.
+#[test]
+fn a_missing_tool_change_is_a_change_of_the_tool() {
+    let cuts =
+        "G21 G90 G17 G94 G54\nG0 Z20\nT3 M6\nM3 S9000\nG0 X0 Y0\nG1 Z-1 F100\nG1 X20\nG0 Z20\nM5\nM30\n";
+    let without = cuts.replace(" M6", "");
+    let place =
+        Place::new().file("old.nc", cuts).file("new.nc", &without).file("other.nc", cuts.replace("T3", "T4"));
+    let diff = |arguments: &str| place.run(&format!("diff {arguments}"));
+    let lost = ["  tool: none instead of T3", "1 of 1 path changed"];
+    assert_prints(&diff("old.nc new.nc --dialect linuxcnc"), 0, &lost);
+    assert_prints(&diff("new.nc old.nc --dialect linuxcnc"), 0, &["  tool: T3 instead of none"]);
+    assert_prints(&diff("new.nc new.nc --dialect linuxcnc"), 0, &["0 of 1 path changed\n"]);
+    let run = diff("old.nc new.nc --dialect marlin");
+    assert!(!run.stdout.contains("tool: "), "{run}");
+}
+
+/// Every height of the finished program differs.
+#[test]
+fn another_correction_of_heights_is_a_change() {
+    let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B4\"\nmill 0,0 40,0\nprobe 10,0\nprobe 30,0\nprobe 20,10\nend 40,0\n";
+    let drawing = pathbuild_testkit::sheet(drawing).unwrap().to_dxf();
+    let configuration = "feed = 150\nrapid = 1000\nsweep-height = 20\nprobe-feed = 40\n";
+    let mut place = Place::new();
+    for (side, model) in [
+        ("old", ""),
+        ("same", "z-split = 0\n"),
+        ("plane", "z-model = \"plane\"\n"),
+        ("split", "z-split = 5\n"),
+    ] {
+        place = place.file(&format!("{side}/pathbuild.toml"), format!("{configuration}{model}"));
+        place = place.file(&format!("{side}/1234.1P.dxf"), &drawing);
+        let run = place.run(&format!("emit {side}"));
+        assert_eq!(run.status, Some(0), "{run}");
+    }
+    let diff = |new: &str| place.run(&format!("diff old {new}"));
+    assert_prints(&diff("same"), 0, &["0 of 1 path changed\n"]);
+    let words = "  height correction: z-model plane, z-split 20 instead of z-model idw4, z-split 0";
+    assert_prints(&diff("plane"), 0, &[words, "1 of 1 path changed"]);
+    assert_prints(
+        &diff("split"),
+        0,
+        &["  height correction: z-model idw4, z-split 5 instead of z-model idw4, z-split 0"],
+    );
+    let programs = |new: &str| place.run(&format!("diff old/1234.1P_Clean.gcode {new}/1234.1P_Clean.gcode"));
+    assert_prints(&programs("same"), 0, &["0 of 1 path changed\n"]);
+    for new in ["plane", "split"] {
+        assert_prints(&programs(new), 0, &["  height correction: +", "1 of 1 path changed"]);
+    }
 }
 
 #[test]

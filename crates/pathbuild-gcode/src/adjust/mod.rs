@@ -171,6 +171,15 @@ pub fn listed_probes(program: &[u8]) -> Vec<(u32, [f64; 2], f64)> {
     lines.take_while(|(_, text)| is_header(text)).filter_map(probe).collect()
 }
 
+/// Returns the corrections in the formulas of a program, such as `+0.34*[#51-2]`, each with its line.
+pub fn corrections(program: &[u8]) -> Vec<(u32, String)> {
+    let correction = |FormulaText { line, text, .. }: FormulaText| {
+        let start = text.char_indices().skip(1).find(|(_, character)| matches!(character, '+' | '-'));
+        Some((line, text[start?.0..].to_owned()))
+    };
+    formula_texts(program).filter_map(correction).collect()
+}
+
 /// Whether the header of a program lists measured heights, that is, whether it was adjusted.
 pub fn states_heights(program: Source<'_>) -> bool {
     ProbeTable::read(program).probes.values().any(|probe| probe.measured.is_some())

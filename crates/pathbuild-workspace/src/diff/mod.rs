@@ -10,7 +10,7 @@ use pathbuild_db::{Database, SourceFile, check_file, path_names, program};
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::verify::Machine;
 use pathbuild_path::PathName;
-use pathbuild_toolpath::Program as PathProgram;
+use pathbuild_toolpath::{Correction, Program as PathProgram};
 use pathbuild_view::{
     Group, Picture, ScenePath, StockChange, Totals, changes_svg, compare, groups, stock_change_svg,
 };
@@ -185,10 +185,13 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
     Comparison { paths, path_count, problems }
 }
 
-/// Returns everything that the programs of a post-processor depend on besides the drawings, and the machine whose travel they must not exceed; `None`
-/// for native programs.
-fn written_by(side: CompiledSide<'_>) -> Option<(Vec<u8>, Option<Machine>)> {
-    Some((side.post_processor?.identity(), machine(&side.session.workspace().settings)))
+/// Returns everything that programs depend on besides the drawings: the correction of their heights and, unless they are native, the post-processor
+/// and the machine whose travel they must not exceed.
+fn written_by(side: CompiledSide<'_>) -> (Correction, Option<(Vec<u8>, Option<Machine>)>) {
+    let settings = &side.session.workspace().settings;
+    let correction = Correction { model: settings.general.z_model.value, longest: settings.z_split() };
+    let posted = side.post_processor.map(|post_processor| (post_processor.identity(), machine(settings)));
+    (correction, posted)
 }
 
 /// The session and the post-processor that build the programs of one side.
@@ -452,7 +455,11 @@ impl CompiledSide<'_> {
         let pecks = self.session.query_target(known.target, pecks)?;
         states.set_pecks(pecks.into_iter().map(|(_, depth)| depth.filter(|_| writes_pecks)));
         let probes = |db: &Database| program(db, known.target).as_deref().map(|found| found.probes.clone());
-        states.set_probes(&self.session.query_target(known.target, probes)?.unwrap_or_default());
+        let probes = self.session.query_target(known.target, probes)?.unwrap_or_default();
+        states.set_probes(&probes);
+        if !probes.is_empty() {
+            states.set_correction(settings.general.z_model.value, settings.z_split());
+        }
         Ok(states)
     }
 }

@@ -2,12 +2,14 @@
 
 use pathbuild_diagnostic::{Number, Text};
 use pathbuild_gcode::adjust;
+use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::code_name;
 use pathbuild_motion::{
     Action, Change, Coolant, Corners, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem,
 };
-use pathbuild_toolpath::ProbePoint;
+use pathbuild_toolpath::{ProbePoint, ZModel};
 
+use crate::config::types::Choice;
 use crate::program::Program;
 
 /// A kind of state change or event in a program, besides moves.
@@ -25,6 +27,8 @@ pub enum StateKind {
     Peck,
     Zero,
     Probe,
+    /// The correction of heights by Z-probes.
+    Correction,
     Stop,
     Dwell,
     /// Any other line of the written program, compared only if nothing else differs.
@@ -44,7 +48,7 @@ pub struct StateChange {
 
 impl StateKind {
     /// All kinds, in the order in which they are shown.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::PostProcessor,
         Self::Tool,
         Self::Cutter,
@@ -56,6 +60,7 @@ impl StateKind {
         Self::Peck,
         Self::Zero,
         Self::Probe,
+        Self::Correction,
         Self::Stop,
         Self::Dwell,
         Self::OtherLine,
@@ -75,6 +80,7 @@ impl StateKind {
             Self::Peck => &Text { en: "peck depth", de: "Tiefe je Bohrstufe" },
             Self::Zero => &Text { en: "zero set by the program", de: "vom Programm gesetzter Nullpunkt" },
             Self::Probe => &Text { en: "probe", de: "Antasten" },
+            Self::Correction => &Text { en: "height correction", de: "Höhenkorrektur" },
             Self::Stop => &Text { en: "stop", de: "Halt" },
             Self::Dwell => &Text { en: "dwell", de: "Wartezeit" },
             Self::OtherLine => &Text { en: "line of the program", de: "Zeile des Programms" },
@@ -95,6 +101,7 @@ impl StateKind {
             Self::Peck => "peck",
             Self::Zero => "zero",
             Self::Probe => "probe",
+            Self::Correction => "correction",
             Self::Stop => "stop",
             Self::Dwell => "dwell",
             Self::OtherLine => "other-line",
@@ -108,7 +115,7 @@ impl StateKind {
 
     /// Whether words of this kind are taken from the steps of a program.
     fn is_in_steps(self) -> bool {
-        !matches!(self, Self::PostProcessor | Self::Cutter | Self::Peck | Self::OtherLine)
+        !matches!(self, Self::PostProcessor | Self::Cutter | Self::Peck | Self::Correction | Self::OtherLine)
     }
 }
 
@@ -119,6 +126,10 @@ pub struct MachineStates {
     cuts: Option<usize>,
     /// The states in effect at cuts, and the events, by kind; `None` for a kind about which nothing is known, which is not compared.
     stated: [Option<Vec<StatedWords>>; StateKind::ALL.len()],
+    /// The dialect of a program in a file.
+    dialect: Option<Dialect>,
+    /// Whether the program has an M6.
+    has_tool_change: bool,
 }
 
 /// Words of a program, with the cut from which they apply.
@@ -134,10 +145,15 @@ impl MachineStates {
     /// Returns the states of a program, with the cutters that its comments state.
     pub fn of(program: &Program) -> Self {
         let mut states = Self::of_steps(&program.read.steps);
+        states.dialect = Some(program.dialect);
         for (line, [x, y], height) in adjust::listed_probes(&program.text) {
             let words = probe_words([x, y], height);
             let probe = StatedWords { cut: 0, words, line };
             states.stated[StateKind::Probe as usize].get_or_insert_default().push(probe);
+        }
+        let corrections = adjust::corrections(&program.text);
+        if !corrections.is_empty() {
+            states.set(StateKind::Correction, corrections);
         }
         let tools = program.header().tools;
         let cutters = tools.iter().map(|tool| Some((tool.line, cutter_words(tool.cutter?.diameter))));
@@ -183,6 +199,13 @@ impl MachineStates {
         self.set(StateKind::Probe, words.collect());
     }
 
+    /// Sets the configuration of the height correction.
+    pub(super) fn set_correction(&mut self, model: ZModel, longest: f64) {
+        let name = ZModel::ALL.iter().find(|(_, known)| *known == model).map_or("", |(name, _)| *name);
+        let words = format!("z-model {name}, z-split {}", Number(longest));
+        self.set(StateKind::Correction, vec![(0, words)]);
+    }
+
     /// Sets the words of a kind, in their order, with their lines; 0 stands for no line. Words that repeat the previous ones change nothing.
     fn set(&mut self, kind: StateKind, mut words: Vec<(u32, String)>) {
         words.dedup_by(|next, previous| next.1 == previous.1);
@@ -205,8 +228,8 @@ impl MachineStates {
                     cuts += 1;
                     states.cuts = Some(cuts);
                 }
-                Action::Move(Move { pace: Pace::Probe { .. }, .. }) => {
-                    states.add(StateKind::Probe, step.line, PROBE.to_owned());
+                Action::Move(Move { pace: Pace::Probe { toward, must_answer, .. }, .. }) => {
+                    states.add(StateKind::Probe, step.line, probe_word(*toward, *must_answer).to_owned());
                 }
                 // Positions after the word are relative to a zero that only the machine knows.
                 Action::Change(Change::Offsets { code, is_followed: false, .. }) => {
@@ -219,6 +242,7 @@ impl MachineStates {
                 action => current.apply(action, step.line),
             }
         }
+        states.has_tool_change = current.has_changed;
         states
     }
 
@@ -243,9 +267,21 @@ impl MachineStates {
         StateKind::ALL.into_iter().filter_map(|kind| self.first_change(new, kind)).collect()
     }
 
+    /// Whether the program inserts no tool, because it lacks the M6 that another program in its dialect has.
+    fn lacks_change(&self, other: &Self) -> bool {
+        let is_needed = self.dialect.is_some_and(|dialect| dialect.rules().t_only_selects);
+        is_needed && self.dialect == other.dialect && !self.has_tool_change && other.has_tool_change
+    }
+
     fn first_change(&self, new: &Self, kind: StateKind) -> Option<StateChange> {
         let has_same_cuts = self.cuts.is_some() && self.cuts == new.cuts;
-        let sides = [self.stated[kind as usize].as_ref()?, new.stated[kind as usize].as_ref()?];
+        let without = Vec::new();
+        let mut sides = [self.stated[kind as usize].as_ref()?, new.stated[kind as usize].as_ref()?];
+        for (side, has_no_tool) in sides.iter_mut().zip([self.lacks_change(new), new.lacks_change(self)]) {
+            if kind == StateKind::Tool && has_no_tool {
+                *side = &without;
+            }
+        }
         let differs = |at: &usize| match sides.map(|side| side.get(*at)) {
             [Some(old), Some(new)] => old.words != new.words || has_same_cuts && old.cut != new.cut,
             _ => true,
@@ -265,8 +301,15 @@ impl MachineStates {
     }
 }
 
-/// The word for a probing move, whatever its kind.
-const PROBE: &str = "G38";
+/// Returns the word for a probing move. Without contact, only G38.2 and G38.4 are alarms.
+fn probe_word(toward: bool, must_answer: bool) -> &'static str {
+    match (toward, must_answer) {
+        (true, true) => "G38.2",
+        (true, false) => "G38.3",
+        (false, true) => "G38.4",
+        (false, false) => "G38.5",
+    }
+}
 
 /// The words in effect at a position in a program.
 #[derive(Debug)]

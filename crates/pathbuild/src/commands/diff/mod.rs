@@ -14,7 +14,7 @@ use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 use pathbuild_workspace::baseline::Baseline;
 use pathbuild_workspace::diff::{
-    Comparison, MachineStates, Outcome, PathDiff, ProgramDiff, Tree, compare_moves, compare_trees,
+    Comparison, MachineStates, Outcome, PathDiff, ProgramDiff, StateKind, Tree, compare_moves, compare_trees,
 };
 use pathbuild_workspace::emit::{ShownText, missing_values};
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
@@ -69,7 +69,9 @@ fn compare_two_programs(old: ComparedProgram, new: ComparedProgram, pictures: Op
     let outcome = match [&old, &new].map(|seen| seen.are_moves_known) {
         [true, true] => {
             let changed = compare_moves(&old.path, &new.path, pictures);
-            let states = old.states.changes(&new.states);
+            let mut states = old.states.changes(&new.states);
+            // The corrections belong to the moves.
+            states.retain(|state| state.kind != StateKind::Correction || changed.groups.is_empty());
             let is_same = changed.groups.is_empty() && states.is_empty();
             (!is_same).then(|| Outcome::Changed(Box::new(ProgramDiff { states, ..changed })))
         }
