@@ -417,7 +417,7 @@ fn a_missing_tool_change_is_a_change_of_the_tool() {
 #[test]
 fn another_correction_of_heights_is_a_change() {
     let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B4\"\nmill 0,0 40,0\nprobe 10,0\nprobe 30,0\nprobe 20,10\nend 40,0\n";
-    let drawing = pathbuild_testkit::sheet(drawing).unwrap().to_dxf();
+    let drawing = sheet(drawing).unwrap().to_dxf();
     let configuration = "feed = 150\nrapid = 1000\nsweep-height = 20\nprobe-feed = 40\n";
     let mut place = Place::new();
     for (side, model) in [

@@ -175,23 +175,27 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
             post_processor.as_ref().map_err(|found| problems[side].extend(found.iter().cloned()));
         CompiledSide { session, post_processor: post_processor.ok().and_then(Option::as_ref) }
     });
-    let has_same_post = written_by(sides[0]) == written_by(sides[1]);
+    let [old, new] = sides;
+    let is_written_alike = written_by(old) == written_by(new) && correction(old) == correction(new);
     let mut paths: Vec<PathDiff> = pair_up(was.paths, is.paths)
         .into_iter()
         .map(|pair| pair.with_unreadable(&unreadable))
-        .filter_map(|pair| pair.compare(sides, has_same_post, pictures, &mut problems))
+        .filter_map(|pair| pair.compare(sides, is_written_alike, pictures, &mut problems))
         .collect();
     paths.sort_by(|a, b| compare_names(&a.name, &b.name).then_with(|| a.files.cmp(&b.files)));
     Comparison { paths, path_count, problems }
 }
 
-/// Returns everything that programs depend on besides the drawings: the correction of their heights and, unless they are native, the post-processor
-/// and the machine whose travel they must not exceed.
-fn written_by(side: CompiledSide<'_>) -> (Correction, Option<(Vec<u8>, Option<Machine>)>) {
+/// Returns everything that the programs of a post-processor depend on besides the drawings, and the machine whose travel they must not exceed; `None`
+/// for native programs.
+fn written_by(side: CompiledSide<'_>) -> Option<(Vec<u8>, Option<Machine>)> {
+    Some((side.post_processor?.identity(), machine(&side.session.workspace().settings)))
+}
+
+/// Returns how the heights of programs with probes are corrected.
+fn correction(side: CompiledSide<'_>) -> Correction {
     let settings = &side.session.workspace().settings;
-    let correction = Correction { model: settings.general.z_model.value, longest: settings.z_split() };
-    let posted = side.post_processor.map(|post_processor| (post_processor.identity(), machine(settings)));
-    (correction, posted)
+    Correction { model: settings.general.z_model.value, longest: settings.z_split() }
 }
 
 /// The session and the post-processor that build the programs of one side.
@@ -293,7 +297,7 @@ impl PathPair {
     fn compare(
         self,
         sides: [CompiledSide<'_>; 2],
-        has_same_post: bool,
+        is_written_alike: bool,
         pictures: Option<Lang>,
         problems: &mut [Vec<Diagnostic>; 2],
     ) -> Option<PathDiff> {
@@ -301,7 +305,7 @@ impl PathPair {
         let outcome = match (&old, &new) {
             (Some(old_path), Some(new_path)) => match (&old_path.moves, &new_path.moves) {
                 (Some(before), Some(after)) => {
-                    let is_same = has_same_post && before == after;
+                    let is_same = is_written_alike && before == after;
                     let changed = if is_same {
                         None
                     } else {
