@@ -136,8 +136,8 @@ messages! {
     }
     /// `verify --against`: a program without the number by which the control identifies it.
     NUMBER_MISSING: MovesDiffer {
-        en: "the program has no number, but the drawing's is O{expected}: the control may take the first N for it, and overwrite another program",
-        de: "das Programm hat keine Nummer, für die Zeichnung ist sie O{expected}: die Steuerung nimmt vielleicht das erste N dafür und überschreibt ein anderes Programm",
+        en: "the program has no number, but O{expected} according to the drawing: the control may take the first N for it and overwrite another program",
+        de: "dem Programm fehlt die Nummer O{expected}, die es laut Zeichnung hat: die Steuerung nimmt vielleicht das erste N dafür und überschreibt ein anderes Programm",
         help_en: "write O{expected} at the beginning, or write the program again with `pathbuild emit`",
         help_de: "O{expected} an den Anfang schreiben, oder das Programm mit `pathbuild emit` neu schreiben",
     }
