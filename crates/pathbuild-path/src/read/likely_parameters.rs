@@ -16,7 +16,7 @@ pub fn may_be_stray_text(text: &[u8]) -> bool {
         |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b',' | b'=' | b'\\' | 128..);
     // A colon begins a variable, as in `:D0.5`, which is never reported; a backslash begins a format code of MTEXT, as in `\\W0.8;`, or a
     // line break: `\\P`. A bar separates the properties of a font: `\\fArial|b0|i0;`.
-    let is_inside = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'\\' | b':' | b'|');
+    let is_inside = |byte: &u8| byte.is_ascii_alphabetic() || matches!(byte, b'\\' | b':' | b'|');
     let is_begin = |before: &[u8]| {
         !before.last().is_some_and(is_inside) || BEGINNING_CODES.iter().any(|code| before.ends_with(code))
     };
@@ -48,38 +48,37 @@ pub(super) fn may_be_probe_text(text: &[u8]) -> bool {
 /// Returns a text without the mistakes that would be errors on the layer of a path, but do not hide its meaning: lower-case letters, dashes instead of
 /// a minus, spaces, colons and equals signs before numbers, signs or nothing between parameters, signs around them, units, and marks at the end.
 pub(super) fn without_mistakes(text: &str) -> String {
-    let text = look_alikes::with_keyboard_characters(text);
+    let text = look_alikes::with_keyboard_characters(text).to_ascii_uppercase().replace("/MIN", "");
     let mut meant = String::with_capacity(text.len());
     let mut rest = text.chars().peekable();
     let mut is_begin = true;
     while let Some(character) = rest.next() {
-        let begins_value = |next: &char| next.is_ascii_digit() || matches!(next, '-' | '.');
+        let begins_value = |next: char| next.is_ascii_digit() || matches!(next, '-' | '.');
+        let after_spaces = || rest.clone().find(|next| *next != ' ');
         let follows_number = meant.ends_with(|last: char| last.is_ascii_digit());
-        if follows_number && character.is_ascii_uppercase() && rest.peek().is_some_and(begins_value) {
+        if follows_number && character.is_ascii_uppercase() && after_spaces().is_some_and(begins_value) {
             meant.push(' ');
             is_begin = true;
         }
         let is_lone_letter = is_begin && character.is_ascii_alphabetic();
-        let is_between = matches!(character, ',' | ';' | '/')
-            && rest.clone().find(|next| *next != ' ').is_some_and(char::is_alphabetic);
-        let is_around = matches!(character, '(' | ')' | '[' | ']' | '"' | '\'');
+        let is_between = ",;./+&".contains(character) && after_spaces().is_some_and(char::is_alphabetic);
+        let is_around = "()[]\"'„“”".contains(character);
         let is_separator = is_between || is_around || is_special_space(character);
         is_begin = is_separator || character.is_whitespace();
-        meant.push(if is_separator { ' ' } else { character.to_ascii_uppercase() });
+        meant.push(if is_separator { ' ' } else { character });
         if is_lone_letter {
-            let is_number =
-                rest.clone().find(|next| !matches!(next, ' ' | '=')).is_some_and(|next| begins_value(&next));
-            while rest
-                .next_if(|next| {
-                    matches!(next, ' ' | ':') || is_special_space(*next) || *next == '=' && is_number
-                })
-                .is_some()
-            {}
+            let is_number = rest.clone().find(|next| !matches!(next, ' ' | '=')).is_some_and(begins_value);
+            while let Some(skipped) = rest.next_if(|next| {
+                matches!(next, ' ' | ':' | '-') || is_special_space(*next) || *next == '=' && is_number
+            }) {
+                if skipped == '-' {
+                    meant.push(skipped);
+                }
+            }
         }
     }
-    let words = meant.split(' ').filter(|word| !matches!(*word, "MM" | "-"));
-    let numbers = words.map(|word| {
-        let word = word.trim_end_matches(['!', ',', ';', ':']);
+    let words = meant.split(' ').map(|word| word.trim_end_matches(['!', ',', ';', ':', '.']));
+    let numbers = words.filter(|word| !matches!(*word, "MM" | "-")).map(|word| {
         word.strip_suffix("MM")
             .filter(|number| number.ends_with(|last: char| last.is_ascii_digit()))
             .unwrap_or(word)

@@ -72,6 +72,19 @@ fn a_parameter_text_over_an_element_on_another_layer_has_no_effect() {
         "B1 F100!",
         "%%uB1",
         "%%OB1%%O",
+        "B - 0.5",
+        "B- 0.5",
+        "B1.F100",
+        "B1+F100",
+        "B1 & F100",
+        "B 1F 100",
+        "b1f100",
+        "F100 mm/min",
+        "F100/min",
+        "B1 mm, F100 mm/min",
+        "B1.5.",
+        "B1 mm.",
+        "„B1“",
     ] {
         assert_eq!(strays(&text("Notes", mistyped, "20,0")), ["PB119"], "{mistyped}");
     }
@@ -106,6 +119,15 @@ fn a_parameter_text_over_an_element_on_another_layer_has_no_effect() {
         "B2x4F",
         "2B3",
         "R5F",
+        "D8",
+        "D8H7",
+        "B1-3",
+        "F - Seite",
+        "B. 3",
+        "i.O.",
+        "Freistich F 1x0.2",
+        "F100 m/min",
+        "Raum B1",
     ] {
         assert_eq!(strays(&text("Notes", string, "20,0")), [""; 0], "{string}");
     }
@@ -303,6 +325,9 @@ fn the_first_look_at_bytes_is_certain() {
         "B = 1",
         "B\u{2212}1",
         "B\\U+22121",
+        "B - 0.5",
+        "N1B2",
+        "1.5B2",
     ] {
         assert!(may_be_stray_text(text.as_bytes()), "{text}");
     }
