@@ -647,6 +647,28 @@ fn leftovers_of_a_former_definition_are_found_by_the_usual_extensions() {
     }
 }
 
+/// A definition may choose any extension. `verify` of a directory reads the programs of the configured one, or of that of the option.
+#[test]
+fn verify_finds_programs_with_the_extension_of_the_post() {
+    let post = "<PostProcessor><Dialect>linuxcnc</Dialect><FileExtension>mpf</FileExtension>\
+                <Header>{$cbfile.header}\n{$units} {$distancemode}\n{$toolchange(first)}\n{$clearance}</Header></PostProcessor>";
+    let place =
+        library("").file("my.cbpp", post).file("nc/1234.MPF", "G21 G90\nG0 Z5\nG1 Z-1 F100 Q3\nM30\n");
+    let find = |arguments: &str| place.run(&format!("verify {arguments} --format concise"));
+    for arguments in ["nc --post my.cbpp", "n* --post my.cbpp", "nc/* --post my.cbpp"] {
+        let run = find(arguments);
+        assert!(run.stderr.contains("nc/1234.MPF:3") && !run.stderr.contains("PB518"), "{run}");
+    }
+    for arguments in ["nc", "nc --post grbl"] {
+        let run = find(arguments);
+        assert!(run.stderr.contains("PB518") && !run.stderr.contains("1234.MPF"), "{run}");
+    }
+    let configuration = place.read("pathbuild.toml");
+    let place = place.file("pathbuild.toml", format!("post = \"my.cbpp\"\n{configuration}"));
+    let run = place.run("verify . --format concise");
+    assert!(run.stderr.contains("nc/1234.MPF:3"), "{run}");
+}
+
 /// Programs are identified by their extension: a user's copies are not programs.
 #[test]
 fn copies_that_are_no_programs_by_name_are_left_alone() {

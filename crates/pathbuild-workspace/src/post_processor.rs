@@ -179,6 +179,11 @@ impl PostProcessor {
         self.post.extension()
     }
 
+    /// Whether a file has the extension of output files.
+    pub fn has_extension(&self, file: &Utf8Path) -> bool {
+        file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(self.extension()))
+    }
+
     /// Places a finding about the table of tools in the configuration, so that it is reported once however many paths it concerns.
     pub fn locate(&self, problem: Diagnostic) -> Diagnostic {
         match &self.configuration {

@@ -33,8 +33,8 @@ messages! {
     NO_PROGRAM: NothingFound {
         en: "there is no G-code program in {directory}",
         de: "in {directory} gibt es kein G-Code-Programm",
-        help_en: "name a directory that holds .nc, .ngc, .gcode, .tap, .cnc or .din files, or the program itself; hidden files and those that .ignore excludes do not count",
-        help_de: "ein Verzeichnis mit .nc-, .ngc-, .gcode-, .tap-, .cnc- oder .din-Dateien nennen, oder das Programm selbst; versteckte und durch .ignore ausgeschlossene Dateien zählen nicht",
+        help_en: "name a directory that holds .nc, .ngc, .gcode, .tap, .cnc or .din files or those of your post, or the program itself; hidden files and those that .ignore excludes do not count",
+        help_de: "ein Verzeichnis mit .nc-, .ngc-, .gcode-, .tap-, .cnc- oder .din-Dateien oder solchen des eigenen Postprozessors nennen, oder das Programm selbst; versteckte und durch .ignore ausgeschlossene Dateien zählen nicht",
     }
     /// Drawings none of which contains a path.
     NO_PATH_ANYWHERE: NothingFound {

@@ -21,6 +21,7 @@ use pathbuild_path::PathName;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
+use super::library::IsWanted;
 use super::{Session, library, no_drawing_error};
 use crate::config::types::Pattern;
 use crate::inputs::{Input, Inputs};
@@ -143,9 +144,7 @@ impl Session<'_> {
         for input in inputs.iter() {
             match input {
                 Input::Place(place) => {
-                    let expand_pattern = self.expand_pattern(place, is_drawing);
-                    let places =
-                        if expand_pattern.is_empty() { vec![place.to_owned()] } else { expand_pattern };
+                    let places = self.expand_pattern(place, &is_drawing);
                     let argument = |place: &Utf8PathBuf| self.match_place(place, &mut found.listings);
                     found.arguments.extend(places.iter().map(argument));
                 }
@@ -162,19 +161,16 @@ impl Session<'_> {
     }
 
     /// Expands a pattern that the shell passed on unexpanded, as Windows shells do. The last component of the pattern is matched with the names of
-    /// directories and of files that `is_wanted` accepts. Returns an empty list if a file with exactly that name exists.
-    pub(super) fn expand_pattern(
-        &self,
-        place: &Utf8Path,
-        is_wanted: fn(&Utf8Path) -> bool,
-    ) -> Vec<Utf8PathBuf> {
-        let Some(pattern) = place.file_name().and_then(pattern_of) else { return Vec::new() };
-        if self.db.system().kind(&self.normal(place)) != FileKind::Missing {
-            return Vec::new();
-        }
+    /// directories and of files that `is_wanted` accepts. Returns `place` itself if a file with exactly that name exists, or if nothing matches.
+    pub(super) fn expand_pattern(&self, place: &Utf8Path, is_wanted: IsWanted<'_>) -> Vec<Utf8PathBuf> {
+        let pattern = place.file_name().and_then(pattern_of);
+        let is_missing = || self.db.system().kind(&self.normal(place)) == FileKind::Missing;
+        let Some(pattern) = pattern.filter(|_| is_missing()) else { return vec![place.to_owned()] };
         let directory = place.parent().unwrap_or(Utf8Path::new(""));
         let entries = self.entries(&self.normal(directory), is_wanted).into_iter();
-        entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name)).collect()
+        let matching = entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name));
+        let matching: Vec<Utf8PathBuf> = matching.collect();
+        if matching.is_empty() { vec![place.to_owned()] } else { matching }
     }
 
     /// Adds the paths of the library with names that match a pattern, and the errors of drawings without any known path, because these may contain
@@ -243,7 +239,7 @@ impl Session<'_> {
 
     fn search_directory(&self, directory: Utf8PathBuf, listings: &mut Listings) -> SearchedDirectory {
         self.start_workers();
-        let walked = self.walk(is_drawing).search(&directory);
+        let walked = self.walk(&is_drawing).search(&directory);
         self.found_directory(directory, walked, listings)
     }
 
@@ -266,7 +262,7 @@ impl Session<'_> {
     fn walk_library(&self, listings: &mut Listings) -> Vec<SearchedDirectory> {
         let library = self.context.settings.general.library.value.iter();
         let library: Vec<Utf8PathBuf> = library.map(|directory| self.normal(directory)).collect();
-        let walk = self.walk(is_drawing);
+        let walk = self.walk(&is_drawing);
         let walked: Vec<library::WalkResult> = if walk.is_parallel && library.len() > 1 {
             library.par_iter().map(|directory| walk.search(directory)).collect()
         } else {
@@ -337,7 +333,7 @@ impl Session<'_> {
         let (drawings, problems) = if self.has_library() {
             self.library()
         } else {
-            let walked = self.walk(is_drawing).search(Utf8Path::new(""));
+            let walked = self.walk(&is_drawing).search(Utf8Path::new(""));
             (walked.drawings, walked.problems)
         };
         (drawings.iter().map(|drawing| self.file(drawing)).collect(), problems)
@@ -345,7 +341,7 @@ impl Session<'_> {
 
     /// Returns the drawings in and below a directory.
     pub fn drawings_below(&self, directory: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
-        self.walk(is_drawing).search(directory).drawings.into_iter()
+        self.walk(&is_drawing).search(directory).drawings.into_iter()
     }
 
     /// Passes the names of freshly listed directories to the database, so that it need not list them again. Listings that are incomplete or contain
@@ -368,7 +364,7 @@ impl Session<'_> {
         self.db.system().kind(&self.normal(place)) == FileKind::Directory
     }
 
-    pub(super) fn walk(&self, is_wanted: fn(&Utf8Path) -> bool) -> library::Walk<'_> {
+    pub(super) fn walk<'w>(&'w self, is_wanted: IsWanted<'w>) -> library::Walk<'w> {
         let limits = &self.context.settings.limits;
         library::Walk {
             system: &*self.context.system,

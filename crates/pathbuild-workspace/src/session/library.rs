@@ -53,8 +53,11 @@ pub(super) struct WalkResult {
 /// Maximum number of directories that are listed one after the other, because starting threads would take longer.
 const MAX_SEQUENTIAL_DIRECTORIES: usize = 4;
 
+/// Decides by a file's name whether a search finds the file.
+pub(super) type IsWanted<'a> = &'a (dyn Fn(&Utf8Path) -> bool + Sync);
+
 /// Settings of a recursive search.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(super) struct Walk<'a> {
     pub(super) system: &'a dyn System,
     /// Upper bound on the number of files and directories that are found.
@@ -63,8 +66,7 @@ pub(super) struct Walk<'a> {
     pub(super) rules_limit: u64,
     /// Whether to use all cores.
     pub(super) is_parallel: bool,
-    /// A function that decides by a file's name whether the search collects the file.
-    pub(super) is_wanted: fn(&Utf8Path) -> bool,
+    pub(super) is_wanted: IsWanted<'a>,
     /// Whether .gitignore files apply, besides .ignore.
     pub(super) obeys_git: bool,
     /// The directory of the configuration: its ignore files, and those of the directories between it and the root of the search, apply too.
@@ -251,7 +253,7 @@ impl Directory {
         &mut self,
         directory: &Utf8Path,
         Entry { name, is_exact, kind }: Entry<'_>,
-        is_wanted: fn(&Utf8Path) -> bool,
+        is_wanted: IsWanted<'_>,
     ) {
         if kind != EntryKind::Directory && is_wanted(Utf8Path::new(name)) {
             let listing = if is_exact { &mut self.listing } else { &mut self.inexact };
@@ -315,16 +317,18 @@ fn too_many_entries(directory: &Utf8Path, limit: u64) -> Diagnostic {
 }
 
 impl Session<'_> {
-    /// Returns the programs that these arguments name, each once, and the diagnostics of directories. A directory stands for the programs in and
-    /// below it. A pattern that the shell passed on unexpanded stands for the files and directories that match its last component.
-    pub fn match_programs(&self, arguments: &[Utf8PathBuf]) -> ProgramMatches {
+    /// Returns the programs that these arguments name, each once, and the diagnostics of directories. A directory stands for the files in and below
+    /// it that `is_program` accepts. A pattern that the shell passed on unexpanded stands for the files and directories that match its last component.
+    pub(crate) fn match_programs(
+        &self,
+        arguments: &[Utf8PathBuf],
+        is_program: IsWanted<'_>,
+    ) -> ProgramMatches {
         let mut found = ProgramMatches::default();
         for argument in arguments {
-            let expanded = self.expand_pattern(argument, is_program);
-            let places = if expanded.is_empty() { vec![argument.clone()] } else { expanded };
-            for place in places {
+            for place in self.expand_pattern(argument, is_program) {
                 if self.is_directory(&place) {
-                    self.add_directory(&place, &mut found);
+                    self.add_directory(&place, is_program, &mut found);
                 } else {
                     found.programs.push(place);
                 }
@@ -335,7 +339,7 @@ impl Session<'_> {
         found
     }
 
-    fn add_directory(&self, directory: &Utf8Path, found: &mut ProgramMatches) {
+    fn add_directory(&self, directory: &Utf8Path, is_program: IsWanted<'_>, found: &mut ProgramMatches) {
         self.start_workers();
         let root = if directory == "." { Utf8Path::new("") } else { directory };
         // Programs are generated files, which .gitignore often excludes, so it is disregarded.
@@ -353,7 +357,7 @@ impl Session<'_> {
     pub(crate) fn drawings_and_programs_below(&self, directory: &Utf8Path) -> Vec<Utf8PathBuf> {
         self.start_workers();
         let is_wanted = |file: &Utf8Path| is_drawing(file) || is_program(file);
-        Walk { obeys_git: false, ..self.walk(is_wanted) }.search(directory).drawings
+        Walk { obeys_git: false, ..self.walk(&is_wanted) }.search(directory).drawings
     }
 
     /// Queries the database about a directory.

@@ -17,6 +17,7 @@ use pathbuild_path::{PathName, with_near_names};
 use rustc_hash::FxHashSet;
 
 use super::argument_matches::{Argument, ArgumentMatches, SearchedDirectory};
+use super::library::IsWanted;
 use super::{Session, compare_paths};
 use crate::config::SourcedValue;
 use crate::inputs::Inputs;
@@ -335,7 +336,7 @@ impl Session<'_> {
     pub fn with_hints(&self, diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         let known = LazyCell::new(|| KnownNames {
             paths: self.paths_of_library(MAX_READ_FOR_NAMES),
-            entries: self.entries(Utf8Path::new(""), is_drawing),
+            entries: self.entries(Utf8Path::new(""), &is_drawing),
         });
         let with_near = |mut diagnostic: Diagnostic| {
             let is_dangling = |file: &Utf8PathBuf| crate::files::is_named(file);
@@ -392,7 +393,7 @@ impl Session<'_> {
         let directory = file.ancestors().skip(1).find(is_there)?;
         let mut missing = file.strip_prefix(directory).ok()?.components();
         let name = missing.next()?;
-        let entries = self.entries(directory, is_drawing);
+        let entries = self.entries(directory, &is_drawing);
         let near = join(directory, nearest(name.as_str(), entries.iter().map(String::as_str))?);
         let whole = join(&near, missing.as_path());
         // The components after the misspelled one may exist in the directory with the similar name.
@@ -400,7 +401,7 @@ impl Session<'_> {
     }
 
     /// Returns the sorted names of the entries of a directory that are directories themselves or files that `is_wanted` accepts, without hidden ones.
-    pub(super) fn entries(&self, directory: &Utf8Path, is_wanted: fn(&Utf8Path) -> bool) -> Vec<String> {
+    pub(super) fn entries(&self, directory: &Utf8Path, is_wanted: IsWanted<'_>) -> Vec<String> {
         let mut names = Vec::new();
         let mut take = |entry: Entry<'_>| {
             let counts = entry.kind == EntryKind::Directory || is_wanted(Utf8Path::new(entry.name));

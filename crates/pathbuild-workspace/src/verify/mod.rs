@@ -30,6 +30,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::types::{Requirement, SpindleControl, Tool};
 use crate::config::{Settings, number, positive};
+use crate::files;
 use crate::post_processor::{PostArguments, PostProcessor, known_words, machine, tool_table};
 use crate::program::{DefinitionTranslation, Program, ReadingOptions};
 use crate::session::Session;
@@ -727,6 +728,12 @@ impl PossiblePosts {
         };
         let configured = if named.is_some() { None } else { configured() };
         Ok(Self { named, configured, dialect })
+    }
+
+    /// Whether a file has a usual extension of programs, or that of one of the posts.
+    fn is_program(&self, file: &Utf8Path) -> bool {
+        files::is_program(file)
+            || self.named.iter().chain(&self.configured).any(|post| post.has_extension(file))
     }
 
     /// Returns the file and the identity of each post, which determine the words in its programs.

@@ -44,7 +44,7 @@ impl Request<'_> {
             Failure::Found(found) => Failure::Found(session.with_hints(found)),
             failure => failure,
         })?;
-        let matches = session.match_programs(self.places);
+        let matches = session.match_programs(self.places, &|file| verifier.writers.is_program(file));
         let mut programs = verifier.verify_files(session, &matches.programs, &matches.directories);
         if let Some((name, text)) = self.text {
             programs.push((name.to_owned(), verifier.verify(name, text)));
