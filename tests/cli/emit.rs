@@ -618,12 +618,14 @@ fn what_may_be_written_again_is_not_stale() {
         .file("projects/8001 a b.dxf", fs::read(broken.path().join("8001 a b.dxf")).unwrap());
     let run = place.run("emit --remove-stale");
     assert_eq!(run.status, Some(1), "{run}");
-    assert!(!run.stderr.contains("stale"), "{run}");
+    assert!(!run.stderr.contains("stale, removed"), "{run}");
+    assert_eq!(run.stderr.matches("PB520").count(), 1, "{run}");
+    assert!(run.stderr.contains("8009.dxf, which is ignored"), "{run}");
 }
 
 /// A drawing that an ignore file excludes still exists, but not one in an ignored directory.
 #[test]
-fn programs_of_ignored_drawings_are_not_stale() {
+fn programs_of_ignored_drawings_are_reported_and_kept() {
     for (rule, is_kept) in [("8001*", true), ("old", false)] {
         let place = Place::of(LIBRARY);
         assert_eq!(place.run("emit --out-dir all").status, Some(0));
@@ -636,7 +638,67 @@ fn programs_of_ignored_drawings_are_not_stale() {
         let run = place.run("emit --out-dir all --remove-stale");
         assert_eq!(place.path().join("all/8001 a b_Milling.gcode").exists(), is_kept, "{run}");
         assert_eq!(run.stderr.contains("stale, removed"), !is_kept, "{run}");
+        assert_eq!(run.stderr.contains("8001 a b.dxf, which is ignored"), is_kept, "{run}");
     }
+    // It may have been emitted by its name, so it is no error in a comparison.
+    let place = Place::of(LIBRARY).file("projects/.ignore", "8001*");
+    assert_eq!(place.run("emit").status, Some(0));
+    assert_eq!(place.run("emit 8001.1P").status, Some(0));
+    for (arguments, count) in [("", 1), ("projects ", 1), ("components ", 0), ("8002.1P ", 0)] {
+        let run = place.run(&format!("emit {arguments}--check --format concise"));
+        assert_eq!(run.stderr.matches("8001 a b_Milling.gcode: warning[PB520]").count(), count, "{run}");
+    }
+    // Another library that shares the output directory may have a drawing of the same name.
+    let place = Place::of(LIBRARY).file("projects/.ignore", "8001*").file("lib/none", "");
+    place.run("emit 8001.1P --out-dir ../all");
+    let run = place.run("emit --out-dir ../all --check");
+    assert!(!run.stderr.contains("PB520"), "{run}");
+}
+
+/// Programs that were written beside their drawings remain there if `out-dir` is configured later.
+#[test]
+fn programs_beside_drawings_are_stale_if_an_output_directory_is_configured() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit").status, Some(0));
+    let other = place.read("projects/8001 a b_Milling.gcode").replace("8001 a b.dxf", "8009.dxf");
+    let configuration = place.read("pathbuild.toml");
+    let place = place.file("projects/8009_Milling.gcode", other);
+    // An output directory on the command line is for one run only.
+    let once = place.run("emit --out-dir gcode");
+    assert!(!once.stderr.contains("PB520"), "{once}");
+    let place = place.file("pathbuild.toml", format!("out-dir = \"gcode\"\n{configuration}"));
+    assert_snapshot!(runs(
+        &place,
+        ["emit --check -q", "emit 8001.1P --check --lang de", "emit 8002.1P --check --format concise"]
+    ));
+    let before: BTreeSet<String> = written(&place).into_iter().collect();
+    // A program without a successor stays.
+    fs::remove_file(place.path().join("gcode/8002_Clean.gcode")).unwrap();
+    let broken = place.file("projects/8002.dxf", "cut off");
+    let run = broken.run("emit --remove-stale");
+    assert!(run.stderr.contains("8001 a b_Milling.gcode: stale, removed"), "{run}");
+    let after: BTreeSet<String> = written(&broken).into_iter().collect();
+    let gone: Vec<&String> = before.difference(&after).collect();
+    assert_eq!(
+        gone,
+        ["gcode/8002_Clean.gcode", "projects/8001 a b_Milling.gcode", "projects/8002_Probing.gcode"]
+    );
+}
+
+/// The output directory and the directory of the drawings may be the same under two names.
+#[cfg(unix)]
+#[test]
+fn programs_in_an_output_directory_with_another_name_are_current() {
+    let place = Place::of(LIBRARY);
+    std::os::unix::fs::symlink("projects", place.path().join("gcode")).unwrap();
+    let configuration = place.read("pathbuild.toml");
+    let place = place.file("pathbuild.toml", format!("out-dir = \"gcode\"\n{configuration}"));
+    assert_eq!(place.run("emit").status, Some(0));
+    for arguments in ["", "8001.1P "] {
+        let run = place.run(&format!("emit {arguments}--remove-stale"));
+        assert!(!run.stderr.contains("PB520") && !run.stderr.contains("stale"), "{run}");
+    }
+    assert!(place.path().join("projects/8001 a b_Milling.gcode").exists());
 }
 
 /// A drawing of the library with the same name would write the same file in another run.

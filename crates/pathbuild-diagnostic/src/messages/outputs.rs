@@ -150,6 +150,20 @@ messages! {
         help_en: "check that it is no longer needed, and delete it yourself: emit --remove-stale keeps files that may be copies",
         help_de: "prüfen, ob es noch gebraucht wird, und es selbst löschen: emit --remove-stale lässt Dateien stehen, die Kopien sein können",
     }
+    /// A program whose drawing an ignore file or its hidden name excludes.
+    STALE_OF_IGNORED: StaleOutput {
+        en: "{name} was written from {drawing}, which is ignored (.ignore, .gitignore, hidden name), so `emit` does not keep it up to date",
+        de: "{name} wurde aus {drawing} geschrieben; diese Zeichnung wird ignoriert (.ignore, .gitignore, versteckter Name), `emit` hält das Programm also nicht aktuell",
+        help_en: "delete it if it is no longer needed; to keep it up to date, emit the drawing by its name",
+        help_de: "es löschen, wenn es nicht mehr gebraucht wird; um es aktuell zu halten, die Zeichnung namentlich mit emit schreiben",
+    }
+    /// A program that lies beside its drawing although programs are written into another directory now.
+    STALE_BESIDE: StaleOutput {
+        en: "{name} lies beside its drawing, but programs are written into {directory} now",
+        de: "{name} liegt neben seiner Zeichnung, Programme werden aber jetzt in {directory} geschrieben",
+        help_en: "do not mill with it, as it no longer follows its drawing; emit --remove-stale removes it if {directory} has its successor",
+        help_de: "nicht damit fräsen, denn es folgt seiner Zeichnung nicht mehr; emit --remove-stale entfernt es, wenn {directory} seinen Nachfolger enthält",
+    }
     /// An output file from an earlier run that no path of this library would write. Another library may have written it.
     STALE_OR_OF_OTHERS: StaleOutput {
         en: "{name} was written earlier from a drawing that this library does not have",

@@ -88,7 +88,7 @@ pub fn is_title_of_path(found: &str, path: &str) -> bool {
 
 /// Whether a title found in a program names the given drawing.
 pub fn is_title_of(found: &str, drawing: &str) -> bool {
-    drawing_of_title(found).is_some_and(|titled| plain_title(titled) == plain_title(drawing))
+    drawing_of_title(&plain_title(found)).is_some_and(|titled| titled == plain_title(drawing))
 }
 
 /// Returns the title of a program that joins paths. It contains neither a comma nor a drawing's name, so that the program is not mistaken for a stale

@@ -3,13 +3,13 @@
 //!
 //! Each program names its drawing and path, and has a hash of its moves. Programs of removed paths are searched for only where the run knows every
 //! drawing that could have produced them: beside the drawings of named directories, or in the output directory. Former files of the run's own paths
-//! are always searched for.
+//! are always searched for, and so are programs that remain beside their drawings although `out-dir` is configured now.
 
 use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{FileKind, Names, join};
+use pathbuild_db::system::{FileKind, Names, is_drawing, join, or_current_directory};
 use pathbuild_db::{Db, Role, SourceFile, Target, program};
 use pathbuild_diagnostic::messages::{files, outputs as messages};
 use pathbuild_diagnostic::reasons::PROGRAM_OF_OTHER_PATH;
@@ -44,6 +44,10 @@ enum Reason {
     Copied,
     /// The program's drawing cannot be read, so it is unknown whether its path still yields the program.
     Unread { drawing: String },
+    /// The program lies beside its drawing, but programs are written into `directory` now.
+    Beside { directory: Utf8PathBuf },
+    /// The program's drawing exists, but an ignore file or its hidden name excludes it from the search.
+    Ignored { drawing: String },
     /// The program's drawing is not in this library, but may be in another library that shares the output directory.
     OfOthers,
     /// The program was adjusted from the program `clean`, which has changed since.
@@ -70,6 +74,13 @@ impl StaleProgram {
             Reason::Copied => Diagnostic::new(&messages::STALE_COPY),
             Reason::Unread { drawing } => {
                 Diagnostic::new(&messages::OUTPUT_OF_UNREAD).quoting("drawing", drawing.as_str())
+            }
+            Reason::Beside { directory } => {
+                let directory = or_current_directory(directory).as_str();
+                Diagnostic::new(&messages::STALE_BESIDE).quoting("directory", directory)
+            }
+            Reason::Ignored { drawing } => {
+                Diagnostic::new(&messages::STALE_OF_IGNORED).quoting("drawing", drawing.as_str())
             }
             Reason::OfOthers => Diagnostic::new(&messages::STALE_OR_OF_OTHERS),
             Reason::Adjusted { clean } => {
@@ -156,17 +167,7 @@ impl<'a> EarlierPrograms<'a> {
     ) -> StaleOutcome {
         let mut dealt = StaleOutcome::default();
         for stale in stale {
-            // Keep a program that may belong to another library, one that was copied or edited, because that work would be lost, and one whose
-            // drawing may become readable again.
-            let is_kept = matches!(
-                stale.reason,
-                Reason::Copied
-                    | Reason::OfOthers
-                    | Reason::Edited { .. }
-                    | Reason::Unread { .. }
-                    | Reason::Unwritten { .. }
-            );
-            if !is_removed || is_kept {
+            if !is_removed || self.is_kept(&stale) {
                 let finding = self.judge(&stale);
                 if self.session.workspace().has_error([&finding]) {
                     dealt.outdated.push(stale.path);
@@ -186,10 +187,38 @@ impl<'a> EarlierPrograms<'a> {
         dealt
     }
 
-    /// Returns the finding about a stale program. In a comparison it is an error, unless the program may belong to another library.
+    /// Whether a program is never removed: one that may belong to another library, one of a drawing that can still be emitted by its name, one that
+    /// was copied or edited, because that work would be lost, one whose drawing may become readable again, and one without a successor in the output
+    /// directory.
+    fn is_kept(&self, stale: &StaleProgram) -> bool {
+        match &stale.reason {
+            Reason::Copied
+            | Reason::Ignored { .. }
+            | Reason::OfOthers
+            | Reason::Edited { .. }
+            | Reason::Unread { .. }
+            | Reason::Unwritten { .. } => true,
+            Reason::Beside { directory } => {
+                let successor = join(directory, file_name(&stale.path));
+                self.session.db().system().kind(&successor) != FileKind::File
+            }
+            Reason::Left
+            | Reason::Adjusted { .. }
+            | Reason::OtherValues { .. }
+            | Reason::OtherHeights { .. }
+            | Reason::OtherJoined { .. }
+            | Reason::OtherMoves { .. } => false,
+        }
+    }
+
+    /// Returns the finding about a stale program. In a comparison it is an error, unless the program may belong to another library, or may have been
+    /// emitted from an ignored drawing by its name.
     fn judge(&self, stale: &StaleProgram) -> Diagnostic {
         let finding = stale.diagnostic();
-        if matches!(stale.reason, Reason::OfOthers) { finding } else { self.task.error_if_compared(finding) }
+        match stale.reason {
+            Reason::OfOthers | Reason::Ignored { .. } => finding,
+            _ => self.task.error_if_compared(finding),
+        }
     }
 
     /// Finds the stale programs: among all files of the searched directories, and among former files of the jobs in other directories.
@@ -202,19 +231,30 @@ impl<'a> EarlierPrograms<'a> {
         let finding = StaleSearch::new(self);
         let mut stale = Vec::new();
         for directory in directories {
-            match self.session.file_names_in(directory) {
-                Ok(names) => stale.extend(
-                    finding
-                        .candidates(directory, &names)
-                        .filter_map(|path| finding.program_if_stale(path, Some(&names))),
-                ),
-                Err(problem) => diagnostics.push(*problem),
-            }
+            let names = self.file_names_in(directory, diagnostics);
+            let candidates = finding.candidates(directory, &names);
+            stale.extend(candidates.filter_map(|path| finding.program_if_stale(path, Some(&names))));
         }
-        stale.extend(
-            finding.former_files(directories).filter_map(|path| finding.program_if_stale(path, None)),
-        );
+        let former = finding.former_files(directories);
+        stale.extend(former.filter_map(|path| finding.program_if_stale(path, None)));
+        // An output directory on the command line is for this run only.
+        let is_configured = self.session.workspace().settings.general.out_dir.origin.line().is_some();
+        if let Some(out_dir) = out_dir.filter(|_| is_configured) {
+            let beside = finding.programs_beside_drawings(&out_dir, diagnostics).into_iter();
+            stale.extend(
+                beside
+                    .map(|path| StaleProgram { path, reason: Reason::Beside { directory: out_dir.clone() } }),
+            );
+        }
         stale
+    }
+
+    /// Returns the names of the files in a directory; none if it cannot be listed, which is reported.
+    fn file_names_in(&self, directory: &Utf8Path, diagnostics: &mut Vec<Diagnostic>) -> Names {
+        self.session.file_names_in(directory).unwrap_or_else(|problem| {
+            diagnostics.push(*problem);
+            Names::default()
+        })
     }
 
     /// Finds the programs on disk of targets for which nothing was written or compared. Each becomes a separate outcome; a comparison reports it as
@@ -240,9 +280,8 @@ impl<'a> EarlierPrograms<'a> {
             programs.map(|program| earlier_outcome(program, name, self.task)).collect::<Vec<_>>()
         };
         let mut older: Vec<ProgramOutcome> = open.flat_map(older).collect();
-        for (path, program) in
-            self.arguments.iter().flat_map(|named| self.programs_of_lost(named, &mut listings))
-        {
+        let lost = self.arguments.iter().filter_map(|argument| self.lost_name(argument));
+        for (path, program) in lost.flat_map(|lost| self.programs_of_lost(&lost, &mut listings)) {
             if known.insert(program.clone()) {
                 older.push(earlier_outcome(program, &path, self.task));
             }
@@ -270,56 +309,52 @@ impl<'a> EarlierPrograms<'a> {
         programs.into_iter().filter(is_of_target).collect()
     }
 
-    /// Returns the programs on disk of a drawing or path that an argument names, each with its path, if the drawing has no known path because it
-    /// cannot be read, or if it is gone.
-    fn programs_of_lost(
-        &self,
-        argument: &Argument,
-        listings: &mut ProgramListings,
-    ) -> Vec<(String, Utf8PathBuf)> {
+    /// Returns the drawing or path that an argument names, if the drawing has no known path because it cannot be read, or if it is gone.
+    fn lost_name(&self, argument: &'a Argument) -> Option<LostName<'a>> {
         let db = self.session.db();
         let out_dir = self.session.out_dir();
         let is_known = |file: &SourceFile| {
             find(self.named, file.path(db)).is_some_and(|drawing| !drawing.value.names.is_empty())
         };
-        let (directories, stem, drawing, path) = match argument {
+        let directory = |file: &SourceFile| output_directory(out_dir.as_deref(), file.path(db));
+        match argument {
             Argument::Drawing(file) | Argument::Name { drawing: Some(file), .. } if !is_known(file) => {
-                let drawing = file.path(db);
-                let directory = output_directory(out_dir.as_deref(), drawing);
-                (vec![directory], "", Some(file_name(drawing)), None)
+                let drawing = Lost::Drawing(file_name(file.path(db)));
+                Some(LostName { name: drawing, directories: vec![directory(file)], has_drawing: true })
             }
-            Argument::Name { name, candidates, drawing: None, directory: None } => {
-                if candidates.iter().any(is_known) {
-                    return Vec::new();
-                }
-                let beside = |file: &SourceFile| output_directory(None, file.path(db));
-                let mut directories = match out_dir {
-                    Some(directory) => vec![directory],
-                    None if candidates.is_empty() => self.session.name_directories(),
-                    None => candidates.iter().map(beside).collect(),
+            Argument::Name { name, candidates, drawing: None, directory: None }
+                if !candidates.iter().any(is_known) =>
+            {
+                let has_drawing = !candidates.is_empty();
+                let mut directories = match &out_dir {
+                    None if !has_drawing => self.session.name_directories(),
+                    Some(directory) => vec![directory.clone()],
+                    None => candidates.iter().map(directory).collect(),
                 };
                 directories.dedup();
-                // Names of programs begin with that of the path or of its drawing.
-                let number = name.as_str().split('.').next().unwrap_or_default();
-                (directories, number, None, Some(name.as_str()))
+                Some(LostName { name: Lost::Path(name.as_str()), directories, has_drawing })
             }
-            _ => return Vec::new(),
-        };
-        let is_meant = |title: &str| {
-            drawing.is_none_or(|drawing| native::is_title_of(title, drawing))
-                && path.is_none_or(|path| native::is_title_of_path(title, path))
-        };
+            _ => None,
+        }
+    }
+
+    /// Returns the programs on disk of a lost drawing or path, each with its path.
+    fn programs_of_lost(
+        &self,
+        lost: &LostName<'_>,
+        listings: &mut ProgramListings,
+    ) -> Vec<(String, Utf8PathBuf)> {
         // A drawing that exists although no argument led to it may still yield its program.
         let is_gone = |program: &Utf8Path, title: &str| {
             let drawing = native::drawing_of_title(title).unwrap_or_default();
             let beside = program.with_file_name(drawing);
-            drawing_or_candidate(argument) || db.system().kind(&beside) == FileKind::Missing
+            lost.has_drawing || self.session.db().system().kind(&beside) == FileKind::Missing
         };
         let mut programs = Vec::new();
-        for directory in &directories {
-            for program in listings.programs_beginning_with(self, directory, stem) {
+        for directory in &lost.directories {
+            for program in listings.programs_beginning_with(self, directory, lost.name.stem()) {
                 let Some((_, title)) = provenance(self.session, program) else { continue };
-                if is_meant(&title) && is_gone(program, &title) {
+                if lost.name.is_in(&title) && is_gone(program, &title) {
                     let path = native::path_of_title(&title).unwrap_or_default();
                     programs.push((path.to_owned(), program.clone()));
                 }
@@ -338,12 +373,35 @@ impl<'a> EarlierPrograms<'a> {
     }
 }
 
-/// Whether an argument names a drawing, or a path that a drawing may define judging by its file name.
-fn drawing_or_candidate(argument: &Argument) -> bool {
-    match argument {
-        Argument::Drawing(_) | Argument::Name { drawing: Some(_), .. } => true,
-        Argument::Name { candidates, .. } => !candidates.is_empty(),
-        Argument::Directory(_) => false,
+/// A drawing or path that an argument names, and that cannot be read or is gone.
+struct LostName<'a> {
+    name: Lost<'a>,
+    /// The directories in which its programs may be.
+    directories: Vec<Utf8PathBuf>,
+    /// Whether the argument names a drawing, or a path that a drawing may define judging by its file name.
+    has_drawing: bool,
+}
+
+#[derive(Clone, Copy)]
+enum Lost<'a> {
+    Drawing(&'a str),
+    Path(&'a str),
+}
+
+impl<'a> Lost<'a> {
+    /// Returns the text with which the names of its programs begin: the name of a path, or the number that is common to it and its drawing.
+    fn stem(self) -> &'a str {
+        match self {
+            Self::Drawing(_) => "",
+            Self::Path(name) => name.split('.').next().unwrap_or_default(),
+        }
+    }
+
+    fn is_in(self, title: &str) -> bool {
+        match self {
+            Self::Drawing(drawing) => native::is_title_of(title, drawing),
+            Self::Path(path) => native::is_title_of_path(title, path),
+        }
     }
 }
 
@@ -426,14 +484,47 @@ impl<'a> StaleSearch<'a> {
         let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
         let stems = self.run.jobs.iter().map(|job| &job.stem);
         let stems = stems.filter(move |stem| stem.parent().is_none_or(|parent| !searched.contains(parent)));
-        let paths = stems.flat_map(|stem| {
-            let native = OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())));
-            let posted = PROGRAM_EXTENSIONS[1..]
-                .iter()
-                .map(move |extension| format!("{stem}_Milling.{extension}").into());
-            native.into_iter().chain(posted)
-        });
+        let paths = stems.flat_map(|stem| possible_files(stem));
         paths.filter(|path| !self.outputs.contains(&**path))
+    }
+
+    /// Returns the programs and setup sheets that lie beside their drawings although programs are written into `out_dir`: all in the searched
+    /// directories, and those of the jobs in other directories.
+    fn programs_beside_drawings(
+        &self,
+        out_dir: &Utf8Path,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Vec<Utf8PathBuf> {
+        let EarlierPrograms { session, directories, jobs, .. } = *self.run;
+        let title = |path: &Utf8PathBuf| provenance(session, path).map(|(_, title)| title);
+        let mut programs = Vec::new();
+        for directory in directories.iter().filter(|directory| *directory != out_dir) {
+            let names = self.run.file_names_in(directory, diagnostics);
+            let drawings = names.iter().filter(|name| is_drawing(Utf8Path::new(name)));
+            let drawings: HashSet<String> = drawings.map(plain_title).collect();
+            let is_beside = |title: Box<str>| {
+                native::drawing_of_title(&plain_title(&title))
+                    .is_some_and(|drawing| drawings.contains(drawing))
+            };
+            programs
+                .extend(self.candidates(directory, &names).filter(|path| title(path).is_some_and(is_beside)));
+        }
+        let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
+        for job in jobs {
+            let drawing = job.drawing(session.db()).path(session.db());
+            let directory = drawing.parent().unwrap_or(Utf8Path::new(""));
+            if directory != out_dir && !searched.contains(directory) {
+                let files = possible_files(&join(directory, file_name(&job.stem)));
+                programs.extend(
+                    files.filter(|path| title(path).is_some_and(|title| is_of(job, session, &title))),
+                );
+            }
+        }
+        // The output directory may have several names, and a link beside the drawing may lead to the program in it.
+        let canonical = |path: &Utf8Path| session.db().system().canonical(path);
+        let is_current = |path: &Utf8PathBuf| canonical(path).parent() == Some(&canonical(out_dir));
+        programs.retain(|path| !is_current(path));
+        programs
     }
 
     /// Returns the program at `path` if it is stale. `beside` lists the files in its directory; `None` if programs of removed paths are not searched
@@ -596,6 +687,14 @@ impl FormerFile<'_> {
     }
 }
 
+/// Returns the files that a path with this stem may have, with every post that has a usual extension.
+fn possible_files(stem: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
+    let stem = stem.to_owned();
+    let native = OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())));
+    let posted = PROGRAM_EXTENSIONS[1..].iter();
+    native.into_iter().chain(posted.map(move |extension| format!("{stem}_Milling.{extension}").into()))
+}
+
 /// Whether a program's title names the path of this job.
 fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
     let db = session.db();
@@ -643,10 +742,7 @@ pub fn program_of_other_path(
 /// Whether this is the file name of a program. The extension that a post definition chooses is recognised only while that definition is in use.
 fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bool {
     let name = Utf8Path::new(name);
-    let is_own = |post: &PostProcessor| {
-        name.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(post.extension()))
-    };
-    is_program(name) || post_processor.is_some_and(is_own)
+    is_program(name) || post_processor.is_some_and(|post| post.has_extension(name))
 }
 
 fn is_sheet(name: &str) -> bool {
@@ -664,9 +760,12 @@ struct KnownTitles {
     unread: BTreeMap<Title, String>,
     /// Existing drawings whose paths the run does not know.
     others: BTreeSet<Title>,
-    /// Names of the drawings in the search directories, which `emit` finds although they may not be in the library, and of all in the directories of the
-    /// library, even if they are ignored.
+    /// Names of the drawings in the search directories, which `emit` finds although they may not be in the library.
     searched: BTreeSet<String>,
+    /// Names of all drawings in the directories of the library, even if they are ignored, by the names normalised for comparison.
+    in_library: BTreeMap<String, Box<str>>,
+    /// Whether all programs are written into an output directory.
+    has_out_dir: bool,
     /// The paths of covered drawings, by their names, normalised for comparison.
     paths: Vec<(String, Utf8PathBuf, PathName)>,
     /// Whether a covered drawing has errors, which may hide paths.
@@ -726,6 +825,8 @@ impl KnownTitles {
             unread: unread.collect(),
             others: others.map(written).collect(),
             searched: searched_drawings(session),
+            has_out_dir: out_dir.is_some(),
+            in_library: session.names_in_library().map(|name| (plain_title(&name), name)).collect(),
             has_broken: !broken.is_empty(),
             paths,
             knows_all: if has_library {
@@ -746,21 +847,25 @@ impl KnownTitles {
         mut beside: impl Iterator<Item = &'n str>,
     ) -> Option<Reason> {
         let title = plain_title(title);
-        let drawing = native::drawing_of_title(&title)?;
         let named = |text: &str| (directory.to_owned(), text.to_owned());
-        let drawing = named(drawing);
+        let drawing = named(native::drawing_of_title(&title)?);
         if let Some(drawing) = self.unread.get(&drawing) {
             return Some(Reason::Unread { drawing: drawing.clone() });
         }
-        let is_beside = beside.any(|name| plain_title(name) == drawing.1);
+        let beside = beside.find(|name| plain_title(name) == drawing.1);
         if self.idle.contains(&named(&title)) || self.others.contains(&drawing) {
             return None;
         }
         if self.covered.contains(&drawing) {
             return Some(Reason::Left);
         }
-        // Leave the program alone if its drawing exists although the run does not know it, for example because it is ignored.
-        let is_there = is_beside || self.searched.contains(&drawing.1);
+        // A drawing that exists although the run does not know it is ignored, unless the search finds it or another library may have it.
+        let in_library = self.in_library.get(&drawing.1).map(|name| &**name);
+        let ignored = if self.has_out_dir { in_library.filter(|_| !self.is_shared) } else { beside };
+        if let Some(drawing) = ignored {
+            return Some(Reason::Ignored { drawing: drawing.to_owned() });
+        }
+        let is_there = beside.is_some() || in_library.is_some() || self.searched.contains(&drawing.1);
         if is_there { None } else { self.reason_if_gone() }
     }
 
@@ -791,12 +896,11 @@ impl KnownTitles {
     }
 }
 
-/// Returns the names of the files in the search directories and of the drawings in those of the library, normalised for comparison.
+/// Returns the names of the files in the search directories, normalised for comparison.
 fn searched_drawings(session: &Session<'_>) -> BTreeSet<String> {
     let directories = session.workspace().settings.general.search.value.iter();
     let listed = directories.filter_map(|directory| session.file_names_in(&session.normal(directory)).ok());
-    let searched = listed.flat_map(|names| names.iter().map(plain_title).collect::<Vec<_>>());
-    searched.chain(session.names_in_library().map(|name| plain_title(&name))).collect()
+    listed.flat_map(|names| names.iter().map(plain_title).collect::<Vec<_>>()).collect()
 }
 
 /// Whether a directory lies outside the directory of the configuration.
@@ -823,10 +927,7 @@ impl ProgramListings {
         stem: &str,
     ) -> impl Iterator<Item = &Utf8PathBuf> {
         let programs = self.programs.entry(directory.clone()).or_insert_with(|| {
-            let names = run.session.file_names_in(directory).unwrap_or_else(|problem| {
-                self.problems.push(*problem);
-                Names::default()
-            });
+            let names = run.file_names_in(directory, &mut self.problems);
             let programs = names.iter().filter(|name| is_gcode(name, run.post_processor));
             let mut programs: Vec<_> =
                 programs.map(|name| (name.to_lowercase(), join(directory, name))).collect();
