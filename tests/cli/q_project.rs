@@ -85,6 +85,37 @@ fn it_has_a_path_for_each_cutter() {
     assert!(run.stderr.contains("PB004") && run.stderr.contains("1234.3Q"), "{run}");
 }
 
+/// Two tools have the same O: the name of the Q-project's path selects the one that mills the embedded paths.
+#[test]
+fn it_has_a_path_for_each_tool_of_the_same_diameter() {
+    let written = |patterns: &str| {
+        let path = |name: &str, y: i32| {
+            format!("layer {name}\nstart 0,{y} \"T5 O2 I1 B0 MPlate\"\nmill 0,{y} 40,{y}\nend 40,{y}\n")
+        };
+        let tools = format!(
+            "[tool.mill]\ndiameter = 2\n[tool.slot]\ndiameter = 2\nshape = \"slot\"\npaths = '{patterns}'\n"
+        );
+        let drawing = [path("1234.1S", 0), path("1234.2P", 20), path("1234.3S", 40)].concat();
+        let place =
+            Place::of(&format!("== pathbuild.toml ==\nlibrary = [\".\"]\n{tools}== 1234.dxf ==\n{drawing}"));
+        let run = place.run_with(&["q-project", "1234.dxf"]);
+        let check = place.run("check");
+        assert!(check.stderr.contains("no errors, no warnings"), "{check}");
+        (run, place.run_with(&["list", "1234_Q.dxf"]).stdout)
+    };
+    let (run, _) = written("S$");
+    assert_eq!(run.status, Some(1), "{run}");
+    assert!(run.stderr.contains("PB506") && run.stderr.contains("let its `paths` match 1234.0Q"), "{run}");
+    // The two paths of the slot cutter are 40 mm long, with a sweep of 20 mm between them.
+    for (patterns, slot, other) in [("S$|0Q$", "1234.0Q", "1234.1Q"), ("S$|[.]5Q$", "1234.5Q", "1234.0Q")] {
+        let (run, list) = written(patterns);
+        assert_eq!(run.status, Some(0), "{run}");
+        for (path, length) in [(slot, " 100 x 0"), (other, " 40 x 0")] {
+            assert!(list.lines().any(|line| line.starts_with(path) && line.contains(length)), "{list}");
+        }
+    }
+}
+
 /// A material has a single thickness: paths of a thinner sheet of the same M are in a path of their own.
 #[test]
 fn it_has_a_path_for_each_thickness_of_a_material() {

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value};
+use smol_str::SmolStr;
 
 use crate::approx::{coincide, near};
 use crate::bind::bind;
 use crate::embedding::{CHORD_TOLERANCE, with_note_on_combined_letters};
-use crate::language::Language;
+use crate::language::{Language, PathTools};
 use crate::letter::{ElementClass, Letter};
 use crate::names::PathName;
 use crate::numbers::parse_number;
@@ -55,6 +56,11 @@ impl<'a> Component<'a> {
         self.by_name.get(name).map_or(&[], Vec::as_slice)
     }
 
+    /// Returns the name of the tool that mills a path, if the configuration has one for it.
+    fn tool(&self, path: &Path) -> Option<SmolStr> {
+        self.language.tools.of(path.name.as_str(), path.tool).map(|tool| tool.name)
+    }
+
     /// Returns a path bound to the values that a proxy line sets, and to example values for its other variables; `None` if the path has errors.
     fn path(&self, raw: &RawPath, proxy: Option<&ProxyLine>) -> Option<Path> {
         raw.is_sound().then(|| bind(raw, &values(raw, proxy), self.language).0)?
@@ -80,6 +86,17 @@ pub struct QProject {
     pub parameters: String,
     /// The segments of the path, in the order of the drawing's paths.
     pub lines: Vec<QProjectLine>,
+    /// O in mm of the embedded paths.
+    diameter: f64,
+    /// Name of the tool that mills the embedded paths, if the configuration has one for them.
+    tool: Option<SmolStr>,
+}
+
+impl QProject {
+    /// Whether a path of this name is milled with the tool of the embedded paths.
+    pub fn has_tool_of(&self, name: &PathName, tools: &PathTools) -> bool {
+        tools.of(name.as_str(), self.diameter).map(|tool| tool.name) == self.tool
+    }
 }
 
 /// A planned subpath segment.
@@ -91,14 +108,16 @@ pub struct QProjectLine {
     pub text: String,
 }
 
-/// Plans the Q-project of a component: one path for each O, and for each T of one material, in order of first appearance. Each embedded path uses
-/// the values of its first proxy line, or else its own values and example values. Paths with errors are left out.
+/// Plans the Q-project of a component: one path for each O, for each tool of one O, and for each T of one material, in order of first appearance.
+/// Each embedded path uses the values of its first proxy line, or else its own values and example values. Paths with errors are left out.
 pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
     let mut by_cutter: Vec<Vec<(Path, QProjectLine)>> = Vec::new();
     for planned in component.paths.iter().filter_map(|raw| planned_line(component, raw)) {
         let fits = |other: &Path| {
             let is_same_sheet = other.material == planned.0.material;
-            near(other.tool, planned.0.tool) && (!is_same_sheet || near(other.thickness, planned.0.thickness))
+            near(other.tool, planned.0.tool)
+                && component.tool(other) == component.tool(&planned.0)
+                && (!is_same_sheet || near(other.thickness, planned.0.thickness))
         };
         let is_same = |group: &&mut Vec<(Path, QProjectLine)>| group.iter().all(|(other, _)| fits(other));
         match by_cutter.iter_mut().find(is_same) {
@@ -106,17 +125,18 @@ pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
             None => by_cutter.push(vec![planned]),
         }
     }
-    by_cutter.into_iter().map(of_cutter).collect()
+    by_cutter.into_iter().map(|group| of_cutter(component, group)).collect()
 }
 
-/// Returns the path that embeds these paths, all of which have the same O.
-fn of_cutter(planned: Vec<(Path, QProjectLine)>) -> QProject {
+/// Returns the path that embeds these paths, all of which have the same O and the same tool.
+fn of_cutter(component: &Component<'_>, planned: Vec<(Path, QProjectLine)>) -> QProject {
     let paths = planned.iter().map(|(path, _)| path);
     let thickest =
         paths.fold(&planned[0].0, |most, path| if path.thickness > most.thickness { path } else { most });
     let material = thickest.material.as_ref().map(|material| format!(" M{material}")).unwrap_or_default();
     let parameters = format!("T{} O{}{material}", thickest.thickness, thickest.tool);
-    QProject { parameters, lines: planned.into_iter().map(|(_, line)| line).collect() }
+    let (diameter, tool) = (thickest.tool, component.tool(thickest));
+    QProject { parameters, lines: planned.into_iter().map(|(_, line)| line).collect(), diameter, tool }
 }
 
 fn planned_line(component: &Component<'_>, raw: &RawPath) -> Option<(Path, QProjectLine)> {

@@ -379,8 +379,8 @@ messages! {
     TOOL_OF_PROJECT: SubpathParameterDiffers {
         en: "path {name} is for the tool {there} ([tool] in pathbuild.toml), but path {outer} is milled with the tool {here}, of the same diameter",
         de: "Pfad {name} ist für das Werkzeug {there} ([tool] in pathbuild.toml), Pfad {outer} wird aber mit dem Werkzeug {here} desselben Durchmessers gefräst",
-        help_en: "embed the path in another project, whose name `paths` of {there} also matches, and write both projects into one program with --join: a project is milled with one cutter",
-        help_de: "den Pfad in einem anderen Projekt einbetten, auf dessen Namen `paths` von {there} auch passt, und beide Projekte mit --join in ein Programm schreiben: ein Projekt wird mit einem einzigen Fräser gefräst",
+        help_en: "if {there} mills everything in {outer}, let its `paths` match {outer} as well; otherwise embed the path in another project, whose name it matches, and write both projects into one program with --join: a project is milled with one cutter",
+        help_de: "fräst {there} alles in {outer}, soll sein `paths` auch auf {outer} passen; sonst den Pfad in einem anderen Projekt einbetten, auf dessen Namen es passt, und beide Projekte mit --join in ein Programm schreiben: ein Projekt wird mit einem einzigen Fräser gefräst",
     }
     /// An embedding path with a name that selects another tool of the same diameter than the name of the embedded path does.
     TOOL_OF_COMPONENT: SubpathParameterDiffers {

@@ -1,5 +1,7 @@
 //! `pathbuild q-project`: writes a drawing that embeds all paths of another drawing. (book: language/q-projects)
 
+use std::collections::VecDeque;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, with_forward_slashes};
 use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
@@ -7,7 +9,7 @@ use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::reasons::DRAWN_BY_USER;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Value};
 use pathbuild_draw::EmbeddingPath;
-use pathbuild_path::{PathName, QProject, q_project_name};
+use pathbuild_path::{PathName, PathTools, QProject, q_project_name};
 
 use super::output_state;
 use crate::args::QProjectArgs;
@@ -110,11 +112,11 @@ fn draw_q_project(
         return Err(problems);
     }
     let planned = q_project(session.db(), drawing);
+    let language = Settings::get(session.db()).language(session.db());
     let is_free = |name: &PathName| {
-        let pattern = &Settings::get(session.db()).language(session.db()).path_pattern;
-        pattern.matches(name.as_str()) && !path_names(session.db(), drawing).contains(name)
+        language.path_pattern.matches(name.as_str()) && !path_names(session.db(), drawing).contains(name)
     };
-    let Some(names) = names(name, planned.len(), is_free) else {
+    let Some(names) = names(name, planned, &language.tools, is_free) else {
         let problem = Diagnostic::new(&outputs::NO_NAME_FOR_CUTTER).quoting("name", name.as_str());
         return Err(vec![problem.in_file(drawing.path(session.db()))]);
     };
@@ -138,9 +140,14 @@ fn draw_q_project(
     if problems.iter().any(is_wrong) { Err(problems) } else { Ok((bytes, count)) }
 }
 
-/// Returns names for the paths of a Q-project, one per cutter: the given one, followed by free names with higher last numbers. `None` if
-/// not enough names are free.
-fn names(first: &PathName, count: usize, is_free: impl Fn(&PathName) -> bool) -> Option<Vec<PathName>> {
+/// Returns names for the paths of a Q-project, one per cutter, chosen among the given one and free names with higher last numbers: the first
+/// one that selects the right tool (`paths` of a `[tool]`), or else the first one. `None` if not enough names are free.
+fn names(
+    first: &PathName,
+    planned: &[QProject],
+    tools: &PathTools,
+    is_free: impl Fn(&PathName) -> bool,
+) -> Option<Vec<PathName>> {
     let is_digit = |character: char| character.is_ascii_digit();
     let text = first.as_str();
     let end = text.rfind(is_digit).map_or(0, |last| last + 1);
@@ -148,8 +155,12 @@ fn names(first: &PathName, count: usize, is_free: impl Fn(&PathName) -> bool) ->
     let number = u64::from(text[start..end].parse::<u32>().unwrap_or_default());
     let next = |offset: u64| PathName::new(&format!("{}{}{}", &text[..start], number + offset, &text[end..]));
     let others = (1..=MAX_TRIED_NAMES).filter(|_| start < end).map(next).filter(is_free);
-    let names: Vec<PathName> = std::iter::once(first.clone()).chain(others).take(count.max(1)).collect();
-    (names.len() >= count).then_some(names)
+    let mut free: VecDeque<PathName> = std::iter::once(first.clone()).chain(others).collect();
+    let take = |path: &QProject| {
+        let suitable = free.iter().position(|name| path.has_tool_of(name, tools));
+        free.remove(suitable.unwrap_or_default())
+    };
+    planned.iter().map(take).collect()
 }
 
 const MAX_TRIED_NAMES: u64 = 1000;
