@@ -10,6 +10,7 @@ use pathbuild_diagnostic::{Diagnostic, Message};
 use pathbuild_motion::{Action, Group, Pace, StatedWord, Step, WordEffect};
 
 use crate::interpret::INCH;
+use crate::native::announces_probe;
 use crate::provenance::{Provenance, head_remarks};
 use crate::read::Problems;
 use crate::verify::Cutter;
@@ -165,6 +166,8 @@ pub struct HeaderReader {
     events: Vec<(u32, Event)>,
     signatures: Vec<&'static str>,
     has_calls: bool,
+    /// Whether comments announce probes, as those of pathbuild's probing programs do.
+    announces_probes: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -214,6 +217,7 @@ impl HeaderReader {
     }
 
     fn comment(&mut self, line: u32, text: &str) {
+        self.announces_probes |= announces_probe(text);
         let signed = FORMS.iter().filter_map(|form| form.signature);
         self.signatures.extend(signed.filter(|signature| text.trim().starts_with(signature)));
         let found = parse_comment(text, &|signature| self.signatures.contains(&signature));
@@ -223,7 +227,7 @@ impl HeaderReader {
     /// Returns the tools and the stock that all comments of the program describe. `inch` is ten times the G code that selects inches (200 for G20).
     pub fn finish(mut self, inch: u16) -> Header {
         let has = |searched: Event| self.events.iter().any(|(_, event)| *event == searched);
-        let is_probing = has(Event::Probe) && !has(Event::Cut);
+        let is_probing = self.announces_probes || has(Event::Probe) && !has(Event::Cut);
         if !is_probing {
             self.events.retain(|(_, event)| *event != Event::Probe);
         }
@@ -272,7 +276,7 @@ pub struct Header {
     pub changes: Vec<(u32, u32)>,
     /// Whether the program has calls, loops or branches, so that its lines are executed out of order.
     pub has_calls: bool,
-    /// Whether the program only probes the material, and never cuts.
+    /// Whether the program only probes the material, and never cuts, or should do so according to its comments.
     pub is_probing: bool,
     /// The tools that cut, or that probe if none cuts, with the lines from which they apply.
     pub tools: Vec<CuttingTool>,

@@ -554,6 +554,9 @@ fn probes_leave_the_position_open() {
         ["2 rapid to 1 1 5", "3 probe 50 toward=true must=false to 1 1 0", "4 dwell 4", "5 rapid to 1 1 20"]
     );
     assert_eq!(run(Native, "G0 X1 Y1 Z5\nG38.2 Z0 F50\nG91 G0 Z2")[2], "4 rapid to 1 1 ?");
+    // Posts state all axes. An axis that does not move is known after the probe.
+    assert_eq!(run(Native, "G0 X1 Y1 Z5\nG38.2 X1 Y1 Z0 F50\nG91 G0 Z2")[2], "4 rapid to 1 1 ?");
+    assert_eq!(run(Native, "G0 X1 Y1 Z5\nG38.2 X2 Y1 Z0 F50\nG91 G0 Z2")[2], "4 rapid to ? 1 ?");
     assert_eq!(wrong(Native, "G0 X1 Y1 Z5\nG38.2 Z0"), ["3 missing-feed"]);
 }
 

@@ -366,7 +366,16 @@ impl Pace {
         match self {
             Self::Rapid => &Text { en: "a rapid move", de: "ein Eilgang" },
             Self::Feed(_) => &Text { en: "a cutting move", de: "eine Fräsbewegung" },
-            Self::Probe { .. } => &Text { en: "a probing move", de: "eine Antastbewegung" },
+            Self::Probe { toward: true, must_answer: true, .. } => {
+                &Text { en: "a probing move (G38.2)", de: "eine Antastbewegung (G38.2)" }
+            }
+            Self::Probe { toward: true, must_answer: false, .. } => {
+                &Text { en: "a probing move (G38.3 or G31)", de: "eine Antastbewegung (G38.3 oder G31)" }
+            }
+            Self::Probe { toward: false, .. } => &Text {
+                en: "a probing move away (G38.4 or G38.5)",
+                de: "eine Antastbewegung von etwas weg (G38.4 oder G38.5)",
+            },
         }
     }
 }

@@ -224,6 +224,9 @@ fn a_changed_probing_run_is_found() {
         ("G04 P4\n", ""),
         ("G00 X150.000", "G00 X151.000"),
         ("F150.000", "F950.000"),
+        ("G38.2 Z0", "G38.3 Z0"),
+        ("G38.2 Z0", "G38.4 Z0"),
+        ("G38.2 Z0", "G01 Z0"),
     ] {
         let text = good.replacen(from, to, 1);
         assert_ne!(text, good, "{from}");
@@ -262,18 +265,68 @@ fn heights_of_a_probing_program_are_checked_without_the_drawing_too() {
     }
 }
 
+/// A move that does not stop at the touch plate, in place of one or of all probing moves.
 #[test]
-fn a_converted_probing_program_is_not_compared_with_the_milling_program() {
+fn a_missing_probe_is_found_without_the_drawing_too() {
     let place = adjusted("");
-    for post in ["linuxcnc", "grbl", "mach3"] {
-        succeed(&place.run(&format!("post a_Probing.gcode --post {post} -o x.nc")));
-        let compared = place.run(&format!("verify x.nc --against a.dxf --dialect {post}"));
-        assert!(compared.stderr.contains("error[PB739]"), "{compared}");
-        assert!(compared.stderr.contains("the program only probes, and not in native words"), "{compared}");
-        assert!(compared.stderr.contains("errors: 1, warnings: 0"), "{compared}");
-        let alone = place.run(&format!("verify x.nc --dialect {post}"));
-        assert!(alone.stderr.contains("errors: 0"), "{alone}");
+    write(&place, "1234.gcode", &place.read("a_Probing.gcode"));
+    succeed(&place.run("post 1234.gcode --post fanuc -o fanuc.nc"));
+    for (file, probe, others) in [
+        ("a_Probing.gcode", "G38.2 Z0", ["G01 Z0", "G38.4 Z0", "(no move)"]),
+        ("fanuc.nc", "G31", ["G1", "G0", "(NO MOVE)"]),
+    ] {
+        let good = place.read(file);
+        let count = good.matches(probe).count();
+        for (other, times) in others.into_iter().flat_map(|other| [(other, 1), (other, count)]) {
+            write(&place, "x.gcode", &good.replacen(probe, other, times));
+            for options in ["", "--against a.dxf"] {
+                let run = place.run(&format!("verify x.gcode {options}"));
+                assert_eq!(run.status, Some(1), "{run}");
+                assert_eq!(run.stderr.matches("error[PB777]").count(), times, "{run}");
+            }
+        }
     }
+}
+
+#[test]
+fn a_converted_probing_program_is_compared_with_the_drawing() {
+    let place = adjusted("");
+    write(&place, "1234.gcode", &place.read("a_Probing.gcode"));
+    for post in ["linuxcnc", "grbl", "mach3", "marlin", "fanuc", "haas"] {
+        succeed(&place.run(&format!("post 1234.gcode --post {post} -o x.nc")));
+        let good = place.read("x.nc");
+        for options in ["", "--against a.dxf"] {
+            let run = place.run(&format!("verify x.nc {options} --dialect {post}"));
+            assert!(run.stderr.contains("errors: 0, warnings: 0"), "{run}");
+            assert!(!run.stderr.contains("unknown positions"), "{run}");
+        }
+        let lenient = good.contains("G38.2").then_some(("G38.2", "G38.3"));
+        for (from, to) in
+            [("Z0.0", "Z-3.0"), ("X150.0", "X151.0"), ("F150.0", "F950.0")].into_iter().chain(lenient)
+        {
+            let changed = good.replacen(from, to, 1);
+            assert_ne!(changed, good, "{from}");
+            write(&place, "x.nc", &changed);
+            let run = place.run(&format!("verify x.nc --against a.dxf --dialect {post}"));
+            assert!(run.stderr.contains("error[PB739]"), "{run}");
+        }
+    }
+}
+
+/// The output of a definition of the user's own is compared as text with what the definition writes, which is a milling program.
+#[test]
+fn a_probing_program_of_an_own_definition_is_not_compared() {
+    let place = adjusted("");
+    write(&place, "own.cbpp", &place.run("post show grbl").stdout);
+    succeed(&place.run("post a_Probing.gcode --post own.cbpp -o x.nc"));
+    let run = place.run("verify x.nc --against a.dxf --post own.cbpp");
+    assert!(
+        run.stderr.contains("error[PB739]") && run.stderr.contains("a definition of your own wrote it"),
+        "{run}"
+    );
+    assert!(run.stderr.contains("errors: 1, warnings: 0"), "{run}");
+    let native = place.run("verify a_Probing.gcode --against a.dxf --post own.cbpp --dialect native");
+    assert!(native.stderr.contains("errors: 0, warnings: 0"), "{native}");
 }
 
 #[test]

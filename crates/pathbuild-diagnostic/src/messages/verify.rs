@@ -99,10 +99,10 @@ messages! {
         help_en: "compare the NAME_Milling.gcode that adjust wrote, and verify this program without --against",
         help_de: "die NAME_Milling.gcode vergleichen, die adjust geschrieben hat, und dieses Programm ohne --against prüfen",
     }
-    /// `verify --against`: a probing program in the words of another control.
+    /// `verify --against`: a probing program that a definition of the user's own wrote.
     PROBING_CONVERTED: MovesDiffer {
-        en: "the program only probes, and not in native words: --against compares the probing program with the drawing only as `emit` writes it",
-        de: "das Programm tastet nur an, aber nicht in nativen Wörtern: --against vergleicht das Antastprogramm nur so mit der Zeichnung, wie `emit` es schreibt",
+        en: "the program only probes, and a definition of your own wrote it: --against compares the probing programs of `emit` and of the built-in posts with the drawing, but not this one",
+        de: "das Programm tastet nur an, und eine eigene Definition hat es geschrieben: --against vergleicht Antastprogramme von `emit` und der eingebauten Postprozessoren mit der Zeichnung, dieses aber nicht",
         help_en: "compare the file NAME_Probing.gcode with --against, and verify this one without it",
         help_de: "die Datei NAME_Probing.gcode mit --against vergleichen und diese ohne --against prüfen",
     }
@@ -322,6 +322,13 @@ messages! {
         de: "das Programm ist von pathbuild, mit Z 0 auf der Platte, aber dieses Antasten geht bis Z {z} hinunter, wenn es nichts berührt: {depth} mm unter die Platte",
         help_en: "check the numbers of a program that was edited, or compare it with its drawing (--against PATH); set `below-plate` under [warnings] to allow more than {limit} mm",
         help_de: "die Zahlen eines bearbeiteten Programms prüfen oder es mit seiner Zeichnung vergleichen (--against PFAD); mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
+    }
+    /// A comment of a probing program without the probe that it announces.
+    PROBE_MISSING: Disagreement {
+        en: "the comment in line {comment} announces a probe, but no probing move down follows it",
+        de: "der Kommentar in Zeile {comment} kündigt ein Antasten an, aber darauf folgt keine Antastbewegung nach unten",
+        help_en: "write the probing program again: with G1 in place of G38.2 (of G31 on Fanuc, Haas and Mach3), the tool does not stop at the touch plate",
+        help_de: "das Antastprogramm neu schreiben: mit G1 statt G38.2 (bei Fanuc, Haas und Mach3 statt G31) hält das Werkzeug nicht an der Messplatte",
     }
     /// Inches in a program that pathbuild has written in millimetres.
     INCHES_OF_PATHBUILD: Disagreement {

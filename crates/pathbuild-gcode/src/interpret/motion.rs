@@ -221,7 +221,10 @@ impl Interpreter<'_> {
         };
         self.emit_move(block, movement);
         if matches!(pace, Pace::Probe { .. }) {
-            self.state.position.known = to.known.without(given_axes(&coordinates));
+            // A probe stops on the way, where an axis that has the same position at both ends is as well.
+            let stays = |axis: usize| from.known.has(Axes::of(axis)) && from.at[axis] == to.at[axis];
+            let moved: [_; 3] = std::array::from_fn(|axis| coordinates[axis].filter(|_| !stays(axis)));
+            self.state.position.known = to.known.without(given_axes(&moved));
         }
     }
 

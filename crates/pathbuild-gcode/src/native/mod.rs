@@ -12,7 +12,7 @@ pub use program::{
     joined_paths, joined_title, left_out_lines, path_of_title, plain_title, probe_name, probing_program,
     title, too_large, values_file, write_program,
 };
-pub(crate) use program::{kind_of_label, stated_length};
+pub(crate) use program::{announces_probe, kind_of_label, stated_length};
 pub use read_back::{
     OtherLine, Parts, first_other_line, formula_differences, is_read_back, read_back, read_probing_back,
     unstated_heights,

@@ -335,6 +335,9 @@ impl Writer<'_> {
 /// The dwell after each probe, P in seconds, so that the user can read the value.
 const DWELL: &str = "G04 P4";
 
+/// Beginning of the comment before each probe; the number of the probe's parameter follows.
+const PROBE_COMMENT: &str = "Probe #";
+
 /// Writes the probing program, which probes at one point after the other and dwells after each.
 pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptions) -> String {
     let clearance = f3(program.sweep_height);
@@ -350,7 +353,11 @@ pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptio
     let mut at = Xy::origin();
     for (index, probe) in program.probes.iter().enumerate() {
         let name = name_and_place(probe, program);
-        _ = writeln!(text, "{}", remarks.comment(&format!("Probe #{} {name}", FIRST_PARAMETER + index)));
+        _ = writeln!(
+            text,
+            "{}",
+            remarks.comment(&format!("{PROBE_COMMENT}{} {name}", FIRST_PARAMETER + index))
+        );
         if !pathbuild_path::approx::is_negligible((probe.at - at).norm()) {
             _ = writeln!(text, "G00 X{} Y{}", f3(probe.at.x), f3(probe.at.y));
         }
@@ -360,6 +367,15 @@ pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptio
     }
     _ = writeln!(text, "G00 X0.000 Y0.000\nG00 Z{clearance}\nM30\n%");
     text
+}
+
+/// Whether a comment in a probing program announces a probe: `Probe #51 [8.000 4.000]/T=2.000 @ [8.000|4.000]`. In the header of a milling program,
+/// which lists the probes, a colon follows the number. Posts may write upper case.
+pub(crate) fn announces_probe(comment: &str) -> bool {
+    comment.trim().split_at_checked(PROBE_COMMENT.len()).is_some_and(|(start, rest)| {
+        let name = rest.trim_start_matches(|character: char| character.is_ascii_digit());
+        start.eq_ignore_ascii_case(PROBE_COMMENT) && name.starts_with(" [")
+    })
 }
 
 /// Writes the file of values, with one line per probe and nothing after the `=` yet.

@@ -13,6 +13,7 @@ use super::material::Stock;
 use super::tip_height::TipHeight;
 use crate::dialect::Dialect;
 use crate::interpret::{Options, code_name, interpret_each};
+use crate::native::announces_probe;
 use crate::read::{BlockReader, Problems, Value, Word};
 
 /// Tolerance in mm within which heights are equal.
@@ -41,6 +42,8 @@ pub struct Rules<'c> {
     has_probed: bool,
     /// The height in mm at which the last probe would have stopped without contact; `None` once the program states a height.
     probe_end: Option<f64>,
+    /// The line of a comment that announces the next probe.
+    announced_probe: Option<u32>,
     has_cut: bool,
     /// Whether a cut at an unknown position has been reported.
     position_said: bool,
@@ -80,6 +83,7 @@ impl<'c> Rules<'c> {
             spindle_line: 0,
             has_probed: false,
             probe_end: None,
+            announced_probe: None,
             has_cut: false,
             position_said: false,
             is_height_homed: false,
@@ -114,6 +118,10 @@ impl<'c> Rules<'c> {
                 self.shifted = are_shifted.then_some((line, *code, self.has_cut));
             }
             Action::End => self.spindle.turning = Turning::Unstated,
+            Action::Comment(text) if announces_probe(text) => {
+                self.check_announced_probe(None);
+                self.announced_probe = Some(line);
+            }
             Action::ChangeTool(_) => self.check_tool_change(line),
             Action::SelectTool(_) => {
                 self.by_hand.is_selected = true;
@@ -135,6 +143,7 @@ impl<'c> Rules<'c> {
 
     /// Returns all problems, ordered by line.
     pub fn finish(mut self) -> Vec<Diagnostic> {
+        self.check_announced_probe(None);
         self.check_end();
         self.problems.into_diagnostics()
     }
@@ -146,6 +155,9 @@ impl<'c> Rules<'c> {
         self.check_diagonal(line, movement);
         self.check_home_move(line, movement);
         self.leave_frame(line, movement);
+        if movement.pace != Pace::Rapid {
+            self.check_announced_probe(Some((line, movement)));
+        }
         check_probe_direction(line, movement, &mut self.problems);
         self.check_turning_probe(line, movement);
         self.check_after_probe(line, movement);
@@ -245,6 +257,19 @@ impl<'c> Rules<'c> {
         };
         if !std::mem::replace(&mut self.spindle_said, true) {
             self.problems.add_at_line(message, line, |diagnostic| Diagnostic { severity, ..diagnostic });
+        }
+    }
+
+    /// Checks that a probe which a comment announces is made by `next`, the next move that is not rapid; `None` if there is none before the next such
+    /// comment. Any other move would not stop at the material.
+    fn check_announced_probe(&mut self, next: Option<(u32, &Move)>) {
+        let Some(comment) = self.announced_probe.take() else { return };
+        if !next.is_some_and(|(_, movement)| movement.probes_down()) {
+            let line = next.map_or(comment, |(line, _)| line);
+            self.problems.add_at_line(&say::PROBE_MISSING, line, |d| Diagnostic {
+                severity: Severity::Error,
+                ..d.with("comment", u64::from(comment))
+            });
         }
     }
 

@@ -12,8 +12,8 @@ use pathbuild_gcode::interpret::{self, Options, Text};
 use pathbuild_gcode::native::{self, OtherLine, Parts};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::read::quote;
-use pathbuild_gcode::verify::{self, Agreement, Clamps, PostWords, ToolUse, text_beyond_machine};
-use pathbuild_motion::{Axes, Move, Position};
+use pathbuild_gcode::verify::{Agreement, Clamps, ExpectedProgram, ToolUse, text_beyond_machine};
+use pathbuild_motion::{Axes, Move, Pace, Position};
 use pathbuild_path::KeepOut;
 use pathbuild_post::{Job, ToolTable, program_number};
 
@@ -132,26 +132,31 @@ impl ReferenceProgram {
         self.drawn.surface()
     }
 
-    /// Starts a comparison of a program in a dialect with the drawing. The steps of the program must be passed to it at their nominal heights, before
-    /// correction.
-    pub(super) fn comparison<'w>(
+    /// Returns the program that the drawing requires of a program in a dialect: the milling program, at nominal heights before correction, or the
+    /// probing program.
+    pub(super) fn expected(
         &self,
         settings: &Settings,
         table: &ToolTable,
         dialect: Dialect,
-        words: &'w PostWords,
+        is_probing: bool,
         rewritten: Option<&RewrittenProgram>,
-    ) -> verify::DrawingComparison<'w, impl Iterator<Item = (u32, Move)>> {
+    ) -> ExpectedProgram<impl Iterator<Item = (u32, Move)>> {
         let clearance = self.drawn.start_height();
         let above_zero = Position::known(0.0, 0.0, clearance);
         let (start, written) = rewritten.map_or((above_zero, None), |known| {
             (known.start.unwrap_or(above_zero), Some(known.moves.clone()))
         });
-        let is_native = written.is_none();
-        let drawn_moves = is_native.then(|| self.drawn.moves()).into_iter().flatten();
-        let drawn = verify::ExpectedProgram {
-            moves: drawn_moves.chain(written.into_iter().flatten()),
-            pecks: if is_native && settings.general.cycles.value && dialect != Dialect::Native {
+        let is_milling = written.is_none() && !is_probing;
+        let milling = is_milling.then(|| self.drawn.moves());
+        let probing = is_probing.then(|| self.probing_moves(dialect));
+        ExpectedProgram {
+            moves: milling
+                .into_iter()
+                .flatten()
+                .chain(probing.into_iter().flatten())
+                .chain(written.into_iter().flatten()),
+            pecks: if is_milling && settings.general.cycles.value && dialect != Dialect::Native {
                 self.drawn.pecks()
             } else {
                 Vec::new()
@@ -163,8 +168,25 @@ impl ReferenceProgram {
                 .filled_from(rewritten.map_or(ToolUse::default(), |rewritten| rewritten.tool)),
             number: self.number(settings),
             spin_up: settings.machine.spin_up.value,
-        };
-        verify::DrawingComparison::new(drawn, dialect, words)
+        }
+    }
+
+    /// Returns the moves of the probing program as a control with this dialect makes them.
+    fn probing_moves(&self, dialect: Dialect) -> impl Iterator<Item = (u32, Move)> {
+        // Controls without G38.2 have G31, which goes on if it touches nothing.
+        let has_alarm = dialect.rules().words.has_g(382);
+        let mut was_probe = false;
+        (1..).zip(self.drawn.probing_moves()).map(move |(number, (_, mut movement))| {
+            if was_probe {
+                // Only the machine knows the height at which the probe has stopped.
+                movement.from.known = Axes::XY;
+            }
+            was_probe = matches!(movement.pace, Pace::Probe { .. });
+            if let Pace::Probe { must_answer, .. } = &mut movement.pace {
+                *must_answer = has_alarm;
+            }
+            (number, movement)
+        })
     }
 
     /// Returns the extent of the comparison, and the differences; there are none if the program has exactly the lines that its definition writes.
@@ -174,6 +196,7 @@ impl ReferenceProgram {
         program: &Program,
         lang: Lang,
         agreement: Agreement,
+        is_probing: bool,
         rewritten: Option<&RewrittenProgram>,
     ) -> (Option<MoveComparison>, Vec<Diagnostic>) {
         let comparison = |equal, moves| {
@@ -181,7 +204,7 @@ impl ReferenceProgram {
             let (dialect, read_as) = (program.reading_name().to_owned(), program.describe_reading(lang));
             Some(MoveComparison { path, drawing, dialect, read_as, moves, equal })
         };
-        let drawn = self.drawn.moves().count();
+        let drawn = if is_probing { self.drawn.probing_moves().count() } else { self.drawn.moves().count() };
         let Some(rewritten) = rewritten else {
             return (comparison(agreement.equal, drawn), agreement.differences);
         };
@@ -249,7 +272,6 @@ impl ReferenceProgram {
         is_probing: bool,
         is_sound: bool,
     ) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
-        let is_probing = is_probing && self.has_probes();
         let kind = match (is_probing, self.has_probes()) {
             (true, _) => OutputKind::Probing,
             (false, true) => OutputKind::Clean,

@@ -411,9 +411,9 @@ struct Examination<'v> {
     /// The post-processor that wrote the program, if known.
     writer: Option<&'v PostProcessor>,
     words: Arc<PostWords>,
-    /// Whether the program may be the probing run of a drawing, which is a separate program.
+    /// Whether the program may be the probing run of the path that it is compared with, which is a separate program.
     is_probing: bool,
-    /// The drawing's program; `None` if there is none, or if the verified program is its probing run.
+    /// The path to compare moves with; `None` if there is none, or if the program is its native probing run, whose text is compared.
     milled: Option<&'v ReferenceProgram>,
 }
 
@@ -421,8 +421,10 @@ impl<'v> Examination<'v> {
     fn new(verifier: &'v Verifier<'v>, program: &'v Program, header: &'v Header, has_probed: bool) -> Self {
         let evidence = program.evidence.map(|evidence| evidence.kind);
         let writer = verifier.writers.of(program.shown, evidence);
-        let is_probing = has_probed && program.dialect == Dialect::Native;
+        let is_native = program.dialect == Dialect::Native;
         let against = verifier.against.as_ref();
+        let may_probe = header.is_probing || is_native && has_probed;
+        let is_probing = may_probe && against.is_some_and(ReferenceProgram::has_probes);
         Self {
             verifier,
             program,
@@ -431,7 +433,7 @@ impl<'v> Examination<'v> {
             writer,
             words: verifier.known_words(writer, program.dialect),
             is_probing,
-            milled: against.filter(|against| !is_probing || !against.has_probes()),
+            milled: against.filter(|_| !(is_probing && is_native)),
         }
     }
 
@@ -470,20 +472,16 @@ impl<'v> Examination<'v> {
         Ok(VerifiedProgram { diagnostics, checks, comparison })
     }
 
-    /// Whether the program is the probing program of the path in the words of another control.
-    fn is_converted_probing(&self) -> bool {
-        let has_probes = self.verifier.against.as_ref().is_some_and(ReferenceProgram::has_probes);
-        has_probes && self.header.is_probing && self.program.dialect != Dialect::Native
-    }
-
     /// Refuses to compare a program with a path if each difference would be reported as a fault of the program: a program that joins several paths,
-    /// and a converted one that only probes, or whose heights were corrected.
+    /// and a converted one whose heights were corrected, or that only probes and was written by a definition of the user's own.
     fn refuse_incomparable(&self) -> Result<(), Vec<Diagnostic>> {
         let title = Provenance::of_head(&self.program.text).map(|(_, title)| title);
         let message = match title.and_then(|title| native::joined_paths(&title)) {
             _ if self.verifier.against.is_none() => return Ok(()),
             Some(_) => &say::JOINED_PROGRAM,
-            None if self.is_converted_probing() => &say::PROBING_CONVERTED,
+            None if self.is_probing && self.milled.and(self.definition()).is_some() => {
+                &say::PROBING_CONVERTED
+            }
             None if is_converted_correction(self.program) => &say::CONVERTED_CORRECTION,
             None => return Ok(()),
         };
@@ -492,10 +490,14 @@ impl<'v> Examination<'v> {
         Err(problems)
     }
 
+    /// Returns the post-processor that wrote the program, if its definition is the user's own.
+    fn definition(&self) -> Option<&'v PostProcessor> {
+        self.writer.filter(|writer| writer.file().is_some())
+    }
+
     /// Returns the drawing's program as the post-processor's definition writes it.
     fn rewritten_program(&self) -> Result<Option<RewrittenProgram>, Vec<Diagnostic>> {
-        let definition = self.writer.filter(|writer| writer.file().is_some());
-        let rewritten = self.milled.zip(definition).map(|(milled, writer)| {
+        let rewritten = self.milled.zip(self.definition()).map(|(milled, writer)| {
             milled.rewrite_with_definition(self.verifier.settings, writer, self.program)
         });
         rewritten.transpose()
@@ -512,7 +514,8 @@ impl<'v> Examination<'v> {
         let against = verifier.against.as_ref();
         let compared = |milled: &'v ReferenceProgram| {
             let (settings, table) = (verifier.settings, &verifier.table);
-            milled.comparison(settings, table, program.dialect, &self.words, rewritten)
+            let expected = milled.expected(settings, table, program.dialect, self.is_probing, rewritten);
+            DrawingComparison::new(expected, program.dialect, &self.words)
         };
         let mut nominal = NominalSteps {
             comparison: self.milled.map(compared),
@@ -591,7 +594,7 @@ impl<'v> Examination<'v> {
         evidence.has_uncompared_coolant =
             agreement.has_uncompared_coolant && !rewritten.is_some_and(RewrittenProgram::is_same);
         let (comparison, differences) =
-            milled.finish_comparison(program, verifier.lang, agreement, rewritten);
+            milled.finish_comparison(program, verifier.lang, agreement, self.is_probing, rewritten);
         found.extend(differences);
         (found, comparison)
     }

@@ -231,7 +231,8 @@ impl<'w> Setup<'w> {
     }
 
     fn check_move(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
-        self.at = movement.to;
+        // Only the machine knows the height at which a probe has stopped. A program may wait there: nothing turns in the material.
+        self.at = if matches!(movement.pace, Pace::Probe { .. }) { Position::default() } else { movement.to };
         self.check_setup_words(line, problems);
         if matches!(movement.named, Some(NamedPosition::Machine(_)))
             && !movement.to.known.has(Axes::Z)
@@ -239,10 +240,12 @@ impl<'w> Setup<'w> {
         {
             report_extra_word(line, "G53 Z".to_owned(), problems);
         }
-        if matches!(movement.pace, Pace::Feed(_)) && !movement.is_standstill() {
+        if movement.pace != Pace::Rapid && !movement.is_standstill() {
             self.check_cutting_tool(line, problems);
-            self.check_cutting_spindle(line, problems);
             self.check_cutting_length(line, problems);
+        }
+        if matches!(movement.pace, Pace::Feed(_)) && !movement.is_standstill() {
+            self.check_cutting_spindle(line, problems);
             self.check_cutting_coolant(line, problems);
             self.check_cutting_corners(line, problems);
         }
