@@ -497,6 +497,17 @@ fn a_speed_with_a_separator_of_thousands_is_refused() {
     assert!(!run("", "--sweep-height 1.200"));
 }
 
+#[test]
+fn a_wait_in_milliseconds_is_refused() {
+    for (seconds, is_wrong) in [("3000", true), ("60.1", true), ("60", false), ("0", false)] {
+        let text = format!("[machine]\nspin-up = {seconds}\n");
+        let run = Place::new().file("pathbuild.toml", text).run("config show");
+        let is_reported =
+            run.stderr.contains("error[PB003]") && run.stderr.contains("such as 3 instead of 3000 ms");
+        assert_eq!((run.status == Some(2), is_reported), (is_wrong, is_wrong), "{run}");
+    }
+}
+
 /// A TOML table extends to the next one: a key added at the end belongs to the last table.
 #[test]
 fn a_key_in_the_wrong_table_is_told_where_it_belongs() {

@@ -376,6 +376,8 @@ words! {
     POSITIVE: "a number greater than 0", "eine Zahl größer als 0";
     /// Permitted values: 0 and greater numbers.
     NOT_NEGATIVE: "a number of at least 0", "eine Zahl von mindestens 0";
+    /// Permitted values of a time in seconds for which the machine waits.
+    WAIT: "a number of seconds from 0 to 60, such as 3 instead of 3000 ms", "eine Zahl von Sekunden von 0 bis 60, etwa 3 statt 3000 ms";
     /// Permitted values of the length in mm of pieces of moves (`z-split`). 0 means that moves are not divided.
     PIECE: "0 or a number of at least 0.1", "0 oder eine Zahl von mindestens 0.1";
     /// Permitted values of a tolerance of the part check, in mm.

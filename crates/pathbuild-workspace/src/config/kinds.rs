@@ -67,6 +67,19 @@ pub(in crate::config) const NOT_NEGATIVE: ValueType<f64> = ValueType {
     schema: || json!({ "type": "number", "minimum": 0 }),
 };
 
+/// A time in seconds for which the machine waits. A longer one was probably meant in milliseconds.
+pub(in crate::config) const WAIT: ValueType<f64> = ValueType {
+    read: |value, reader| {
+        let seconds = number(value).filter(|seconds| (0.0..=MAX_WAIT).contains(seconds));
+        reader.require(seconds, &messages::WAIT, value)
+    },
+    show: NOT_NEGATIVE.show,
+    schema: || json!({ "type": "number", "minimum": 0, "maximum": MAX_WAIT }),
+};
+
+/// Largest value of a [`WAIT`], in seconds: no spindle takes longer to reach its speed.
+const MAX_WAIT: f64 = 60.0;
+
 /// Optional upper bound on the length of pieces of moves in mm; 0 means any length. Very short pieces are refused: a machine cannot distinguish
 /// them, so they would only fill the disk.
 pub(in crate::config) const PIECE: ValueType<Option<f64>> = ValueType {

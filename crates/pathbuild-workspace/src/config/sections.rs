@@ -264,12 +264,12 @@ pub mod emit {
 
 /// `[machine]`: capabilities of the machine, for `emit`, `verify` and time estimates. (book: program/reading)
 pub mod machine {
-    use crate::config::kinds::{AXES, NOT_NEGATIVE, NUMBER_RANGE, SPEED, choice};
+    use crate::config::kinds::{AXES, NOT_NEGATIVE, NUMBER_RANGE, SPEED, WAIT, choice};
     use crate::config::types::{DwellTime, NumberRange};
 
     section! {
         /// s: how long the spindle takes to reach its speed; posts wait this long after M3
-        spin_up: f64 = "spin-up", NOT_NEGATIVE, 0.0, "0", Emit;
+        spin_up: f64 = "spin-up", WAIT, 0.0, "0", Emit;
         /// unit of P in G4 on a controller where it can be set (Mach3: Config > Logic): "seconds" or "milliseconds"
         dwell: DwellTime = "dwell", choice::<DwellTime>(), DwellTime::Seconds, r#""seconds""#, Emit;
         /// mm: smallest and largest X, in the program's coordinates; without it, X is not limited
