@@ -9,7 +9,7 @@ use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::drawing::{BLOCK_ELSEWHERE, BLOCK_MISSING, INSERT_CLIPPED};
-use pathbuild_diagnostic::{Handle, Point};
+use pathbuild_diagnostic::{Handle, Message, Point};
 use smol_str::SmolStr;
 
 use crate::Origin;
@@ -62,6 +62,14 @@ struct Insertion {
     origin: Origin,
 }
 
+/// An insertion of a block.
+struct Site<'s, 'a> {
+    traits: &'s CommonProperties,
+    layer: LayerId,
+    insert: &'s Insert<'a>,
+    around: &'s EntityContext,
+}
+
 /// Deepest nesting of blocks, in levels.
 const MAX_BLOCK_DEPTH: usize = 64;
 
@@ -110,7 +118,9 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             None => item.traits.layer,
         };
         match item.shape {
-            Ok(Shape::Insert(insert)) => self.insert(&item.traits, layer, *insert, around),
+            Ok(Shape::Insert(insert)) => {
+                self.insert(&Site { traits: &item.traits, layer, insert: &insert, around })
+            }
             Ok(Shape::Hatch(point)) if self.reader.layers.is_kept(layer) => {
                 let placed = place_entity(self.reader, &item.traits, layer, around)?;
                 self.collector.add_hatch(&placed, point)
@@ -129,85 +139,75 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
     }
 
-    fn insert(
-        &mut self,
-        traits: &CommonProperties,
-        layer: LayerId,
-        insert: Insert<'a>,
-        around: &EntityContext,
-    ) -> Result<(), Fatal> {
+    fn insert(&mut self, site: &Site<'_, 'a>) -> Result<(), Fatal> {
         self.index_blocks();
-        let is_kept = self.reader.layers.is_kept(layer);
+        let is_kept = self.reader.layers.is_kept(site.layer);
         if let Some(damage) = &self.damage {
             return if is_kept || self.blocks_matter { Err(damage.clone()) } else { Ok(()) };
         }
-        let Some(block) = self.blocks.find(&insert.block) else {
-            let point = insert.array.ok().map(|array| array.begin());
+        let Some(block) = self.blocks.find(&site.insert.block) else {
             if !is_kept {
-                return self.note_missing(traits, layer, &insert.block, point, around);
+                return self.note_missing(site);
             }
-            let trouble = EntityError::LeftOut {
-                message: &BLOCK_MISSING,
-                point,
-                block: Some(insert.block.as_str().into()),
-                layers: Arc::default(),
-            };
-            return self.refuse_insertion(traits, &[layer], &trouble, around);
+            return self.refuse_insertion(
+                site,
+                &[site.layer],
+                &site.left_out(&BLOCK_MISSING, Arc::default()),
+            );
         };
         if !is_kept && !self.blocks_matter {
             return Ok(());
         }
-        let wanted = self.blocks.wanted_layers(block, layer, self.reader, &mut self.steps)?;
+        let wanted = self.blocks.wanted_layers(block, site.layer, self.reader, &mut self.steps)?;
         let namesakes = self.blocks.namesakes(block);
         if !namesakes.is_empty() && !self.reader.options.compatible {
             self.steps.spend(namesakes.len())?;
-            let mut layers = BTreeSet::from([layer]);
+            let mut layers = BTreeSet::from([site.layer]);
             layers.extend(wanted.iter());
             for namesake in namesakes {
-                let wanted = self.blocks.wanted_layers(namesake, layer, self.reader, &mut self.steps)?;
+                let wanted = self.blocks.wanted_layers(namesake, site.layer, self.reader, &mut self.steps)?;
                 layers.extend(wanted.iter());
             }
-            let trouble = EntityError::DefinedTwice(insert.block.as_str().into());
-            return self.refuse_insertion(traits, &Vec::from_iter(layers), &trouble, around);
+            let trouble = EntityError::DefinedTwice(site.insert.block.as_str().into());
+            return self.refuse_insertion(site, &Vec::from_iter(layers), &trouble);
         }
         let has_wanted = wanted.iter().any(|layer| self.reader.layers.is_kept(*layer));
         if !has_wanted {
-            self.check_elsewhere(traits, layer, block, &insert, around)?;
+            self.check_elsewhere(site, block)?;
         }
         if wanted.is_empty() {
             return Ok(());
         }
-        if self.open.contains(&block) || self.open.len() >= MAX_BLOCK_DEPTH {
-            return self.refuse_insertion(
-                traits,
-                &wanted,
-                &EntityError::Nested(insert.block.as_str().into()),
-                around,
-            );
+        if let Some(trouble) = self.fault_of_insertion(site, block)? {
+            return self.refuse_insertion(site, &wanted, &trouble);
         }
-        if let Some(trouble) = place_entity(self.reader, traits, layer, around)?.layer.fault() {
-            return self.refuse_insertion(traits, &wanted, &trouble, around);
-        }
-        if self.is_clipped(insert.dictionary)? {
-            let trouble = EntityError::LeftOut {
-                message: &INSERT_CLIPPED,
-                point: insert.array.ok().map(|array| array.begin()),
-                block: Some(insert.block.as_str().into()),
-                layers: Arc::default(),
-            };
-            return self.refuse_insertion(traits, &wanted, &trouble, around);
-        }
-        match insert.array.clone().and_then(|array| Ok(array.copies(self.blocks.base(block)?))) {
+        match site.insert.array.clone().and_then(|array| Ok(array.copies(self.blocks.base(block)?))) {
             Ok(copies) => {
                 let before = self.collector.drawn;
-                self.add_copies(traits, layer, block, copies, around)?;
+                self.add_copies(site, block, copies)?;
                 if has_wanted && self.collector.drawn == before {
-                    self.check_elsewhere(traits, layer, block, &insert, around)?;
+                    self.check_elsewhere(site, block)?;
                 }
                 Ok(())
             }
-            Err(trouble) => self.refuse_insertion(traits, &wanted, &trouble, around),
+            Err(trouble) => self.refuse_insertion(site, &wanted, &trouble),
         }
+    }
+
+    /// Returns the reason why a block cannot be drawn: it contains itself, the layer of its insertion is faulty, or only a part of it is visible.
+    fn fault_of_insertion(
+        &mut self,
+        site: &Site<'_, 'a>,
+        block: BlockId,
+    ) -> Result<Option<EntityError<'a>>, Fatal> {
+        if self.open.contains(&block) || self.open.len() >= MAX_BLOCK_DEPTH {
+            return Ok(Some(EntityError::Nested(site.insert.block.as_str().into())));
+        }
+        if let Some(trouble) = site.place(self.reader)?.layer.fault() {
+            return Ok(Some(trouble));
+        }
+        let is_clipped = self.is_clipped(site.insert.dictionary)?;
+        Ok(is_clipped.then(|| site.left_out(&INSERT_CLIPPED, Arc::default())))
     }
 
     /// Whether an insertion with this extension dictionary has a clipping boundary, so that only a part of its block is visible.
@@ -236,21 +236,20 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// Adds the contents of a block at each of these placements.
     fn add_copies(
         &mut self,
-        traits: &CommonProperties,
-        layer: LayerId,
+        site: &Site<'_, 'a>,
         block: BlockId,
         copies: impl Iterator<Item = Placement>,
-        around: &EntityContext,
     ) -> Result<(), Fatal> {
-        let placed = place_entity(self.reader, traits, layer, around)?;
-        let insertion = Insertion { layer, line_type: placed.line_type.clone(), origin: placed.origin };
+        let placed = site.place(self.reader)?;
+        let insertion =
+            Insertion { layer: site.layer, line_type: placed.line_type.clone(), origin: placed.origin };
         let frozen = placed.frozen.or(placed.layer.is_frozen.then_some(&placed.layer.name)).cloned();
         let is_invisible = placed.is_invisible;
         let mut inside = EntityContext { placement: None, insertion: Some(insertion), is_invisible, frozen };
         let items = self.blocks.items(block, self.reader)?;
         self.open.push(block);
         for copy in copies {
-            inside.placement = Some(around.placement.map_or(copy, |outer| outer.composed_after(&copy)));
+            inside.placement = Some(site.around.placement.map_or(copy, |outer| outer.composed_after(&copy)));
             for item in items.iter() {
                 self.steps.spend(1)?;
                 self.add_item(item.clone(), &inside)?;
@@ -261,15 +260,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     }
 
     /// Reports PB111 for a block on a wanted layer that draws nothing visible, except for hatches, on layers that are read, but something on others.
-    fn check_elsewhere(
-        &mut self,
-        traits: &CommonProperties,
-        layer: LayerId,
-        block: BlockId,
-        insert: &Insert<'a>,
-        around: &EntityContext,
-    ) -> Result<(), Fatal> {
-        if !self.reader.layers.is_kept(layer) {
+    fn check_elsewhere(&mut self, site: &Site<'_, 'a>, block: BlockId) -> Result<(), Fatal> {
+        if !self.reader.layers.is_kept(site.layer) {
             return Ok(());
         }
         let layers = self.blocks.drawn_layers(block, self.reader, &mut self.steps)?;
@@ -277,33 +269,20 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             return Ok(());
         }
         if self.reader.options.compatible {
-            let placed = place_entity(self.reader, traits, layer, around)?;
+            let placed = site.place(self.reader)?;
             self.collector.ignore(&placed);
             return Ok(());
         }
-        let trouble = EntityError::LeftOut {
-            message: &BLOCK_ELSEWHERE,
-            point: insert.array.as_ref().ok().map(Array::begin),
-            block: Some(insert.block.as_str().into()),
-            layers,
-        };
-        self.refuse_insertion(traits, &[layer], &trouble, around)
+        self.refuse_insertion(site, &[site.layer], &site.left_out(&BLOCK_ELSEWHERE, layers))
     }
 
     /// Reports a missing block that is inserted on a layer that is not read. Reports nothing if that layer, or that of an insertion around it, is
     /// frozen, or in compatible mode.
-    fn note_missing(
-        &mut self,
-        traits: &CommonProperties,
-        layer: LayerId,
-        block: &str,
-        point: Option<Point>,
-        around: &EntityContext,
-    ) -> Result<(), Fatal> {
+    fn note_missing(&mut self, site: &Site<'_, 'a>) -> Result<(), Fatal> {
         let is_compatible = self.reader.options.compatible;
-        let placed = place_entity(self.reader, traits, layer, around)?;
+        let placed = site.place(self.reader)?;
         if !is_compatible && !placed.layer.is_frozen && placed.frozen.is_none() {
-            self.collector.note_missing_block(&placed, block, point);
+            self.collector.note_missing_block(&placed, &site.insert.block, site.point());
         }
         Ok(())
     }
@@ -311,18 +290,32 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// Reports a faulty insertion once for each wanted layer on which it draws.
     fn refuse_insertion(
         &mut self,
-        traits: &CommonProperties,
+        site: &Site<'_, 'a>,
         layers: &[LayerId],
         trouble: &EntityError<'a>,
-        around: &EntityContext,
     ) -> Result<(), Fatal> {
         for layer in layers {
             if self.reader.layers.is_kept(*layer) {
-                let placed = place_entity(self.reader, traits, *layer, around)?;
+                let placed = place_entity(self.reader, site.traits, *layer, site.around)?;
                 self.collector.add(&placed, Err(trouble.clone()))?;
             }
         }
         Ok(())
+    }
+}
+
+impl<'a> Site<'_, 'a> {
+    fn point(&self) -> Option<Point> {
+        self.insert.array.as_ref().ok().map(Array::begin)
+    }
+
+    fn left_out(&self, message: &'static Message, layers: Arc<[SmolStr]>) -> EntityError<'a> {
+        let block = Some(self.insert.block.as_str().into());
+        EntityError::LeftOut { message, point: self.point(), block, layers }
+    }
+
+    fn place<'p>(&'p self, reader: &'p mut EntityReader<'_, '_>) -> Result<PlacedEntity<'p>, Fatal> {
+        place_entity(reader, self.traits, self.layer, self.around)
     }
 }
 
