@@ -192,13 +192,10 @@ impl<'s> MilledStock<'s> {
         self.parts(|part, path, number| {
             draw_defects(canvas, part, &frame.of_path(path), &format!("{id}-inside-{number}"));
         });
-        let mut hits = String::new();
-        for (index, hit) in self.hits.iter().enumerate() {
-            let SweptArea { way, diameter } = self.area(*hit);
-            hits.push_str(&path_data(&way, &place));
-            if self.hits.get(index + 1).is_none_or(|next| self.area(*next).diameter != diameter) {
-                stroke(canvas, &std::mem::take(&mut hits), diameter * place.scale(), WRONG_COLOUR);
-            }
+        let hits: Vec<SweptArea> = self.hits.iter().map(|hit| swept_area(&self.paths, *hit)).collect();
+        for run in hits.chunk_by(|hit, next| hit.diameter == next.diameter) {
+            let data: String = run.iter().map(|hit| path_data(&hit.way, &place)).collect();
+            stroke(canvas, &data, run[0].diameter * place.scale(), WRONG_COLOUR);
         }
         canvas.close();
         draw_uncut_parts(canvas, self.scene, &place);
@@ -219,40 +216,25 @@ impl<'s> MilledStock<'s> {
 
     /// Draws strokes, combining consecutive ones that look alike to a single path, up to [`MAX_COMBINED_STROKES`].
     fn strokes(&self, canvas: &mut Canvas, place: &PageTransform, strokes: &[Stroke]) {
-        let mut all = String::new();
-        let mut count = 0;
-        for (index, next) in strokes.iter().enumerate() {
-            let SweptArea { way, diameter } = next.area(&self.paths);
-            all.push_str(&path_data(&way, place));
-            count += 1;
-            let is_alike = |other: &Stroke| {
-                other.kind == next.kind
-                    && other.z == next.z
-                    && other.is_marked == next.is_marked
-                    && other.diameter == diameter
-            };
-            if count < MAX_COMBINED_STROKES && strokes.get(index + 1).is_some_and(is_alike) {
-                continue;
-            }
-            count = 0;
+        let look = |stroke: &Stroke| (stroke.kind, stroke.z, stroke.is_marked, stroke.diameter);
+        let alike = strokes.chunk_by(|stroke, next| look(stroke) == look(next));
+        for combined in alike.flat_map(|alike| alike.chunks(MAX_COMBINED_STROKES)) {
+            let areas = combined.iter().map(|stroke| stroke.area(&self.paths));
+            let data: String = areas.map(|area| path_data(&area.way, place)).collect();
+            let (kind, z, is_marked, diameter) = look(&combined[0]);
             let width = diameter * place.scale();
-            let data = std::mem::take(&mut all);
-            match next.kind {
+            match kind {
                 StrokeKind::Edge | StrokeKind::ThroughEdge => {
                     stroke(canvas, &data, width + 2.0 * EDGE_WIDTH, EDGE_COLOUR);
                 }
                 StrokeKind::Cut | StrokeKind::Through => {
-                    let through = (next.kind == StrokeKind::Through).then_some(THROUGH_COLOUR);
-                    let mark = next.is_marked.then_some(self.mark);
-                    let color = mark.or(through).map_or_else(|| self.color(next.z), str::to_owned);
+                    let through = (kind == StrokeKind::Through).then_some(THROUGH_COLOUR);
+                    let mark = is_marked.then_some(self.mark);
+                    let color = mark.or(through).map_or_else(|| self.color(z), str::to_owned);
                     stroke(canvas, &data, width, &color);
                 }
             }
         }
-    }
-
-    fn area(&self, at: MovePiece) -> SweptArea {
-        swept_area(&self.paths, at)
     }
 
     /// Whether the shape of any cutter, and so the cross-section of its cuts, is unknown.
