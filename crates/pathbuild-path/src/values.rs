@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
 use crate::approx::{above, at_least, is_written_above};
-use pathbuild_motion::{ChipLoad, check_cutting_length};
+use pathbuild_motion::ChipLoad;
 
 use crate::language::DoubtThresholds;
 use crate::letter::{ElementClass, Letter, LetterUse, Letters};
@@ -152,7 +152,7 @@ impl<'t> Values<'t> {
     }
 
     /// Returns T. One that is not positive counts as faulty: with the surface at Z0, no other height can be compared with it.
-    fn thickness(&self) -> GivenNumber {
+    pub(crate) fn thickness(&self) -> GivenNumber {
         match self.number(Letter::T) {
             GivenNumber::Number(thickness) if !above(thickness, 0.0) => GivenNumber::Faulty,
             thickness => thickness,
@@ -367,13 +367,13 @@ impl LimitCheck<'_> {
     }
 }
 
-/// Returns the finding about a mark with this bottom in mm, and whether the bottom is the path's D rather than the mark's own.
+/// Returns the finding about a mark with this bottom in mm.
 pub(crate) fn check_mark(
     bottom: f64,
     own: &Values<'_>,
     path: &Values<'_>,
     limits: &DoubtThresholds,
-) -> Option<(Diagnostic, bool)> {
+) -> Option<Diagnostic> {
     let thickness = path.thickness().number()?;
     let depth = thickness - bottom;
     let is_own = own.has(Letter::D);
@@ -391,23 +391,7 @@ pub(crate) fn check_mark(
         .with("thickness", thickness)
         .with("usual", usual)
         .with("example", thickness - usual);
-    let says = if is_own { own } else { path };
-    Some((says.underline(Letter::D, problem), !is_own))
-}
-
-/// Returns the finding about a cut with this bottom in mm that is deeper than the cutting edges of the tool are long, and whether the bottom is the
-/// path's value of `letter` rather than the cut's own.
-pub(crate) fn check_cutting_depth(
-    bottom: f64,
-    letter: Letter,
-    own: &Values<'_>,
-    path: &Values<'_>,
-    length: Option<f64>,
-) -> Option<(Diagnostic, bool)> {
-    let problem = check_cutting_length(length?, bottom, path.thickness().number()?)?;
-    let is_own = own.has(letter);
-    let says = if is_own { own } else { path };
-    Some((says.underline(letter, problem), !is_own))
+    Some(problem)
 }
 
 /// Half of the last of three decimals, in mm.
@@ -432,33 +416,20 @@ const USUAL_INFEED: f64 = 0.5;
 /// Thickness in mm below which a support bar is too weak to hold a part, in material of twice that thickness or more.
 const MIN_BAR_THICKNESS: f64 = 0.1;
 
-/// Returns the finding about support bars with this upper edge in mm, and whether the edge is the path's D rather than their own.
-pub(crate) fn check_bar(top: f64, own: &Values<'_>, path: &Values<'_>) -> Option<(Diagnostic, bool)> {
+/// Returns the finding about support bars with this upper edge in mm.
+pub(crate) fn check_bar(top: f64, path: &Values<'_>) -> Option<Diagnostic> {
     let thickness = path.thickness().number()?;
     if !above(MIN_BAR_THICKNESS.min(thickness / 2.0), top) {
         return None;
     }
-    let problem = Diagnostic::new(&messages::THIN_BARS)
-        .with("value", top)
-        .with("example", USUAL_BAR_THICKNESS.min(thickness / 2.0));
-    let is_own = own.has(Letter::D);
-    let says = if is_own { own } else { path };
-    Some((says.underline(Letter::D, problem), !is_own))
+    let problem = Diagnostic::new(&messages::THIN_BARS).with("value", top);
+    Some(problem.with("example", USUAL_BAR_THICKNESS.min(thickness / 2.0)))
 }
 
-/// Returns the finding about support bars of this length in mm, and whether the length is the path's P rather than their own.
-pub(crate) fn check_bar_length(
-    length: f64,
-    own: &Values<'_>,
-    path: &Values<'_>,
-) -> Option<(Diagnostic, bool)> {
-    if above(length, MAX_WEAK_BRIDGE) {
-        return None;
-    }
-    let problem = Diagnostic::new(&messages::SHORT_BARS).with("value", length);
-    let is_own = own.has(Letter::P);
-    let says = if is_own { own } else { path };
-    Some((says.underline(Letter::P, problem), !is_own))
+/// Returns the finding about support bars of this length in mm.
+pub(crate) fn check_bar_length(length: f64) -> Option<Diagnostic> {
+    let is_weak = !above(length, MAX_WEAK_BRIDGE);
+    is_weak.then(|| Diagnostic::new(&messages::SHORT_BARS).with("value", length))
 }
 
 /// Returns the findings about the values that `own` gives and that have an effect on the element. `path`: the values of the path.
@@ -469,96 +440,147 @@ pub(crate) fn check_doubts(
     limits: &DoubtThresholds,
     chip_load: Option<ChipLoad>,
 ) -> Vec<Diagnostic> {
-    let value = |letter| {
-        let has_effect =
-            !matches!(class.use_of(letter), LetterUse::Unknown | LetterUse::Ignored | LetterUse::PathOnly);
-        own.number(letter).number().filter(|_| has_effect)
-    };
-    let thickness = path.thickness().number();
-    let is_surface_zero =
-        path.thickness() == GivenNumber::Faulty && path.number(Letter::T) != GivenNumber::Faulty;
-    let is_below = |bottom: &f64| above(-bottom, limits.below_plate) && !is_surface_zero;
-    let below = value(Letter::B).filter(is_below).map(|bottom| {
+    let doubts = DoubtCheck { own, path, class, limits };
+    let found = [
+        doubts.below_plate(),
+        doubts.high_sweep(),
+        doubts.infeed(),
+        doubts.machine_feed(),
+        doubts.chip_load(chip_load),
+        doubts.lowered(),
+        doubts.pecks(),
+        doubts.thousands(),
+    ];
+    let zeros = LENGTHS.into_iter().filter_map(|letter| doubts.zero_before_number(letter));
+    found.into_iter().flatten().chain(zeros).collect()
+}
+
+struct DoubtCheck<'a> {
+    own: &'a Values<'a>,
+    path: &'a Values<'a>,
+    class: ElementClass,
+    limits: &'a DoubtThresholds,
+}
+
+impl DoubtCheck<'_> {
+    /// Returns the value that the element's own text gives, if it has an effect on the element.
+    fn value(&self, letter: Letter) -> Option<f64> {
+        let has_effect = !matches!(
+            self.class.use_of(letter),
+            LetterUse::Unknown | LetterUse::Ignored | LetterUse::PathOnly
+        );
+        self.own.number(letter).number().filter(|_| has_effect)
+    }
+
+    fn thickness(&self) -> Option<f64> {
+        self.path.thickness().number()
+    }
+
+    fn below_plate(&self) -> Option<Diagnostic> {
+        let is_surface_zero = self.path.thickness() == GivenNumber::Faulty
+            && self.path.number(Letter::T) != GivenNumber::Faulty;
+        let bottom = self.value(Letter::B)?;
         let depth = -bottom;
-        let problem = match thickness.filter(|thickness| at_least(*thickness, depth)) {
+        if is_surface_zero || !above(depth, self.limits.below_plate) {
+            return None;
+        }
+        let problem = match self.thickness().filter(|thickness| at_least(*thickness, depth)) {
             Some(thickness) => Diagnostic::new(&messages::BELOW_PLATE_BY_DEPTH)
                 .with("thickness", thickness)
                 .with("example", thickness - depth),
             None => Diagnostic::new(&messages::BELOW_PLATE),
         };
-        let problem = problem.with("value", bottom).with("depth", depth).with("limit", limits.below_plate);
-        own.underline(Letter::B, problem)
-    });
-    let swept_high = value(Letter::S)
-        .zip(thickness)
-        .filter(|(height, thickness)| above(*height, thickness + MAX_SWEEP_CLEARANCE));
-    let swept_high = swept_high.map(|(height, thickness)| {
+        let problem = problem.with("value", bottom).with("depth", depth);
+        Some(self.own.underline(Letter::B, problem.with("limit", self.limits.below_plate)))
+    }
+
+    fn high_sweep(&self) -> Option<Diagnostic> {
+        let (height, thickness) = (self.value(Letter::S)?, self.thickness()?);
+        if !above(height, thickness + MAX_SWEEP_CLEARANCE) {
+            return None;
+        }
         let problem = Diagnostic::new(&messages::HIGH_SWEEP)
             .with("value", height)
             .with("clearance", height - thickness)
             .with("example", thickness + USUAL_SWEEP_CLEARANCE);
-        own.underline(Letter::S, problem)
-    });
-    let infeed = value(Letter::I)
-        .zip(thickness)
-        .filter(|(infeed, thickness)| above(*infeed, limits.infeed * thickness));
-    let infeed = infeed.map(|(infeed, thickness)| {
-        let limit = limits.infeed * thickness;
-        let message = if above(infeed, thickness) {
-            &messages::INFEED_ABOVE_THICKNESS
-        } else {
-            &messages::INFEED_ABOVE_SHARE
+        Some(self.own.underline(Letter::S, problem))
+    }
+
+    fn infeed(&self) -> Option<Diagnostic> {
+        let (infeed, thickness) = (self.value(Letter::I)?, self.thickness()?);
+        let limit = self.limits.infeed * thickness;
+        let message = match above(infeed, thickness) {
+            _ if !above(infeed, limit) => return None,
+            true => &messages::INFEED_ABOVE_THICKNESS,
+            false => &messages::INFEED_ABOVE_SHARE,
         };
         let problem = Diagnostic::new(message).with("value", infeed).with("thickness", thickness);
-        own.underline(Letter::I, problem.with("limit", limit).with("example", USUAL_INFEED.min(limit)))
-    });
-    let feed = value(Letter::F).zip(limits.maximum_feed).filter(|(feed, maximum)| above(*feed, *maximum));
-    let feed = feed.map(|(feed, maximum)| {
-        let problem = Diagnostic::new(&messages::FEED_ABOVE_MACHINE).with("value", feed);
-        own.underline(Letter::F, problem.with("limit", maximum))
-    });
-    // A drill cuts along its axis, so the chip load of milling does not apply to its feed.
-    let is_milled = !matches!(class, ElementClass::DrilledHole | ElementClass::DrilledMark);
-    let milling_feed = value(Letter::F).filter(|_| is_milled);
-    let chips = chip_load.zip(milling_feed).and_then(|(limits, feed)| limits.check(feed, None));
-    let chips = chips.map(|problem| own.underline(Letter::F, problem));
-    let lowered = value(Letter::H).filter(|height| above(0.0, *height)).map(|height| {
-        let message =
-            if class == ElementClass::Probe { &messages::LOWERED_PROBE } else { &messages::LOWERED };
+        let problem = problem.with("limit", limit).with("example", USUAL_INFEED.min(limit));
+        Some(self.own.underline(Letter::I, problem))
+    }
+
+    fn machine_feed(&self) -> Option<Diagnostic> {
+        let (feed, maximum) = (self.value(Letter::F)?, self.limits.maximum_feed?);
+        let problem = || Diagnostic::new(&messages::FEED_ABOVE_MACHINE).with("value", feed);
+        above(feed, maximum).then(|| self.own.underline(Letter::F, problem().with("limit", maximum)))
+    }
+
+    /// A drill cuts along its axis, so the chip load of milling does not apply to its feed.
+    fn chip_load(&self, limits: Option<ChipLoad>) -> Option<Diagnostic> {
+        let is_drilled = matches!(self.class, ElementClass::DrilledHole | ElementClass::DrilledMark);
+        let problem = limits.filter(|_| !is_drilled)?.check(self.value(Letter::F)?, None)?;
+        Some(self.own.underline(Letter::F, problem))
+    }
+
+    fn lowered(&self) -> Option<Diagnostic> {
+        let height = self.value(Letter::H).filter(|height| above(0.0, *height))?;
+        let is_probe = self.class == ElementClass::Probe;
+        let message = if is_probe { &messages::LOWERED_PROBE } else { &messages::LOWERED };
         let problem = Diagnostic::new(message).with("value", height).with("depth", -height);
-        own.underline(Letter::H, problem)
-    });
-    let pecks = value(Letter::C).filter(|_| !limits.has_cycles).map(|_| {
+        Some(self.own.underline(Letter::H, problem))
+    }
+
+    fn pecks(&self) -> Option<Diagnostic> {
+        self.value(Letter::C).filter(|_| !self.limits.has_cycles)?;
         let problem = Diagnostic::new(&messages::PECKS_WITHOUT_CYCLES).with("letter", Letter::C.as_char());
-        own.underline(Letter::C, problem)
-    });
-    let thousands = value(Letter::F).and_then(|feed| thousands_doubt(own, feed));
-    let zeros = LENGTHS.into_iter().filter_map(|letter| zero_doubt(own, letter, value(letter)?));
-    [below, swept_high, infeed, feed, chips, lowered, pecks, thousands]
-        .into_iter()
-        .flatten()
-        .chain(zeros)
-        .collect()
+        Some(self.own.underline(Letter::C, problem))
+    }
+
+    /// Returns the finding about a feed like F1.200 or F1,200, which was probably meant as 1200 mm/min.
+    fn thousands(&self) -> Option<Diagnostic> {
+        let (feed, written) = (self.value(Letter::F)?, self.own.text(Letter::F)?);
+        let (thousands, rest) = written.split_once(['.', ','])?;
+        if rest.len() != 3 || !(MIN_FEED..MIN_FEED_WITH_DECIMALS).contains(&feed) {
+            return None;
+        }
+        let meant = [thousands, rest].concat();
+        let meant = meant.trim_start_matches(['+', '0']);
+        let problem = Diagnostic::new(&messages::FEED_WITH_THOUSANDS)
+            .quoting("written", written)
+            .with("value", feed)
+            .quoting("meant", format!("F{meant}"));
+        Some(self.own.underline(Letter::F, problem))
+    }
+
+    /// Returns the finding about a length like I03, which was probably meant as 0.3 mm.
+    fn zero_before_number(&self, letter: Letter) -> Option<Diagnostic> {
+        let (length, written) = (self.value(letter)?, self.own.text(letter)?);
+        let sign = if length < 0.0 { "-" } else { "" };
+        let digits = written.trim_start_matches(['+', '-']).trim_end_matches(['.', ',']).strip_prefix('0')?;
+        if length == 0.0 || digits.is_empty() || !digits.bytes().all(|digit| digit.is_ascii_digit()) {
+            return None;
+        }
+        let problem = Diagnostic::new(&messages::ZERO_BEFORE_NUMBER)
+            .with("letter", letter.as_char())
+            .quoting("written", written)
+            .with("value", length)
+            .quoting("meant", format!("{}{sign}0.{digits}", letter.as_char()));
+        Some(self.own.underline(letter, problem))
+    }
 }
 
 /// Feed in mm/min below which three decimals were probably meant as thousands: F1.200 is slower than any cutter should go.
 const MIN_FEED_WITH_DECIMALS: f64 = 10.0;
-
-/// Returns the finding about a feed like F1.200 or F1,200, which was probably meant as 1200 mm/min.
-fn thousands_doubt(own: &Values<'_>, feed: f64) -> Option<Diagnostic> {
-    let written = own.text(Letter::F)?;
-    let (thousands, rest) = written.split_once(['.', ','])?;
-    if rest.len() != 3 || !(MIN_FEED..MIN_FEED_WITH_DECIMALS).contains(&feed) {
-        return None;
-    }
-    let meant = [thousands, rest].concat();
-    let meant = meant.trim_start_matches(['+', '0']);
-    let problem = Diagnostic::new(&messages::FEED_WITH_THOUSANDS)
-        .quoting("written", written)
-        .with("value", feed)
-        .quoting("meant", format!("F{meant}"));
-    Some(own.underline(Letter::F, problem))
-}
 
 /// The letters with lengths in mm.
 const LENGTHS: [Letter; 12] = [
@@ -575,19 +597,3 @@ const LENGTHS: [Letter; 12] = [
     Letter::U,
     Letter::W,
 ];
-
-/// Returns the finding about a length like I03, which was probably meant as 0.3 mm.
-fn zero_doubt(own: &Values<'_>, letter: Letter, length: f64) -> Option<Diagnostic> {
-    let written = own.text(letter)?;
-    let sign = if length < 0.0 { "-" } else { "" };
-    let digits = written.trim_start_matches(['+', '-']).trim_end_matches(['.', ',']).strip_prefix('0')?;
-    if length == 0.0 || digits.is_empty() || !digits.bytes().all(|digit| digit.is_ascii_digit()) {
-        return None;
-    }
-    let problem = Diagnostic::new(&messages::ZERO_BEFORE_NUMBER)
-        .with("letter", letter.as_char())
-        .quoting("written", written)
-        .with("value", length)
-        .quoting("meant", format!("{}{sign}0.{digits}", letter.as_char()));
-    Some(own.underline(letter, problem))
-}

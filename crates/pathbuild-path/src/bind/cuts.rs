@@ -61,8 +61,8 @@ impl Binder<'_> {
     pub(super) fn bars(&mut self, scope: &Scope<'_>, length: f64, tool: Option<f64>) -> Option<Bars> {
         let [top, bar, distance] = [Letter::D, Letter::P, Letter::U].map(|letter| self.value(scope, letter));
         let bars = Bars { top: top?, length: bar?, distance: distance? };
-        self.report_doubt(scope, check_bar(bars.top, scope.values, &self.values));
-        self.report_doubt(scope, check_bar_length(bars.length, scope.values, &self.values));
+        self.report_doubt(scope, Letter::D, check_bar(bars.top, &self.values));
+        self.report_doubt(scope, Letter::P, check_bar_length(bars.length));
         let (tool, count) = (tool?, bars.count(length));
         let pitch = length / count;
         if count > 0.0 && !at_least(pitch, bars.length + tool) {

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::{drawing, parameters as messages, paths};
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
-use pathbuild_motion::ChipLoad;
+use pathbuild_motion::{ChipLoad, check_cutting_length};
 use smol_str::SmolStr;
 
 use crate::approx::{above, is_negligible};
@@ -28,7 +28,7 @@ use crate::path::{
 };
 use crate::raw::{DrawingFaults, Faults, RawPath, WalkCertainty};
 use crate::text::{LetterValue, ParameterText, TextId};
-use crate::values::{GivenNumber, Values, check_cutting_depth, check_doubts, check_limits, check_mark};
+use crate::values::{GivenNumber, Values, check_doubts, check_limits, check_mark};
 use crate::variables::{Bindings, Interpolation};
 
 /// The outcome of binding a path that may have errors: as much of the path as is known, and the problems with its values.
@@ -311,22 +311,22 @@ impl<'a> Binder<'a> {
         let bottom = self.value(scope, cut.depth())?;
         let doubts = &self.language.doubts;
         let doubt = (cut == Cut::Mark).then(|| check_mark(bottom, scope.values, &self.values, doubts));
-        self.report_doubt(scope, doubt.flatten());
+        self.report_doubt(scope, Letter::D, doubt.flatten());
         let length = self.tool.as_ref().and_then(|tool| tool.cutting_length);
-        let doubt = check_cutting_depth(bottom, cut.depth(), scope.values, &self.values, length);
-        self.report_doubt(scope, doubt);
+        let depth = length.zip(self.values.thickness().number());
+        let doubt = depth.and_then(|(length, thickness)| check_cutting_length(length, bottom, thickness));
+        self.report_doubt(scope, cut.depth(), doubt);
         Some(bottom)
     }
 
-    /// Reports a doubt about a value, at the element or, if it is the path's own value, once at the start.
-    fn report_doubt(&mut self, scope: &Scope<'_>, doubt: Option<(Diagnostic, bool)>) {
-        match doubt {
-            Some((problem, false)) => self.report(scope.at, problem),
-            Some((problem, true)) if !self.doubted_at_start.contains(&problem.message.key) => {
-                self.doubted_at_start.push(problem.message.key);
-                self.report_at_start(problem);
-            }
-            _ => {}
+    /// Reports a doubt about the value of a letter, at the element or, if only the path gives the letter, once at the start.
+    fn report_doubt(&mut self, scope: &Scope<'_>, letter: Letter, doubt: Option<Diagnostic>) {
+        let Some(problem) = doubt else { return };
+        if scope.values.has(letter) {
+            self.report(scope.at, scope.values.underline(letter, problem));
+        } else if !self.doubted_at_start.contains(&problem.message.key) {
+            self.doubted_at_start.push(problem.message.key);
+            self.report_at_start(self.values.underline(letter, problem));
         }
     }
 
