@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
+use rstar::{AABB, Envelope as _, RTree};
 use smol_str::SmolStr;
 
 use crate::approx::{above, is_negligible};
@@ -176,6 +176,13 @@ impl Outline {
         let ray = AABB::from_corners([point.x, point.y], [right.max(point.x), point.y]);
         let crossings = self.pieces.locate_in_envelope_intersecting(ray);
         crossings.map(|piece| piece.data.crossing(point)).sum::<i32>() != 0
+    }
+
+    /// Whether a ring lies inside, judged by four points of each of its curves.
+    pub(crate) fn encloses(&self, ring: &[Curve]) -> bool {
+        let extent = self.extent();
+        let mut points = ring.iter().flat_map(Curve::quarters);
+        points.all(|at| extent.contains_point(&[at.x, at.y]) && self.contains(at))
     }
 }
 

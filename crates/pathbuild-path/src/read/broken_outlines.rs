@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Point};
+use rstar::RTree;
 use rstar::primitives::GeomWithData;
-use rstar::{Envelope as _, RTree};
 
 use crate::element::diagnostic_point;
 use crate::geometry::{Curve, Line, Xy};
@@ -36,11 +36,8 @@ pub(super) struct BrokenOutline {
     pub(super) problem: Option<Diagnostic>,
     /// The ends of a chain that crosses itself.
     overlong: Option<(Point, Point)>,
-    border: EnclosedArea,
+    border: Outline,
 }
-
-/// The area inside a closed sequence of curves.
-struct EnclosedArea(Outline);
 
 /// The outlines of a layer, sorted into those that can be compared with cuts and those that cannot.
 pub(super) struct SortedOutlines {
@@ -84,7 +81,9 @@ impl SortedOutlines {
         for half in open_halves(&rings, &hanging).into_iter().filter(|half| is_outermost[half.ring]) {
             curves_of_halves.extend(half.curves);
             if !std::mem::replace(&mut is_left_out[half.ring], true) {
-                broken.push(BrokenOutline::closed_half(&rings[half.ring]));
+                // The open half reports the gap.
+                let closed = &rings[half.ring];
+                broken.push(BrokenOutline::new(closed[0].0, closed[0].1.start(), None, &curves_of(closed)));
             }
             broken.push(half.outline);
         }
@@ -102,7 +101,7 @@ impl SortedOutlines {
         broken.extend(overshooting);
         let mut is_kept = is_left_out.into_iter().map(|is_left_out| !is_left_out);
         rings.retain(|_| is_kept.next().unwrap_or(true));
-        let boxes = BoxIndex::new(broken.iter().map(|broken| broken.border.0.extent()));
+        let boxes = BoxIndex::new(broken.iter().map(|broken| broken.border.extent()));
         let overlong = broken.iter().filter_map(|broken| broken.overlong).collect();
         Self { rings, broken, open, boxes, overlong }
     }
@@ -120,21 +119,14 @@ impl SortedOutlines {
 }
 
 impl BrokenOutline {
-    /// Describes a ring that crosses itself or another one.
-    fn crossing_ring(message: &'static Message, ring: &NumberedCurves, crossing: &Crossing) -> Self {
-        Self {
-            curve: ring[crossing.first.0].0,
-            at: crossing.at,
-            problem: Some(Diagnostic::new(message).with("point", diagnostic_point(crossing.at))),
-            overlong: None,
-            border: EnclosedArea::new(&curves_of(ring)),
-        }
+    fn new(curve: usize, at: Xy, problem: Option<Diagnostic>, border: &[Curve]) -> Self {
+        Self { curve, at, problem, overlong: None, border: Outline::new(border) }
     }
 
-    /// Describes the half of an outline that a line closes, while the other half has a gap.
-    fn closed_half(ring: &NumberedCurves) -> Self {
-        let border = EnclosedArea::new(&curves_of(ring));
-        Self { curve: ring[0].0, at: ring[0].1.start(), problem: None, overlong: None, border }
+    /// Describes a ring that crosses itself or another one.
+    fn crossing_ring(message: &'static Message, ring: &NumberedCurves, crossing: &Crossing) -> Self {
+        let problem = Diagnostic::new(message).with("point", diagnostic_point(crossing.at));
+        Self::new(ring[crossing.first.0].0, crossing.at, Some(problem), &curves_of(ring))
     }
 
     /// Returns the outline that an open chain was probably meant to be: its ends cross or almost meet, or it is drawn round a ring.
@@ -146,7 +138,7 @@ impl BrokenOutline {
         let own = curves_of(chain);
         let crossing = self_crossing(&own)?;
         let between = crossing.between(&own);
-        let border = EnclosedArea::new(&between);
+        let border = Outline::new(&between);
         let is_most = length(&between) >= MIN_CHAIN_SHARE * length(&own);
         (is_most || rims.has_any_inside(&border)).then(|| Self {
             overlong: own
@@ -163,13 +155,10 @@ impl BrokenOutline {
         let (curve, at, other) = ends_of_chain(chain)?;
         let gap = (at - other).norm();
         let closing = Line { start: own.last()?.end(), end: own.first()?.start() };
-        let border = EnclosedArea::new(&[&own[..], &[Curve::Line(closing)]].concat());
-        if gap > NEAR_MISS_DISTANCE && gap > MAX_RELATIVE_GAP * length(&own) && !rims.has_any_inside(&border)
-        {
-            return None;
-        }
         let problem = (gap > NEAR_MISS_DISTANCE).then(|| gap_problem(at, other));
-        Some(Self { curve, at, problem, overlong: None, border })
+        let closed = Self::new(curve, at, problem, &[&own[..], &[Curve::Line(closing)]].concat());
+        let is_small = gap <= NEAR_MISS_DISTANCE || gap <= MAX_RELATIVE_GAP * length(&own);
+        (is_small || rims.has_any_inside(&closed.border)).then_some(closed)
     }
 }
 
@@ -195,15 +184,10 @@ fn overshooting(chains: &[NumberedCurves]) -> Vec<BrokenOutline> {
         let whole: f64 = own.iter().map(|chain| length(&curves_of(&chains[*chain]))).sum();
         let inside = curves_of(&ring);
         let at = inside[0].start();
-        (length(&inside) >= MIN_CHAIN_SHARE * whole).then(|| BrokenOutline {
-            curve: curves[pieces[ring[0].0].0].1,
-            at,
-            problem: Some(
-                Diagnostic::new(&messages::OUTLINE_CROSSES_ITSELF).with("point", diagnostic_point(at)),
-            ),
-            overlong: None,
-            border: EnclosedArea::new(&inside),
-        })
+        let problem = Diagnostic::new(&messages::OUTLINE_CROSSES_ITSELF).with("point", diagnostic_point(at));
+        let is_most = length(&inside) >= MIN_CHAIN_SHARE * whole;
+        let curve = curves[pieces[ring[0].0].0].1;
+        is_most.then(|| BrokenOutline::new(curve, at, Some(problem), &inside))
     };
     graph.rings().into_iter().filter_map(outline).collect()
 }
@@ -250,16 +234,15 @@ fn sides_outside<'c>(
     hanging: &'c [NumberedCurves],
     nodes: &RTree<NumberedPoint>,
 ) -> Vec<OpenSide<'c>> {
-    let mut borders: BTreeMap<usize, EnclosedArea> = BTreeMap::new();
+    let mut borders: BTreeMap<usize, Outline> = BTreeMap::new();
     let ring_at = |at: Xy| {
         nodes.locate_within_distance([at.x, at.y], JOIN_DISTANCE * JOIN_DISTANCE).map(|node| node.data).min()
     };
     let mut sides: Vec<OpenSide<'c>> =
         hanging.iter().filter_map(|chain| OpenSide::new(chain, ring_at)).collect();
     sides.retain(|side| {
-        let border =
-            borders.entry(side.ring).or_insert_with(|| EnclosedArea::new(&curves_of(&rings[side.ring])));
-        !border.0.contains(side.middle())
+        let border = borders.entry(side.ring).or_insert_with(|| Outline::new(&curves_of(&rings[side.ring])));
+        !border.contains(side.middle())
     });
     sides
 }
@@ -333,13 +316,8 @@ impl<'c> OpenSide<'c> {
         border.retain(|curve| curve.length() > 0.0);
         // Two ends that almost meet are reported in pairs.
         let is_reported = gap <= JOIN_DISTANCE || other.is_some() && gap <= NEAR_MISS_DISTANCE;
-        let outline = BrokenOutline {
-            curve: self.chain.last()?.0,
-            at: self.end,
-            problem: (!is_reported).then(|| gap_problem(self.end, to)),
-            overlong: None,
-            border: EnclosedArea::new(&border),
-        };
+        let problem = (!is_reported).then(|| gap_problem(self.end, to));
+        let outline = BrokenOutline::new(self.chain.last()?.0, self.end, problem, &border);
         let both = self.chain.iter().chain(other.into_iter().flat_map(|other| other.chain));
         Some(OpenHalf { ring: self.ring, outline, curves: both.map(|(number, _)| *number).collect() })
     }
@@ -360,19 +338,6 @@ pub(super) fn gap_problem(end: Xy, other: Xy) -> Diagnostic {
         .with("distance", (other - end).norm())
 }
 
-impl EnclosedArea {
-    fn new(curves: &[Curve]) -> Self {
-        Self(Outline::new(curves))
-    }
-
-    /// Whether a ring lies inside the border, judged by four points of each of its curves.
-    fn encloses(&self, ring: &[Curve]) -> bool {
-        let extent = self.0.extent();
-        let mut points = ring.iter().flat_map(Curve::quarters);
-        points.all(|at| extent.contains_point(&[at.x, at.y]) && self.0.contains(at))
-    }
-}
-
 /// Rings that lie in no other ring.
 struct OutermostRings {
     rings: Vec<Vec<Curve>>,
@@ -388,8 +353,8 @@ impl OutermostRings {
         Self { rings, points, budget: Cell::new(MAX_COMPARED_PAIRS) }
     }
 
-    fn has_any_inside(&self, border: &EnclosedArea) -> bool {
-        let near: Vec<usize> = self.points.near(border.0.extent()).collect();
+    fn has_any_inside(&self, border: &Outline) -> bool {
+        let near: Vec<usize> = self.points.near(border.extent()).collect();
         self.budget.set(self.budget.get().saturating_sub(near.len()));
         self.budget.get() > 0 && near.into_iter().any(|ring| border.encloses(&self.rings[ring]))
     }
