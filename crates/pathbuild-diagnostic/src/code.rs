@@ -65,7 +65,7 @@ macro_rules! codes {
             }
 
             /// Returns the default severity.
-            pub fn severity(self) -> Severity {
+            pub const fn severity(self) -> Severity {
                 match self { $(Self::$variant => Severity::$severity,)* }
             }
 

@@ -63,7 +63,7 @@ impl Diagnostic {
     pub fn new(message: &'static Message) -> Self {
         Self {
             message,
-            severity: message.code.severity(),
+            severity: message.severity,
             arguments: Vec::new(),
             notes: Vec::new(),
             file: None,
@@ -82,6 +82,16 @@ impl Diagnostic {
     /// Whether the diagnostic is an error, so that the path gets no program.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
+    }
+
+    /// Returns this diagnostic as an error, whatever it was.
+    pub fn as_error(self) -> Self {
+        Self { severity: Severity::Error, ..self }
+    }
+
+    /// Returns this diagnostic as a warning, whatever it was.
+    pub fn as_warning(self) -> Self {
+        Self { severity: Severity::Warning, ..self }
     }
 
     /// Returns the message as a sentence, with its values.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::location::{Number, Point, with_decimal_separator};
 use crate::words::{Lang, NONE, Text, interned_name, interned_text};
-use crate::{Code, shown};
+use crate::{Code, Severity, shown};
 
 /// A [`Text`] with the values of its arguments, for use in another message: "it has 17219 bytes, the limit is 1000".
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -44,6 +44,8 @@ pub(crate) type Arguments = Vec<(&'static str, Value)>;
 pub struct Message {
     /// Code under which the message is reported. A note has the code of the diagnostics that it usually accompanies.
     pub code: Code,
+    /// Severity, unless the place that reports the message changes it. Usually that of the code.
+    pub severity: Severity,
     /// Unique name, derived from the names of the static and its module. It is stable within a version, for caches and tests.
     pub key: &'static str,
     /// Description of the problem.
@@ -78,7 +80,7 @@ impl Serialize for Message {
 pub enum Value {
     /// A name or a piece of source text, the same in every language.
     Quoted(Box<str>),
-    /// A length in mm, or a feed in mm/min.
+    /// A measured or computed number, such as a length in mm, a feed in mm/min or a spindle speed in 1/min.
     Number(Number),
     /// A number of things, without a unit.
     Count(u64),

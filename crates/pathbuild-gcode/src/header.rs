@@ -636,9 +636,9 @@ fn vcarve_tool(comment: &str) -> Option<Statement> {
     let tip = match name.trim() {
         "End Mill" => Tip::Flat,
         "Ball Nose" | "Engrave" | "Form Tool" | "Drill" | "Tapered Ball Nose" => Tip::Unknown,
+        // This includes V-bits, whose size is an angle in degrees.
         _ => return None,
     };
-    // The size of a V-bit is an angle in degrees.
     Some(tool(Scope::Number(number.trim().parse().ok()?), positive(diameter)?, tip, unit_named(unit)?))
 }
 

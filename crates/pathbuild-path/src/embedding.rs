@@ -4,7 +4,7 @@
 use std::iter;
 
 use pathbuild_diagnostic::messages::{parameters, paths as messages};
-use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, Value, is_slip};
+use pathbuild_diagnostic::{Diagnostic, TextFault, Value, is_slip};
 use regex::Regex;
 use smol_str::SmolStr;
 
@@ -392,7 +392,7 @@ impl<'a> SubpathChecker<'a> {
             return Vec::new();
         }
         let warning = Diagnostic::new(&messages::MORE_THAN_NAME).quoting("value", &**value);
-        vec![as_warning(self.at_name(call, warning.quoting("name", name.as_str())))]
+        vec![self.at_name(call, warning.quoting("name", name.as_str())).as_warning()]
     }
 
     /// Whether the name is only part of a longer word, so that another path is meant.
@@ -558,7 +558,8 @@ impl<'a> SubpathChecker<'a> {
             let problem =
                 if is_same { self.other_tool_problem(inner) } else { Some(self.other_cutter_problem(inner)) };
             let at = |problem| self.at(call, problem, call.fault(Letter::O));
-            let soften = |problem| if self.is_compatible { as_warning(problem) } else { problem };
+            let soften =
+                |problem: Diagnostic| if self.is_compatible { problem.as_warning() } else { problem };
             problems.extend(problem.map(at).map(soften));
         }
         let is_known = !self.outer.unknown.and(subpath.unknown).contains(Letter::T);
@@ -605,7 +606,7 @@ impl<'a> SubpathChecker<'a> {
                 .quoting("here", here.name.as_str())
                 .quoting("name", inner.name.as_str())
                 .quoting("there", there.name.as_str());
-            if is_doubt { as_warning(problem) } else { problem }
+            if is_doubt { problem.as_warning() } else { problem }
         };
         is_other.then(problem)
     }
@@ -634,7 +635,7 @@ impl<'a> SubpathChecker<'a> {
         };
         let problem = self.at(call, problem, call.fault(Letter::T));
         let is_doubt = self.is_compatible || self.outer.material.is_none();
-        Some(if is_doubt { as_warning(problem) } else { problem })
+        Some(if is_doubt { problem.as_warning() } else { problem })
     }
 
     /// Whether the material of an embedded path is another sheet than that of the embedding path: it lies on shims (a positive H), or has another
@@ -703,11 +704,6 @@ impl<'a> SubpathChecker<'a> {
     fn at_name(&self, call: &SubpathCall, diagnostic: Diagnostic) -> Diagnostic {
         self.at(call, diagnostic, call.fault(Letter::Embed))
     }
-}
-
-fn as_warning(mut diagnostic: Diagnostic) -> Diagnostic {
-    diagnostic.severity = Severity::Warning;
-    diagnostic
 }
 
 const MAX_NAMES_IN_NOTE: usize = 5;

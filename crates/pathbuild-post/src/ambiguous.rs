@@ -1,4 +1,4 @@
-//! Finds output lines that no control executes unambiguously. This matters for definitions without a dialect, because the reader of a dialect reports
+//! Finds output lines that contradict themselves or that controls execute differently. This matters for definitions without a dialect, because the reader of a dialect reports
 //! most of these lines as errors. (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};

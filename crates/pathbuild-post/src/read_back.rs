@@ -250,11 +250,7 @@ fn bent_rapids(steps: &[Step], job: &Job, cuts: &[MatchedCut], target: &Target) 
     for step in steps {
         rules.step(step);
     }
-    let mut found = rules.finish(steps);
-    for bent in &mut found {
-        bent.severity = Severity::Error;
-    }
-    found
+    rules.finish(steps).into_iter().map(Diagnostic::as_error).collect()
 }
 
 /// Returns errors about rapid moves with the length of another tool than the one in the spindle. Lengths of cuts are compared with the job.

@@ -46,10 +46,10 @@ pub fn size(file: &Utf8Path) -> Option<u64> {
 /// # Errors
 /// The reason why it cannot be read. It must be a regular file of at most `limit` bytes.
 pub fn read(system: &dyn System, file: &Utf8Path, limit: u64) -> Result<String, Value> {
-    utf_8(system.read(file, limit).map_err(|error| error.reason(limit))?)
+    decode_utf8(system.read(file, limit).map_err(|error| error.reason(limit))?)
 }
 
-pub(crate) fn utf_8(bytes: Vec<u8>) -> Result<String, Value> {
+pub(crate) fn decode_utf8(bytes: Vec<u8>) -> Result<String, Value> {
     String::from_utf8(bytes).map_err(|_| Value::Prose(&NOT_UTF_8))
 }
 

@@ -289,7 +289,7 @@ impl<'db> PlacedProgram<'db> {
         parts.collect()
     }
 
-    /// Returns the middle lines of the bars that cuts of other paths, or of their own path in a turned embedding, take away.
+    /// Returns the centre lines of the bars that cuts of other paths, or of their own path in a turned embedding, take away.
     fn lost_bars(&self) -> Vec<Curve> {
         let numbers = 0..self.paths.len();
         let pairs = numbers.clone().flat_map(|owner| numbers.clone().map(move |cutting| (owner, cutting)));

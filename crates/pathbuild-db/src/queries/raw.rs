@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pathbuild_diagnostic::messages::parameters as messages;
-use pathbuild_diagnostic::{Diagnostic, Point, Severity};
+use pathbuild_diagnostic::{Diagnostic, Point};
 use pathbuild_dxf::Drawing;
 use pathbuild_path::{
     AssignedText, Bindings, CaseSensitiveName, Combinations, Definition, PathName, Position, RawPath,
@@ -168,12 +168,11 @@ pub fn combinations(
         } else {
             &messages::COMBINATIONS_CUT
         };
-        let mut warning = Diagnostic::new(message)
+        let warning = Diagnostic::new(message)
             .with("checked", chosen.len())
             .with("all", all)
             .in_path(raw.name.as_str())
             .in_file(file.path(db));
-        warning.severity = Severity::Warning;
         match &raw.start {
             Some(start) => start.origin.at(warning),
             None => warning,

@@ -269,14 +269,14 @@ messages! {
     UNUSED_CONFIGURATION: UnusedConfiguration {
         en: "this configuration does not apply: the run uses {used} here, too",
         de: "diese Konfiguration gilt nicht: der Lauf verwendet auch hier {used}",
-        help_en: "give this directory a run of its own, or remove the file",
+        help_en: "run pathbuild on this directory separately, or remove the file",
         help_de: "für dieses Verzeichnis pathbuild einzeln aufrufen oder die Datei entfernen",
     }
     /// A configuration in a subdirectory, which has no effect because the run has no configuration.
     UNUSED_WITHOUT_ANY: UnusedConfiguration {
         en: "this configuration does not apply: the run uses none, because there is no pathbuild.toml in the directory where it starts, or above it",
         de: "diese Konfiguration gilt nicht: der Lauf verwendet keine, weil es in seinem Ausgangsverzeichnis und darüber keine pathbuild.toml gibt",
-        help_en: "give this directory a run of its own, or name the intended configuration with --config",
+        help_en: "run pathbuild on this directory separately, or name the intended configuration with --config",
         help_de: "für dieses Verzeichnis pathbuild einzeln aufrufen oder die gemeinte Konfiguration mit --config nennen",
     }
     /// A baseline file that cannot be read.

@@ -224,14 +224,14 @@ messages! {
         help_de: "die Verschiebung vor dem Wechsel der Einheit aufheben und danach neu setzen",
     }
     /// A hole with an R, Z or Q that was stated before a change of the unit.
-    CYCLE_IN_OTHER_UNIT: UnitChanged {
+    CYCLE_IN_OTHER_UNIT: UnitChanged as Error {
         en: "this hole takes {word} from line {line}, in {unit}: after the change of the unit, controls such as LinuxCNC read the number as {other}",
         de: "diese Bohrung nimmt {word} aus Zeile {line}, in {unit}: nach dem Wechsel der Einheit lesen Steuerungen wie LinuxCNC die Zahl als {other}",
         help_en: "write R, Z and Q again in the new unit",
         help_de: "R, Z und Q in der neuen Einheit noch einmal angeben",
     }
     /// G20 and G21 in one program, for a control on which the unit is a setting of the machine.
-    UNIT_IS_SETTING: UnitChanged {
+    UNIT_IS_SETTING: UnitChanged as Error {
         en: "{word} contradicts the unit before it: {dialect} has one unit, that of Setting 9, and stops with an alarm",
         de: "{word} widerspricht der Einheit davor: {dialect} hat nur eine Einheit, die aus Setting 9, und hält mit einem Alarm an",
         help_en: "write the whole program in one unit",

@@ -93,7 +93,7 @@ messages! {
     }
     /// A second M code in a line, which older controls ignore.
     SECOND_M_LOST: IgnoredWord {
-        en: "older controls of {dialect} obey only one M code on a line: {first} or {second} is lost",
+        en: "older {dialect} controls execute only one M code per line: {first} or {second} is lost",
         de: "ältere Steuerungen von {dialect} führen je Zeile nur ein M-Wort aus: {first} oder {second} geht verloren",
         help_en: "write {second} on a line of its own, or accept this warning with `--accept` if the control takes several (parameter 3404#7)",
         help_de: "{second} in eine eigene Zeile schreiben oder die Warnung mit `--accept` hinnehmen, wenn die Steuerung mehrere annimmt (Parameter 3404#7)",
@@ -288,7 +288,7 @@ messages! {
         help_de: "diese Zeilen oder das frühere Programmende entfernen",
     }
     /// Lines after M2 or M30 that the control executes nevertheless.
-    RUN_AFTER_END: AfterProgramEnd {
+    RUN_AFTER_END: AfterProgramEnd as Error {
         en: "{dialect} also runs this line and those after it, despite the M2 or M30 in line {line}; they are not checked",
         de: "{dialect} führt auch diese und die folgenden Zeilen aus, trotz M2 oder M30 in Zeile {line}; sie werden nicht geprüft",
         help_en: "remove these lines, or put them into a file of their own; to stop in the middle of a program, use M0",

@@ -45,8 +45,8 @@ messages! {
     }
     /// A configuration into which values cannot be inserted automatically.
     NOT_EDITABLE: UnreadableDescription {
-        en: "the values cannot be inserted into this configuration",
-        de: "die Werte lassen sich in diese Konfiguration nicht einsetzen",
+        en: "the values cannot be inserted: this file is not valid TOML, or `machine`, `tool` or a tool in it is not a table",
+        de: "die Werte lassen sich nicht einsetzen: diese Datei ist kein gültiges TOML, oder `machine`, `tool` oder ein Werkzeug darin ist keine Tabelle",
         help_en: "write the values into the file by hand",
         help_de: "die Werte von Hand in die Datei schreiben",
     }

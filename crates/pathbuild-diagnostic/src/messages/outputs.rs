@@ -10,8 +10,8 @@ messages! {
     }
     /// A pattern that matches several paths, where exactly one is needed.
     SEVERAL_MATCHES: SeveralPaths {
-        en: "{pattern} matches several paths: {names}",
-        de: "{pattern} passt auf mehrere Pfade: {names}",
+        en: "{pattern} matches several paths or drawings: {names}",
+        de: "{pattern} passt auf mehrere Pfade oder Zeichnungen: {names}",
         help_en: "name one of them",
         help_de: "einen davon nennen",
     }
@@ -210,21 +210,21 @@ messages! {
     STALE_ADJUSTED: StaleOutput {
         en: "{name} was made from an older version of {clean}",
         de: "{name} wurde aus einer älteren Fassung von {clean} erzeugt",
-        help_en: "do not mill with it: run adjust again with the current probe values; emit --remove-stale removes it",
+        help_en: "do not mill with it: run `adjust` again with the current probe values; emit --remove-stale removes it",
         help_de: "nicht damit fräsen: adjust mit den aktuellen Messwerten noch einmal aufrufen; emit --remove-stale entfernt die Datei",
     }
     /// An adjusted program that was edited afterwards, or that lacks the measured heights in its header.
     STALE_EDITED: StaleOutput {
         en: "{name} is not what adjust makes of {clean} with the measured heights in its header",
         de: "{name} ist nicht das, was adjust mit den gemessenen Höhen seines Kopfs aus {clean} erzeugt",
-        help_en: "do not mill with it: run adjust again; the file was edited, or adjusted by an older version",
+        help_en: "do not mill with it: run `adjust` again; the file was edited, or adjusted by an older version",
         help_de: "nicht damit fräsen: noch einmal adjust aufrufen; die Datei wurde bearbeitet oder von einer älteren Version angepasst",
     }
     /// An adjusted program that was made with other heights than those measured now.
     STALE_VALUES: StaleOutput {
         en: "{name} was adjusted with other heights than {values} has now",
         de: "{name} wurde mit anderen Höhen angepasst, als {values} jetzt hat",
-        help_en: "do not mill with it: run adjust again",
+        help_en: "do not mill with it: run `adjust` again",
         help_de: "nicht damit fräsen: noch einmal adjust aufrufen",
     }
     /// An outdated program that was written by another post-processor.

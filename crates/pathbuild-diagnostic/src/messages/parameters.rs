@@ -705,14 +705,14 @@ messages! {
         help_de: "den Zirkelbezug auflösen: ein Wert darf auf andere Variablen verweisen, aber nicht auf sich selbst zurück",
     }
     /// More combinations of values than are checked.
-    COMBINATIONS_CUT: LimitReached {
+    COMBINATIONS_CUT: LimitReached as Warning {
         en: "{checked} of {all} combinations of the variables' values were checked",
         de: "{checked} von {all} Kombinationen der Variablenwerte wurden geprüft",
         help_en: "check the project if a certain combination matters: projects are checked with the values that they set; here each value occurred in at least one combination",
         help_de: "kommt es auf eine bestimmte Kombination an, das Projekt prüfen: Projekte werden mit den Werten geprüft, die sie setzen; hier kam jeder Wert in mindestens einer Kombination vor",
     }
     /// More values of one variable than combinations are checked.
-    VALUES_CUT: LimitReached {
+    VALUES_CUT: LimitReached as Warning {
         en: "{checked} of {all} combinations of the variables' values were checked, and not even each value",
         de: "{checked} von {all} Kombinationen der Variablenwerte wurden geprüft, und nicht einmal jeder Wert",
         help_en: "check the projects that embed the path: projects are checked with the values that they set",

@@ -259,8 +259,8 @@ messages! {
     PROBING_INTO_CLAMP: InsideKeepOut {
         en: "in the probing program the tool, O{tool}, hits the clamp of layer {layer} {clamp}, which is {height} mm high: {what}, lowest Z {z}, moves: {count}",
         de: "im Antastprogramm trifft der Fräser, O{tool}, das Spannmittel auf Layer {layer} {clamp}, das {height} mm hoch ist: {what}, tiefstes Z {z}, Bewegungen: {count}",
-        help_en: "draw the probe at least half of O away from the outline, or move the clamp; for the straight rapids at S from probe to probe, raise S to {height} or more",
-        help_de: "die Probe mindestens O/2 vom Umriss entfernt zeichnen oder das Spannmittel versetzen; für die geraden Eilgänge auf S von Probe zu Probe S auf {height} oder mehr erhöhen",
+        help_en: "draw the probe at least half of O away from the clamp's outline, or move the clamp; for the straight rapids at S from probe to probe, raise S to {height} or more",
+        help_de: "die Probe mindestens O/2 vom Umriss des Spannmittels entfernt zeichnen oder das Spannmittel versetzen; für die geraden Eilgänge auf S von Probe zu Probe S auf {height} oder mehr erhöhen",
     }
     /// A path of a joined program that moves into a clamp of another path's drawing.
     JOINED_INTO_CLAMP: InsideKeepOut {
@@ -308,8 +308,8 @@ messages! {
     NAME_WITHOUT_POINT: InvalidPathName {
         en: "\"{value}\" is not a path name",
         de: "\"{value}\" ist kein Pfadname",
-        help_en: "write \">{meant}\": an underscore means a point only in names of layers",
-        help_de: "\">{meant}\" schreiben: nur in Layernamen steht ein Unterstrich für einen Punkt",
+        help_en: "write \">{meant}\": in a text, a path name is written with a point, not with an underscore or comma",
+        help_de: "\">{meant}\" schreiben: in Texten steht im Pfadnamen ein Punkt, kein Unterstrich oder Komma",
     }
     /// Further text after the name.
     MORE_THAN_NAME: InvalidPathName {

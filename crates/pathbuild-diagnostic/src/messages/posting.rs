@@ -524,8 +524,8 @@ messages! {
     JOB_MOVE: NothingToPost {
         en: "a move of this kind (an arc of several turns, probing away from the material) cannot be written through a post",
         de: "eine Bewegung dieser Art (ein Bogen mit mehreren Umläufen, Antasten vom Material weg) kann kein Postprozessor schreiben",
-        help_en: "write an arc of several turns as single turns; leave probing to a program of the machine's own",
-        help_de: "einen Bogen mit mehreren Umläufen als einzelne Umläufe schreiben; das Antasten einem Programm der Maschine überlassen",
+        help_en: "write an arc of several turns as single turns; leave probing away from the material to a program written for the machine",
+        help_de: "einen Bogen mit mehreren Umläufen als einzelne Umläufe schreiben; das Antasten vom Material weg einem Programm überlassen, das für die Maschine geschrieben ist",
     }
     /// A definition's command that failed or could not be run.
     POST_BUILD_FAILED: PostBuildFailed {

@@ -89,63 +89,63 @@ messages! {
     SWEEP_BELOW_MEASURED: CorrectionTooLarge {
         en: "the material was measured up to Z {surface}, but the program moves at rapid at Z {z} before its first cut and after its last one",
         de: "das Material reicht nach der Messung bis Z {surface}, aber vor dem ersten und nach dem letzten Schnitt fährt das Programm mit Eilgang auf Z {z}",
-        help_en: "this height is the S of the path, which is not corrected: write a greater S in the drawing, and emit again",
+        help_en: "this height is the S of the path, which is not corrected: write a greater S in the drawing, and run `emit` again",
         help_de: "diese Höhe ist das S des Pfads, das nicht korrigiert wird: in der Zeichnung S höher setzen und noch einmal emit aufrufen",
     }
     /// A rapid move that leads over material that was measured as high as the move, or higher.
     SWEEP_INTO_MEASURED: CorrectionTooLarge {
         en: "this rapid move is at Z {z}, but at {at} the material reaches up to Z {surface} according to the probes",
         de: "dieser Eilgang fährt auf Z {z}, aber bei {at} reicht das Material nach den Proben bis Z {surface}",
-        help_en: "a rapid move keeps the correction of the place where it begins: write a greater S in the drawing, and emit again",
+        help_en: "a rapid move keeps the correction of the place where it begins: write a greater S in the drawing, and run `emit` again",
         help_de: "ein Eilgang behält die Korrektur der Stelle, an der er beginnt: in der Zeichnung S höher setzen und noch einmal emit aufrufen",
     }
     /// Cuts through the material that end above the plate after the correction.
-    RAISED_ABOVE_PLATE: CorrectionTooLarge {
+    RAISED_ABOVE_PLATE: CorrectionTooLarge as Warning {
         en: "cuts down to the plate (Z 0) or below it now end above it, up to Z {z}: they may no longer go through",
         de: "Schnitte bis auf die Platte (Z 0) oder tiefer enden jetzt darüber, bis Z {z}: sie gehen womöglich nicht mehr durch",
-        help_en: "if the sheet lies flat on the plate and is thicker than drawn, correct T in the drawing and run emit again, or write a lower B; if the sheet bulges, its underside is raised as well and the cuts go through: change nothing",
+        help_en: "if the sheet lies flat on the plate and is thicker than drawn, correct T in the drawing and run `emit` again, or write a lower B; if the sheet bulges, its underside is raised as well and the cuts go through: change nothing",
         help_de: "liegt das Blech eben auf der Platte und ist dicker als gezeichnet, T in der Zeichnung berichtigen und noch einmal emit aufrufen, oder B tiefer setzen; wölbt sich das Blech, liegt auch seine Unterseite höher, und die Schnitte gehen durch: nichts ändern",
     }
     /// Cuts that a correction takes too far below the plate.
-    LOWERED_BELOW_PLATE: CorrectionTooLarge {
+    LOWERED_BELOW_PLATE: CorrectionTooLarge as Warning {
         en: "the correction takes cuts down to Z {z}: {depth} mm below the plate",
         de: "die Korrektur führt Schnitte bis Z {z} hinunter: {depth} mm unter die Platte",
-        help_en: "if the sheet is thinner than drawn, correct T in the drawing and run emit again, or write a higher B; set `below-plate` under [warnings] to allow more than {limit} mm",
+        help_en: "if the sheet is thinner than drawn, correct T in the drawing and run `emit` again, or write a higher B; set `below-plate` under [warnings] to allow more than {limit} mm",
         help_de: "ist das Blech dünner als gezeichnet, T in der Zeichnung berichtigen und noch einmal emit aufrufen, oder B höher setzen; mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
     }
     /// A formula that uses a probe which the file of measured values does not contain.
     UNKNOWN_PROBE: UnknownProbe {
         en: "the formula uses #{probe}, which {file} does not have",
         de: "die Formel verwendet #{probe}, das es in {file} nicht gibt",
-        help_en: "emit again, and measure with the new program: both files must come from the same run of emit",
+        help_en: "run `emit` again, and measure with the new program: both files must come from the same run of emit",
         help_de: "noch einmal ausgeben und mit dem neuen Programm messen: beide Dateien müssen vom selben Lauf von emit stammen",
     }
     /// A probe in the file of measured values that its program does not have.
     PROBE_OF_OTHER_PROGRAM: UnknownProbe {
         en: "{file} was written without a probe #{probe}",
         de: "{file} wurde ohne die Probe #{probe} geschrieben",
-        help_en: "emit again, and measure with the new program: both files must come from the same run of emit",
+        help_en: "run `emit` again, and measure with the new program: both files must come from the same run of emit",
         help_de: "noch einmal ausgeben und mit dem neuen Programm messen: beide Dateien müssen vom selben Lauf von emit stammen",
     }
     /// A probe in the program at another position than in the file of measured values.
     OTHER_PROBE: UnknownProbe {
         en: "#{probe} is {here} here, but {file} was written with {there}",
         de: "#{probe} ist hier {here}, aber {file} wurde mit {there} geschrieben",
-        help_en: "emit again, and measure with the new program: the drawing has changed since",
+        help_en: "run `emit` again, and measure with the new program: the drawing has changed since",
         help_de: "noch einmal ausgeben und mit dem neuen Programm messen: die Zeichnung hat sich seither geändert",
     }
     /// A probe with an unknown expected height: its line has an older form, and no formula contains the height.
     NO_EXPECTED_HEIGHT: InvalidProbeLine {
         en: "neither this line nor a formula says how high #{probe} was drawn, so its value cannot be checked",
         de: "weder diese Zeile noch eine Formel sagt, in welcher Höhe #{probe} gezeichnet ist; der Wert lässt sich nicht prüfen",
-        help_en: "write the line as ([X Y]/T=HEIGHT) #{probe}=VALUE, or emit again and measure with the new program",
+        help_en: "write the line as ([X Y]/T=HEIGHT) #{probe}=VALUE, or run `emit` again and measure with the new program",
         help_de: "die Zeile als ([X Y]/T=HÖHE) #{probe}=WERT schreiben oder noch einmal ausgeben und mit dem neuen Programm messen",
     }
     /// A formula that lacks a value.
     VALUE_EXPECTED: InvalidFormula {
         en: "the formula needs a number, #51 or a bracket here",
         de: "die Formel braucht hier eine Zahl, #51 oder eine Klammer",
-        help_en: "emit again and use the new program: the formula was damaged or edited",
+        help_en: "run `emit` again and use the new program: the formula was damaged or edited",
         help_de: "noch einmal ausgeben und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
     }
     /// A formula that lacks an operator.
@@ -159,7 +159,7 @@ messages! {
     UNCLOSED: InvalidFormula {
         en: "the `)` that closes the formula is missing",
         de: "die schließende Klammer `)` der Formel fehlt",
-        help_en: "emit again and use the new program: the line was cut off",
+        help_en: "run `emit` again and use the new program: the line was cut off",
         help_de: "noch einmal ausgeben und das neue Programm verwenden: die Zeile ist abgeschnitten",
     }
     /// A malformed number in a formula.
@@ -173,28 +173,28 @@ messages! {
     TOO_DEEP: InvalidFormula {
         en: "brackets in the formula are nested more than {limit} levels deep",
         de: "Klammern in der Formel sind mehr als {limit} Ebenen tief verschachtelt",
-        help_en: "emit again and use the new program: formulas of pathbuild have only one level",
+        help_en: "run `emit` again and use the new program: formulas of pathbuild have only one level",
         help_de: "noch einmal ausgeben und das neue Programm verwenden: Formeln von pathbuild haben nur eine Ebene",
     }
     /// A formula that divides by zero.
     DIVISION_BY_ZERO: InvalidFormula {
         en: "the formula divides by 0 here",
         de: "die Formel teilt hier durch 0",
-        help_en: "emit again and use the new program: the formula was damaged or edited",
+        help_en: "run `emit` again and use the new program: the formula was damaged or edited",
         help_de: "noch einmal ausgeben und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
     }
     /// A formula with a value that is too large for a number.
     NOT_FINITE: InvalidFormula {
         en: "the formula's value is too large for a number",
         de: "der Wert der Formel ist zu groß für eine Zahl",
-        help_en: "emit again and use the new program: the formula was damaged or edited",
+        help_en: "run `emit` again and use the new program: the formula was damaged or edited",
         help_de: "noch einmal ausgeben und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
     }
     /// A program that is already adjusted.
     ADJUSTED_BEFORE: InvalidFormula {
         en: "this program has been adjusted already",
         de: "dieses Programm ist schon angepasst",
-        help_en: "emit again, or use the original file: adjust needs the _Clean.gcode as emit wrote it",
+        help_en: "run `emit` again, or use the original file: adjust needs the _Clean.gcode as emit wrote it",
         help_de: "noch einmal ausgeben oder die ursprüngliche Datei verwenden: adjust braucht die _Clean.gcode, wie emit sie geschrieben hat",
     }
     /// A file with measured values of other probes, which would be overwritten.
@@ -222,14 +222,14 @@ messages! {
     END_TOO_HIGH: OutsideProbes {
         en: "this cut ends {off} mm too high at {at}: it keeps the correction of the place where it begins",
         de: "dieser Schnitt endet bei {at} {off} mm zu hoch: er behält die Korrektur der Stelle, an der er beginnt",
-        help_en: "set `z-split`, for example `z-split = 20`, and emit again: cuts are then split, and each piece is corrected at its end",
+        help_en: "set `z-split`, for example `z-split = 20`, and run `emit` again: cuts are then split, and each piece is corrected at its end",
         help_de: "`z-split` setzen, zum Beispiel `z-split = 20`, und noch einmal emit aufrufen: dann werden Schnitte geteilt und jedes Stück an seinem Ende korrigiert",
     }
     /// A cut that ends lower than it should according to the probes, because it keeps the correction of the place where it begins.
     END_TOO_LOW: OutsideProbes {
         en: "this cut ends {off} mm too low at {at}: it keeps the correction of the place where it begins",
         de: "dieser Schnitt endet bei {at} {off} mm zu tief: er behält die Korrektur der Stelle, an der er beginnt",
-        help_en: "set `z-split`, for example `z-split = 20`, and emit again: cuts are then split, and each piece is corrected at its end",
+        help_en: "set `z-split`, for example `z-split = 20`, and run `emit` again: cuts are then split, and each piece is corrected at its end",
         help_de: "`z-split` setzen, zum Beispiel `z-split = 20`, und noch einmal emit aufrufen: dann werden Schnitte geteilt und jedes Stück an seinem Ende korrigiert",
     }
     /// A measured height that differs strongly from those of the neighbouring probes.
@@ -243,11 +243,11 @@ messages! {
     UNUSED: UnusedProbe {
         en: "no formula in {file} uses #{probe}",
         de: "keine Formel in {file} verwendet #{probe}",
-        help_en: "if formulas were removed or changed, emit again and use the new program; if the probe lies too far from everything that is milled, remove it from the drawing",
+        help_en: "if formulas were removed or changed, run `emit` again and use the new program; if the probe lies too far from everything that is milled, remove it from the drawing",
         help_de: "wurden Formeln entfernt oder geändert, noch einmal ausgeben und das neue Programm verwenden; liegt die Probe zu weit von allem, was gefräst wird, sie aus der Zeichnung entfernen",
     }
     /// A probe that corrects no height, reported when the program is written.
-    WILL_BE_UNUSED: UnusedProbe {
+    WILL_BE_UNUSED: UnusedProbe as Warning {
         en: "the probe {probe} corrects no height of this path",
         de: "die Probe {probe} korrigiert keine Höhe dieses Pfads",
         help_en: "remove the probe, or move it nearer to what is milled: other probes are nearer everywhere",
@@ -257,28 +257,28 @@ messages! {
     EDITED_PROGRAM: OldProgram {
         en: "{name} is not what emit writes for {drawing}",
         de: "{name} ist nicht das, was emit für {drawing} schreibt",
-        help_en: "run emit again, then adjust with the same settings (`z-model`, `compatible`): the program was edited, or written with other settings",
+        help_en: "run `emit` again, then adjust with the same settings (`z-model`, `compatible`): the program was edited, or written with other settings",
         help_de: "noch einmal emit aufrufen, dann adjust mit denselben Einstellungen (`z-model`, `compatible`): das Programm wurde bearbeitet oder mit anderen Einstellungen geschrieben",
     }
     /// A program that is older than its drawing.
     OLD_PROGRAM: OldProgram {
         en: "{name} is out of date: {drawing} now produces different moves",
         de: "{name} ist veraltet: {drawing} ergibt jetzt andere Bewegungen",
-        help_en: "run emit again, then adjust with the same options (--feed, --sweep-height)",
+        help_en: "run `emit` again, then adjust with the same options (--feed, --sweep-height)",
         help_de: "noch einmal emit aufrufen, dann adjust mit denselben Optionen (--feed, --sweep-height)",
     }
     /// A program that was written with `--compatible`.
     COMPATIBLE_PROGRAM: OldProgram {
         en: "{name} was written with --compatible: without that option, the drawing gives a different program",
         de: "{name} wurde mit --compatible geschrieben: ohne diese Option ergibt die Zeichnung ein anderes Programm",
-        help_en: "run adjust with --compatible, or run emit again without that option",
+        help_en: "run adjust with --compatible, or run `emit` again without that option",
         help_de: "adjust mit --compatible aufrufen oder emit noch einmal ohne diese Option",
     }
     /// A program that was written without `--compatible`.
     NOT_COMPATIBLE_PROGRAM: OldProgram {
         en: "{name} was written without --compatible: with that option, the drawing gives a different program",
         de: "{name} wurde ohne --compatible geschrieben: mit dieser Option ergibt die Zeichnung ein anderes Programm",
-        help_en: "run adjust without --compatible (`compat` sets that option), or run emit again with it",
+        help_en: "run adjust without --compatible (`compat` sets that option), or run `emit` again with it",
         help_de: "adjust ohne --compatible aufrufen (`compat` setzt diese Option) oder emit noch einmal mit ihr",
     }
 }

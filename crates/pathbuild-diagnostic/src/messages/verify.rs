@@ -212,7 +212,7 @@ messages! {
         help_de: "die Drehzahl mit S angeben: `M3 S12000`",
     }
     /// A cut with the spindle on before any S word. Many controls then use the speed of the previous program.
-    SPINDLE_WITHOUT_SPEED: SpindleOff {
+    SPINDLE_WITHOUT_SPEED: SpindleOff as Warning {
         en: "this is a cutting move at an unknown spindle speed: the program has no S before it, so the control takes the last one, or 0",
         de: "diese Fräsbewegung läuft mit unbekannter Drehzahl: das Programm nennt vorher kein S, die Steuerung nimmt daher das letzte oder 0",
         help_en: "write the speed with S: `M3 S12000`; if it is set at the machine, accept this warning with `--accept`",
@@ -229,81 +229,81 @@ messages! {
     FORMULA_DIFFERS: FormulaDiffers {
         en: "the machine goes to the height {number}, but the correction formula gives {value}",
         de: "die Maschine fährt auf {number}, die Formel ergibt aber {value}",
-        help_en: "emit and adjust again: the program was edited",
+        help_en: "run `emit` and `adjust` again: the program was edited",
         help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
     }
     /// A formula that differs from that in the drawing's program.
     FORMULA_NOT_DRAWN: FormulaDiffers {
         en: "the formula is {found}, the drawing gives {expected}",
         de: "die Formel ist {found}, die Zeichnung ergibt {expected}",
-        help_en: "emit and adjust again: the program was edited, or written with another `z-model`",
+        help_en: "run `emit` and `adjust` again: the program was edited, or written with another `z-model`",
         help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet oder mit einem anderen `z-model` geschrieben",
     }
     /// A probe that differs from that in the drawing's program.
     PROBE_NOT_DRAWN: FormulaDiffers {
-        en: "the program states the probe {found}, the drawing gives {expected}",
-        de: "das Programm nennt die Probe {found}, die Zeichnung ergibt {expected}",
-        help_en: "emit again and measure with the new program",
+        en: "the program has the probe {found}, but the drawing has {expected}",
+        de: "das Programm hat die Probe {found}, die Zeichnung aber {expected}",
+        help_en: "run `emit` again, and measure with the new program",
         help_de: "noch einmal ausgeben und mit dem neuen Programm messen",
     }
     /// A formula with a probe that the program's header does not list.
     PROBE_NOT_STATED: UncheckedFormula {
         en: "the formula uses #{probe}, which the program's header does not state",
         de: "die Formel verwendet #{probe}, das der Kopf des Programms nicht nennt",
-        help_en: "emit and adjust again: the program was edited",
+        help_en: "run `emit` and `adjust` again: the program was edited",
         help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
     }
     /// A formula that was applied, although the program's header does not list a measured height for it.
     HEIGHT_NOT_MEASURED: UncheckedFormula {
         en: "the formula has been worked out, but the program's header does not state the measured height of #{probe}",
         de: "die Formel ist ausgerechnet, der Kopf des Programms nennt aber keine gemessene Höhe von #{probe}",
-        help_en: "run adjust again: an older version adjusted the program, or it was edited",
+        help_en: "run `adjust` again: an older version adjusted the program, or it was edited",
         help_de: "noch einmal adjust aufrufen: eine ältere Version hat das Programm angepasst, oder es wurde bearbeitet",
     }
     /// A formula that was not applied in an adjusted program.
     FORMULA_NOT_APPLIED: UncheckedFormula {
         en: "this formula has not been worked out, although the program's header states measured heights",
         de: "diese Formel ist nicht ausgerechnet, obwohl der Kopf des Programms gemessene Höhen nennt",
-        help_en: "run adjust again",
+        help_en: "run `adjust` again",
         help_de: "noch einmal adjust aufrufen",
     }
     /// A formula in a program without probes.
     FORMULA_WITHOUT_PROBES: UncheckedFormula {
         en: "the program has a correction formula, but no probes",
         de: "das Programm hat eine Korrekturformel, aber keine Proben",
-        help_en: "emit again: the program was edited",
+        help_en: "run `emit` again: the program was edited",
         help_de: "noch einmal ausgeben: das Programm wurde bearbeitet",
     }
     /// A formula without a value, for example because of a division by zero.
     FORMULA_WITHOUT_VALUE: UncheckedFormula {
         en: "the formula has no value: it divides by 0, or its result is too large",
         de: "die Formel hat keinen Wert: sie teilt durch 0, oder ihr Ergebnis ist zu groß",
-        help_en: "emit and adjust again: the program was edited",
+        help_en: "run `emit` and `adjust` again: the program was edited",
         help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
     }
     /// A height without a formula in a program with probes. The height at the start needs none.
     HEIGHT_WITHOUT_FORMULA: UncheckedFormula {
         en: "this height has no correction formula",
         de: "diese Höhe hat keine Korrekturformel",
-        help_en: "emit and adjust again: an editor or the sending program may have removed the formula",
+        help_en: "run `emit` and `adjust` again: an editor or the sending program may have removed the formula",
         help_de: "noch einmal ausgeben und anpassen: ein Editor oder das Sendeprogramm hat die Formel vielleicht entfernt",
     }
     /// A probe that the header lists twice, with different values.
     PROBE_STATED_TWICE: UncheckedFormula {
         en: "the header states #{probe} twice, with different values",
         de: "der Kopf nennt #{probe} zweimal, mit verschiedenen Werten",
-        help_en: "emit and adjust again: the program was edited",
+        help_en: "run `emit` and `adjust` again: the program was edited",
         help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
     }
     /// An adjusted program that does not list its measured heights.
-    HEIGHTS_NOT_STATED: UncheckedFormula {
+    HEIGHTS_NOT_STATED: UncheckedFormula as Warning {
         en: "the program does not state its measured heights, so the numbers before its formulas are not checked",
         de: "das Programm nennt seine gemessenen Höhen nicht; die Zahlen vor den Formeln sind darum nicht geprüft",
         help_en: "adjust the program with pathbuild, which writes the heights into the header",
         help_de: "das Programm mit pathbuild anpassen: adjust schreibt die Höhen in den Kopf",
     }
     /// A program whose formulas `adjust` has not worked out.
-    UNADJUSTED: UncorrectedHeights {
+    UNADJUSTED: UncorrectedHeights as Warning {
         en: "the heights of this program are still to be corrected: a control takes its formulas for comments",
         de: "die Höhen dieses Programms sind noch zu korrigieren: eine Steuerung hält seine Formeln für Kommentare",
         help_en: "run `pathbuild adjust`, and mill with the _Milling.gcode that it writes",
@@ -418,8 +418,8 @@ messages! {
     TIP_STATED_TWICE: HeaderContradiction {
         en: "comments contradict each other about the shape of the tool's tip",
         de: "Kommentare widersprechen sich bei der Form der Werkzeugspitze",
-        help_en: "find out which tool is meant; until then, the check of rapid moves clears material with the smaller one",
-        help_de: "klären, welches Werkzeug gemeint ist; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren",
+        help_en: "find out which tool is meant; until then, the check of rapid moves uses the tip with the smaller flat part",
+        help_de: "klären, welches Werkzeug gemeint ist; bis dahin rechnet die Prüfung der Eilgänge mit der Spitze, deren flacher Teil kleiner ist",
     }
     /// A tool that comments list, and that the program never uses.
     TOOL_NEVER_SELECTED: Disagreement {
@@ -460,7 +460,7 @@ messages! {
     LENGTH_DIFFERS: Disagreement {
         en: "`{label}` states {stated} mm, but the program's moves add up to {length} mm",
         de: "`{label}` nennt {stated} mm, die Bewegungen des Programms ergeben aber {length} mm",
-        help_en: "emit again: the program was edited",
+        help_en: "run `emit` again: the program was edited",
         help_de: "noch einmal ausgeben: das Programm wurde bearbeitet",
     }
     /// A comment after the last one that `emit` writes.
@@ -513,7 +513,7 @@ messages! {
         help_de: "zuerst mit G90 eine Position in X und Y anfahren und prüfen, ob G91 gemeint ist",
     }
     /// A cut at a height that is relative to a machine position, because Z was not stated after G28, G30 or G53.
-    HEIGHT_OF_MACHINE: UnknownPosition {
+    HEIGHT_OF_MACHINE: UnknownPosition as Error {
         en: "the height of this cut counts from a machine position: since G28, G30 or G53, the program has not stated Z",
         de: "die Höhe dieses Schnitts zählt von einer Maschinenposition aus: seit G28, G30 oder G53 hat das Programm kein Z angegeben",
         help_en: "write G90 after G91 G28, and go to a height above the material before the cut",
@@ -597,7 +597,7 @@ messages! {
         help_de: "M3 und S vor den Schnitt schreiben, oder spindle = \"manual\" in pathbuild.toml, wenn der Bediener die Spindel schaltet",
     }
     /// A program with S that never switches the spindle on.
-    SPINDLE_SPEED_WITHOUT_START: SpindleOff {
+    SPINDLE_SPEED_WITHOUT_START: SpindleOff as Warning {
         en: "the program cuts with a speed S, but never switches the spindle on",
         de: "das Programm fräst mit einer Drehzahl S, schaltet aber die Spindel nie ein",
         help_en: "write M3 before the cut, or spindle = \"manual\" in pathbuild.toml if the operator switches the spindle",
@@ -625,7 +625,7 @@ messages! {
         help_de: "das Werkzeug mit G0 Z anheben, bevor es in X oder Y fährt",
     }
     /// A rapid move down beyond the point at which a probe made contact.
-    RAPID_BELOW_CONTACT: ProbeNotRaised {
+    RAPID_BELOW_CONTACT: ProbeNotRaised as Error {
         en: "this rapid move ends {below} mm below the point at which the probing move before it made contact: the tool hits what it has touched",
         de: "dieser Eilgang endet {below} mm unter dem Ende der Antastbewegung davor: das Werkzeug stößt in das, was es berührt hat",
         help_en: "raise the tool after contact: G91 G0 Z with a positive number, or a height above the end of the probing move",
@@ -723,35 +723,35 @@ messages! {
         help_de: "die Länge bis zum letzten Schnitt gelten lassen oder mit G43 H wieder setzen",
     }
     /// A cut before the first G43, although later cuts use a tool length.
-    LENGTH_OF_FIRST_TOOL: WrongToolLength {
+    LENGTH_OF_FIRST_TOOL: WrongToolLength as Warning {
         en: "T{tool} cuts without a tool length, but line {first} applies one to a later cut",
         de: "T{tool} schneidet ohne Werkzeuglänge, Zeile {first} setzt aber eine für einen späteren Schnitt",
         help_en: "set the length of T{tool} after M6, such as `G43 H{tool}`; if all lengths are measured from T{tool}, accept this warning with `--accept`",
         help_de: "nach M6 die Länge von T{tool} setzen, etwa `G43 H{tool}`; werden alle Längen von T{tool} aus gemessen, die Warnung mit `--accept` hinnehmen",
     }
     /// A rapid move that states Z with a tool length that was set before the last M6.
-    RAPID_WITH_OLD_LENGTH: WrongToolLength {
+    RAPID_WITH_OLD_LENGTH: WrongToolLength as Warning {
         en: "for the Z of this rapid move, the tool length still applies that line {set} set before {change} changed the tool: only the controller knows how high the tip is",
         de: "für das Z dieses Eilgangs gilt noch die Werkzeuglänge, die Zeile {set} vor dem Werkzeugwechsel {change} gesetzt hat: nur die Steuerung weiß, wie hoch die Spitze ist",
         help_en: "set the length of the new tool before or in the first line with Z, such as `G43 H2 Z5` for T2",
         help_de: "die Länge des neuen Werkzeugs vor oder in der ersten Zeile mit Z setzen, etwa `G43 H2 Z5` für T2",
     }
     /// A rapid move that states Z after G49 or G43 H0.
-    RAPID_WITHOUT_LENGTH: WrongToolLength {
+    RAPID_WITHOUT_LENGTH: WrongToolLength as Warning {
         en: "the Z of this rapid move is without a tool length, which line {set} switched off: on most controllers, the spindle nose goes there",
         de: "das Z dieses Eilgangs gilt ohne Werkzeuglänge, die Zeile {set} ausgeschaltet hat: auf den meisten Steuerungen fährt die Spindelnase dorthin",
         help_en: "raise the tool before the length is switched off, or go to a position of the machine, such as `G53 G0 Z0`",
         help_de: "anheben, bevor die Länge ausgeschaltet wird, oder zu einer Stelle der Maschine fahren, etwa `G53 G0 Z0`",
     }
     /// A rapid move that states Z after M6 and before the first G43 of the program.
-    RAPID_BEFORE_LENGTH: WrongToolLength {
+    RAPID_BEFORE_LENGTH: WrongToolLength as Warning {
         en: "T{tool} goes to this Z before line {first} sets a tool length: only the controller knows how high the tip is",
         de: "T{tool} fährt auf dieses Z, bevor Zeile {first} eine Werkzeuglänge setzt: nur die Steuerung weiß, wie hoch die Spitze ist",
         help_en: "set the length before or in the first line with Z, such as `G43 H{tool} Z5`",
         help_de: "die Länge vor oder in der ersten Zeile mit Z setzen, etwa `G43 H{tool} Z5`",
     }
     /// A rapid move that states Z with the H of another tool than the one in the spindle.
-    RAPID_WITH_OTHER_LENGTH: WrongToolLength {
+    RAPID_WITH_OTHER_LENGTH: WrongToolLength as Warning {
         en: "for the Z of this rapid move, the length H{entry} applies, but T{tool} is in the spindle: only the controller knows how high the tip is",
         de: "für das Z dieses Eilgangs gilt die Länge H{entry}, in der Spindel ist aber T{tool}: nur die Steuerung weiß, wie hoch die Spitze ist",
         help_en: "write H{tool}, or set the length of the next tool only after M6",
@@ -765,7 +765,7 @@ messages! {
         help_de: "H{tool} schreiben",
     }
     /// A cut with a length that has another number than the tool: `G43 H2` for T1.
-    LENGTH_OF_OTHER_NUMBER: WrongToolLength {
+    LENGTH_OF_OTHER_NUMBER: WrongToolLength as Warning {
         en: "T{tool} cuts with the length H{entry}: the numbers differ",
         de: "T{tool} schneidet mit der Länge H{entry}: die Nummern sind verschieden",
         help_en: "write H{tool}; if H{entry} is the length of T{tool} on this machine, accept this warning with `--accept`",

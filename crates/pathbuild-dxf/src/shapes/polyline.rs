@@ -1,4 +1,4 @@
-//! LWPOLYLINE and two-dimensional POLYLINE as lines and arcs along their middle line. Their width is ignored, since the cutter determines how
+//! LWPOLYLINE and two-dimensional POLYLINE as lines and arcs along their centre line. Their width is ignored, since the cutter determines how
 //! wide a path is milled.
 
 use pathbuild_diagnostic::messages::drawing::POLYLINE_NOT_FLAT;
@@ -9,7 +9,7 @@ use crate::placement::{Placement, angle_of};
 use crate::shapes::{is_mirrored, repeated_number};
 use crate::{Arc, Geometry, Line, Point3};
 
-/// The middle line of a polyline.
+/// The centre line of a polyline.
 #[derive(Clone, Debug)]
 pub(crate) struct Polyline {
     /// The lines and arcs between the vertices.

@@ -62,7 +62,7 @@ fn straight_pieces_become_lines() {
     );
 }
 
-/// Only the middle line is read, so a width is reported, once for each layer.
+/// Only the centre line is read, so a width is reported, once for each layer.
 #[test]
 fn a_width_is_reported() {
     let wide = |name: &str| [format!("PB111 5 the width of {name} is ignored: only its centre line counts")];

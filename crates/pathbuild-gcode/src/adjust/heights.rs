@@ -1,7 +1,7 @@
 //! Compares the heights of a corrected program with the plate and with the measured surface. (book: language/probes)
 
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes as messages;
-use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_path::approx::above;
 use pathbuild_toolpath::ZModel;
 
@@ -85,8 +85,7 @@ impl HeightRules {
         self.applied.push(AppliedCorrection { line: line.number, correction: height - drawn });
         let warning = |message| {
             let problem = line.fault(message, spot.number.start..spot.formula.end).with("z", height);
-            let problem = problem.with("depth", -height).with("limit", self.below_plate);
-            Some((height, Diagnostic { severity: Severity::Warning, ..problem }))
+            Some((height, problem.with("depth", -height).with("limit", self.below_plate)))
         };
         if drawn <= 0.0
             && height > MIN_DIFFERENCE

@@ -346,8 +346,8 @@ pub(super) static RS274: Rules = Rules {
         line_length: Some(LineLength::Whole(256)),
         grammar: Some(Grammar {
             operators: Operators::Nist,
-            names: false,
-            signs: false,
+            has_names: false,
+            has_signs: false,
             parameters: 5399,
             o_words: false,
         }),
@@ -370,8 +370,8 @@ pub(super) static LINUXCNC: Rules = Rules {
         fractional_block_numbers: true,
         grammar: Some(Grammar {
             operators: Operators::LinuxCnc,
-            names: true,
-            signs: true,
+            has_names: true,
+            has_signs: true,
             parameters: 5602,
             o_words: true,
         }),
@@ -472,8 +472,8 @@ pub(super) static MACH3: Rules = Rules {
     spelling: Spelling {
         grammar: Some(Grammar {
             operators: Operators::Nist,
-            names: false,
-            signs: false,
+            has_names: false,
+            has_signs: false,
             parameters: 10_320,
             o_words: false,
         }),
@@ -745,9 +745,9 @@ pub struct Grammar {
     /// The operators and their precedence.
     pub operators: Operators,
     /// Whether there are named parameters, as in `#<name>`.
-    pub names: bool,
+    pub has_names: bool,
     /// Whether a sign may precede `[`, `#` or a function.
-    pub signs: bool,
+    pub has_signs: bool,
     /// Largest number of a parameter; the smallest is 1.
     pub parameters: u32,
     /// Whether there are O words (subroutines, branches).

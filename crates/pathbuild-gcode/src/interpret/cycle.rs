@@ -3,7 +3,6 @@
 //! Names such as "height" and Z assume the plane XY, which is almost always the active one.
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position};
 
 use super::codes::{self, Cycle, Motion};
@@ -136,9 +135,8 @@ impl Interpreter<'_> {
             return;
         }
         self.state.cycle.stated = None;
-        self.report_other_unit(block, &say::CYCLE_IN_OTHER_UNIT, stated, |d| Diagnostic {
-            severity: Severity::Error,
-            ..d.quoting("word", letters.join(", "))
+        self.report_other_unit(block, &say::CYCLE_IN_OTHER_UNIT, stated, |d| {
+            d.quoting("word", letters.join(", "))
         });
     }
 

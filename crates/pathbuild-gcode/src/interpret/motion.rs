@@ -2,7 +2,6 @@
 //! program/reading)
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{
     Action, Arc, Axes, Change, Group, Move, MoveShape, NamedPosition, Pace, Plane, Position, WorkSystem,
 };
@@ -101,8 +100,7 @@ impl Interpreter<'_> {
         let is_straight = matches!(motion, Motion::Rapid | Motion::Feed);
         if self.rules.motion_is_stated && is_straight && !sets_feed {
             self.report(block, &say::NEEDS, span, |d| {
-                let d = d.quoting("word", codes::name('G', code)).with("missing", &limits::ANY_AXIS);
-                Diagnostic { severity: Severity::Warning, ..d }
+                d.quoting("word", codes::name('G', code)).with("missing", &limits::ANY_AXIS).as_warning()
             });
         } else if matches!(code, 382..=385) {
             self.report(block, &say::NEEDS, span, |d| {

@@ -1,7 +1,7 @@
 //! Executes all words of a block that cause no move: tools, spindle, coolant, dwells, modes, stops.
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
+use pathbuild_diagnostic::{Diagnostic, Message, Text};
 use pathbuild_motion::{Action, Axes, Change, Coolant, Corners, Group, Move, ToolLength, Turning};
 
 use super::codes::{self, Command, FeedUnit, Motion};
@@ -435,10 +435,7 @@ impl Interpreter<'_> {
         let contradicts = std::mem::replace(&mut self.state.stated.units, true) && before != self.state.unit;
         let is_refused = contradicts && self.rules.units == UnitChange::Refused;
         if is_refused && !std::mem::replace(&mut self.state.stated.other_unit, true) {
-            self.report(block, &say::UNIT_IS_SETTING, span, |d| {
-                let d = d.quoting("word", codes::name('G', code));
-                Diagnostic { severity: Severity::Error, ..d }
-            });
+            self.report(block, &say::UNIT_IS_SETTING, span, |d| d.quoting("word", codes::name('G', code)));
         }
         let Some(said) = self.rules.layers.then(|| unit_in_comment(block)).flatten() else { return };
         if said != inches {

@@ -66,7 +66,7 @@ impl Interpreter<'_> {
             Value::Number(number) => return Ok((number.value, number.decimals)),
             Value::Expression(code) => code,
         };
-        let has_names = self.rules.spelling.grammar.as_ref().is_some_and(|grammar| grammar.names);
+        let has_names = self.rules.spelling.grammar.as_ref().is_some_and(|grammar| grammar.has_names);
         let scope = Scope { most: self.most_parameters(), has_names, state: &self.state };
         let value = self.parameters.evaluate(block, code, &scope).map_err(|fault| (fault, span))?;
         for parameter in std::mem::take(&mut self.parameters.machine_values) {

@@ -2,7 +2,7 @@
 //! write for its drawing. (book: program/reading, `verify --against`)
 
 use pathbuild_diagnostic::messages::{files, gcode as say};
-use pathbuild_diagnostic::{Diagnostic, Severity, Value};
+use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_motion as motion;
 use pathbuild_motion::{Axes, Pace};
 use pathbuild_toolpath::{
@@ -230,11 +230,7 @@ fn probe_difference(text: &[u8], probes: &[ProbePoint]) -> Option<Diagnostic> {
 pub fn unstated_heights(text: &[u8]) -> Option<Diagnostic> {
     let is_stated = !probe_entries(text).is_empty() || Provenance::of_head(text).is_some();
     let mut formulas = formula_texts(text).filter(|formula| !is_stated && formula.is_applied);
-    let warning = |line| Diagnostic {
-        severity: Severity::Warning,
-        ..Diagnostic::new(&say::HEIGHTS_NOT_STATED).at_line(line, None)
-    };
-    formulas.next().map(|formula| warning(formula.line))
+    formulas.next().map(|formula| Diagnostic::new(&say::HEIGHTS_NOT_STATED).at_line(formula.line, None))
 }
 
 /// A line of a text that differs from the expected one.

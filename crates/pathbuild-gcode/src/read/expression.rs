@@ -43,18 +43,18 @@ const WORDS: [(&[u8], Binary); 10] = [
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Syntax {
     /// Expressions of a dialect.
-    Dialect { operators: Operators, names: bool, signs: bool },
+    Dialect { operators: Operators, has_names: bool, has_signs: bool },
     /// Correction formulas: `+ - * /`, unary minus, `( )` and `[ ]`, `#n`. (book: language/probes)
     Formula,
 }
 
 impl Syntax {
-    fn names(self) -> bool {
-        matches!(self, Self::Dialect { names: true, .. })
+    fn has_names(self) -> bool {
+        matches!(self, Self::Dialect { has_names: true, .. })
     }
 
-    fn signs(self) -> bool {
-        matches!(self, Self::Formula | Self::Dialect { signs: true, .. })
+    fn has_signs(self) -> bool {
+        matches!(self, Self::Formula | Self::Dialect { has_signs: true, .. })
     }
 
     /// Returns the precedence of an operator; `None` if the operator does not exist in this syntax.
@@ -142,7 +142,7 @@ impl Line<'_> {
             }));
         }
         match self.peek() {
-            Some(sign @ (b'+' | b'-')) if syntax.signs() && !self.number_follows_sign() => {
+            Some(sign @ (b'+' | b'-')) if syntax.has_signs() && !self.number_follows_sign() => {
                 self.at += 1;
                 self.value(syntax, depth + 1)?;
                 if sign == b'-' {
@@ -197,7 +197,7 @@ impl Line<'_> {
     fn parameter(&mut self, syntax: Syntax, depth: u8) -> Result<(), UnreadableLine> {
         self.at += 1;
         self.skip_blanks();
-        if syntax.names() && self.peek() == Some(b'<') {
+        if syntax.has_names() && self.peek() == Some(b'<') {
             let name = self.name()?;
             self.out.code.push(Op::Named(name));
         } else {
@@ -222,7 +222,7 @@ impl Line<'_> {
         if begins_with(rest, b"ATAN") {
             return self.atan(syntax, depth);
         }
-        if syntax.names() && begins_with(rest, b"EXISTS") {
+        if syntax.has_names() && begins_with(rest, b"EXISTS") {
             return self.exists();
         }
         let Some((spelling, function)) = FUNCTIONS.iter().find(|(spelling, _)| begins_with(rest, spelling))

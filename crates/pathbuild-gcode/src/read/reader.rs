@@ -2,7 +2,7 @@
 
 use memchr::memchr;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
+use pathbuild_diagnostic::{Diagnostic, Message, Text};
 
 use super::block::{Block, Comment, CommentStyle, LineParts, Span, end_of_line};
 use super::line::{Line, plain_words};
@@ -160,10 +160,8 @@ impl<'t> BlockReader<'t> {
                     let dialect = self.rules.dialect.name();
                     let message =
                         if self.rules.runs_past_end { &say::RUN_AFTER_END } else { &say::AFTER_END };
-                    let severity = if self.rules.runs_past_end { Severity::Error } else { Severity::Warning };
                     self.report(message, line, |d| {
-                        let d = d.with("line", u64::from(end)).quoting("dialect", dialect);
-                        Diagnostic { severity, ..d }
+                        d.with("line", u64::from(end)).quoting("dialect", dialect)
                     });
                 }
                 self.at = self.text.len();
@@ -235,9 +233,9 @@ impl<'t> BlockReader<'t> {
             return false;
         }
         let start = match self.percent(line) {
-            PercentSign::Nothing => 0,
-            PercentSign::Passed(start) => start,
-            PercentSign::Comment(text) => {
+            PercentEffect::Nothing => 0,
+            PercentEffect::Passed(start) => start,
+            PercentEffect::Comment(text) => {
                 self.parts.comments.push(Comment { style: CommentStyle::Percent, text });
                 return !text.range().is_empty();
             }
@@ -265,29 +263,29 @@ impl<'t> BlockReader<'t> {
         .read()
     }
 
-    fn percent(&mut self, line: &[u8]) -> PercentSign {
+    fn percent(&mut self, line: &[u8]) -> PercentEffect {
         let is_blank = |byte: &&u8| matches!(byte, b' ' | b'\t');
         let mut blanks = line.iter().take_while(is_blank).count();
         if self.rules.spelling.percent == Percent::Title {
             blanks += block_number_length(&line[blanks..]);
         }
         if line.get(blanks) != Some(&b'%') {
-            return PercentSign::Nothing;
+            return PercentEffect::Nothing;
         }
         let behind = blanks + 1;
         match self.rules.spelling.percent {
-            Percent::Start if self.state == State::Leader => PercentSign::Passed(behind),
+            Percent::Start if self.state == State::Leader => PercentEffect::Passed(behind),
             Percent::Start => {
                 self.report(&say::SECOND_PERCENT, &line[..behind], |d| d);
-                PercentSign::Passed(behind)
+                PercentEffect::Passed(behind)
             }
             Percent::Refused => {
                 self.report(&say::UNKNOWN_PERCENT, &line[..behind], |d| d);
-                PercentSign::Passed(behind)
+                PercentEffect::Passed(behind)
             }
             Percent::Title if self.state == State::Leader => {
                 self.state = State::Program;
-                PercentSign::Comment(Span::new(behind, line.len()))
+                PercentEffect::Comment(Span::new(behind, line.len()))
             }
             Percent::Frame | Percent::Title => {
                 let text = Span::new(behind, line.len());
@@ -299,7 +297,7 @@ impl<'t> BlockReader<'t> {
                 if !text.range().is_empty() {
                     self.report(&say::TEXT_AFTER_PERCENT, line, |d| d);
                 }
-                PercentSign::Comment(text)
+                PercentEffect::Comment(text)
             }
         }
     }
@@ -359,7 +357,7 @@ impl<'t> BlockReader<'t> {
 }
 
 /// The effect of `%` at the beginning of a line.
-enum PercentSign {
+enum PercentEffect {
     Nothing,
     /// The line continues at this offset.
     Passed(usize),

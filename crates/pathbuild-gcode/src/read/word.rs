@@ -178,7 +178,7 @@ impl Line<'_> {
         let syntax = syntax_of(grammar);
         self.at += 1;
         self.skip_blanks();
-        let target = if grammar.names && self.peek() == Some(b'<') {
+        let target = if grammar.has_names && self.peek() == Some(b'<') {
             Target::Named(self.name()?)
         } else {
             Target::Numbered(self.compiled_value(syntax)?)
@@ -262,7 +262,11 @@ impl Line<'_> {
 }
 
 fn syntax_of(grammar: &Grammar) -> Syntax {
-    Syntax::Dialect { operators: grammar.operators, names: grammar.names, signs: grammar.signs }
+    Syntax::Dialect {
+        operators: grammar.operators,
+        has_names: grammar.has_names,
+        has_signs: grammar.has_signs,
+    }
 }
 
 impl Line<'_> {

@@ -25,7 +25,7 @@ pub struct BentRapidRules<'c> {
     stock: &'c Stock,
     /// Indices of the slanting rapid moves below the surface.
     found: BTreeSet<usize>,
-    /// Number of moves that were passed.
+    /// Number of moves so far, which is the index of the next move.
     moves: usize,
     frames: Frames,
 }

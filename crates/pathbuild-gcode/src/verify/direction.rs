@@ -1,7 +1,7 @@
 //! Checks that the spindle turns in the direction that each tool requires. (book: reference/configuration, `[tool]`)
 
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{Action, Pace, Step, Turning};
 
 /// Rule that finds cuts during which the spindle turns against the direction of the tool, and programs that cut without ever starting the spindle:
@@ -73,8 +73,7 @@ impl DirectionRules {
             self.unstarted[1].map(|line| Diagnostic::new(&say::SPINDLE_NEVER_STARTED).at_line(line, None));
         let of_speed = || {
             let line = self.unstarted[0].filter(|_| self.has_speed)?;
-            let problem = Diagnostic::new(&say::SPINDLE_SPEED_WITHOUT_START).at_line(line, None);
-            Some(Diagnostic { severity: Severity::Warning, ..problem })
+            Some(Diagnostic::new(&say::SPINDLE_SPEED_WITHOUT_START).at_line(line, None))
         };
         of_table.or_else(of_speed)
     }

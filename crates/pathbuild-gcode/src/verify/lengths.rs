@@ -6,8 +6,8 @@
 
 use std::collections::BTreeSet;
 
+use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Severity};
 use pathbuild_motion::{Action, Axes, Change, Move, Pace, Step, ToolLength};
 
 use super::material::Stock;
@@ -172,15 +172,11 @@ impl<'c> LengthRules<'c> {
         match (self.tools.length_fit(), self.tools.inserted(), self.first) {
             (LengthFit::Outdated, tool, _) => {
                 self.wrong_rapid.add_at_line(&say::RAPID_WITH_OLD_LENGTH, line, |d| {
-                    let d = d.quoting("change", change_word(tool)).with("set", set);
-                    Diagnostic { severity: Severity::Warning, ..d }
+                    d.quoting("change", change_word(tool)).with("set", set)
                 });
             }
             (LengthFit::Off, _, Some(_)) => {
-                self.wrong_rapid.add_at_line(&say::RAPID_WITHOUT_LENGTH, line, |d| Diagnostic {
-                    severity: Severity::Warning,
-                    ..d.with("set", set)
-                });
+                self.wrong_rapid.add_at_line(&say::RAPID_WITHOUT_LENGTH, line, |d| d.with("set", set));
             }
             (LengthFit::OfEntry(entry), Some(tool), _) => {
                 add_once(&mut self.rapids_of_entries, OtherEntry { line, tool, entry });
@@ -239,14 +235,12 @@ impl<'c> LengthRules<'c> {
         }
         if let Some(((line, tool), first)) = self.bare_rapid.filter(|_| self.bare.is_none()).zip(self.first) {
             self.problems.add_at_line(&say::RAPID_BEFORE_LENGTH, line, |d| {
-                let d = d.with("tool", u64::from(tool)).with("first", u64::from(first));
-                Diagnostic { severity: Severity::Warning, ..d }
+                d.with("tool", u64::from(tool)).with("first", u64::from(first))
             });
         }
         if let Some(((line, tool), first)) = self.bare.zip(self.first) {
             self.problems.add_at_line(&say::LENGTH_OF_FIRST_TOOL, line, |d| {
-                let d = d.with("tool", u64::from(tool)).with("first", u64::from(first));
-                Diagnostic { severity: Severity::Warning, ..d }
+                d.with("tool", u64::from(tool)).with("first", u64::from(first))
             });
         }
         for OtherEntry { line, tool, entry } in std::mem::take(&mut self.rapids_of_entries) {
@@ -255,22 +249,16 @@ impl<'c> LengthRules<'c> {
             let is_reported = self.of_entries.iter().any(|cut| (cut.tool, cut.entry) == (tool, entry));
             if is_wrong && !is_reported {
                 self.problems.add_at_line(&say::RAPID_WITH_OTHER_LENGTH, line, |d| {
-                    let d = d.with("tool", u64::from(tool)).with("entry", u64::from(entry));
-                    Diagnostic { severity: Severity::Warning, ..d }
+                    d.with("tool", u64::from(tool)).with("entry", u64::from(entry))
                 });
             }
         }
         for OtherEntry { line, tool, entry } in std::mem::take(&mut self.of_entries) {
             // Some shops number H independently of T, but then no other tool cuts with this H.
             let is_taken = self.tools_with_own_length.contains(&entry);
-            let (message, severity) = if is_taken {
-                (&say::LENGTH_OF_OTHER_TOOL, Severity::Error)
-            } else {
-                (&say::LENGTH_OF_OTHER_NUMBER, Severity::Warning)
-            };
+            let message = if is_taken { &say::LENGTH_OF_OTHER_TOOL } else { &say::LENGTH_OF_OTHER_NUMBER };
             self.problems.add_at_line(message, line, |d| {
-                let d = d.with("tool", u64::from(tool)).with("entry", u64::from(entry));
-                Diagnostic { severity, ..d }
+                d.with("tool", u64::from(tool)).with("entry", u64::from(entry))
             });
         }
         self.problems.into_diagnostics()

@@ -240,23 +240,19 @@ impl<'c> Rules<'c> {
         if is_above_stock(line, movement, self.stock) {
             return;
         }
-        let (message, severity) = match (self.spindle.turning, self.spindle.speed) {
+        let message = match (self.spindle.turning, self.spindle.speed) {
             (Turning::Unstated, _) => {
                 self.cut_before_spindle.get_or_insert(line);
                 return;
             }
-            (Turning::Off, _) => (&say::SPINDLE_OFF, Severity::Error),
-            (Turning::Clockwise | Turning::CounterClockwise, Some(0.0)) => {
-                (&say::SPINDLE_AT_ZERO, Severity::Error)
-            }
+            (Turning::Off, _) => &say::SPINDLE_OFF,
+            (Turning::Clockwise | Turning::CounterClockwise, Some(0.0)) => &say::SPINDLE_AT_ZERO,
             // The control may have kept a speed from the previous program.
-            (Turning::Clockwise | Turning::CounterClockwise, None) => {
-                (&say::SPINDLE_WITHOUT_SPEED, Severity::Warning)
-            }
+            (Turning::Clockwise | Turning::CounterClockwise, None) => &say::SPINDLE_WITHOUT_SPEED,
             (Turning::Clockwise | Turning::CounterClockwise, Some(_)) => return,
         };
         if !std::mem::replace(&mut self.spindle_said, true) {
-            self.problems.add_at_line(message, line, |diagnostic| Diagnostic { severity, ..diagnostic });
+            self.problems.add_at_line(message, line, |d| d);
         }
     }
 
@@ -291,10 +287,7 @@ impl<'c> Rules<'c> {
         }
         let is_homed = self.is_height_homed && !movement.to.known.has(Axes::Z) && movement.named.is_none();
         if is_homed && std::mem::take(&mut self.is_height_homed) {
-            self.problems.add_at_line(&say::HEIGHT_OF_MACHINE, line, |d| Diagnostic {
-                severity: Severity::Error,
-                ..d
-            });
+            self.problems.add_at_line(&say::HEIGHT_OF_MACHINE, line, |d| d);
         }
     }
 
@@ -316,10 +309,8 @@ impl<'c> Rules<'c> {
         let end = self.probe_end.take().filter(|_| !movement.from.known.has(Axes::Z) && !movement.homes_z());
         let is_probe = matches!(movement.pace, Pace::Probe { toward: true, .. });
         if let Some(end) = end.filter(|end| movement.pace == Pace::Rapid && movement.to.z() < *end) {
-            self.problems.add_at_line(&say::RAPID_BELOW_CONTACT, line, |d| {
-                let d = d.with("below", end - movement.to.z());
-                Diagnostic { severity: Severity::Error, ..d }
-            });
+            self.problems
+                .add_at_line(&say::RAPID_BELOW_CONTACT, line, |d| d.with("below", end - movement.to.z()));
         }
         self.probe_end = if is_probe && movement.keeps_xy() && movement.to.known.has(Axes::Z) {
             Some(movement.to.z())

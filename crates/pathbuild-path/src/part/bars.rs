@@ -34,7 +34,7 @@ pub struct LostBar {
     pub length: f64,
     /// The midpoint of the bar; for a bar at a corner, the corner.
     pub at: Xy,
-    /// The middle line of the bar. A bar at a corner has a section on each side of the corner.
+    /// The centre line of the bar. A bar at a corner has a section on each side of the corner.
     pub sections: Vec<Curve>,
     /// Whether the bar is a whole segment so short that cuts of its own path on both sides leave nothing of it.
     pub is_too_short: bool,

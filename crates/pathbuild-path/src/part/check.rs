@@ -34,7 +34,7 @@ pub struct PartFindings {
     pub left: Vec<Vec<LeftMaterial>>,
     /// The parts that nothing holds: for each, its index, and that of the path whose cut makes it loose.
     pub loose: Vec<(usize, usize)>,
-    /// For each path, the middle lines of its support bars that are cut away.
+    /// For each path, the centre lines of its support bars that are cut away.
     pub lost_bars: Vec<Vec<Curve>>,
     /// For each part, the stretches of its outlines that the cutter does not reach.
     pub corners: Vec<Vec<Curve>>,

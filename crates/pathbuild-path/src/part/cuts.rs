@@ -82,7 +82,7 @@ pub struct PartSweep {
 /// A support bar that a path leaves standing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StandingBar {
-    /// The section of the bar's middle line that the cuts beside the bar leave; `None` if they leave nothing. If the bar is a whole segment of which
+    /// The section of the bar's centre line that the cuts beside the bar leave; `None` if they leave nothing. If the bar is a whole segment of which
     /// cuts on both sides would leave nothing, the whole segment.
     pub middle: Option<Curve>,
     /// The section of the segment along which the bar and its slopes keep the tool above B.

@@ -106,7 +106,7 @@ fn beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = (Xy, Xy)> 
     })
 }
 
-/// Distance in cutter radii between a bar's middle line and the part: just beyond the edge of the cut that the bar interrupts.
+/// Distance in cutter radii between a bar's centre line and the part: just beyond the edge of the cut that the bar interrupts.
 const BESIDE_BAR_RADII: f64 = 1.01;
 
 /// Whether the straight line from a point beside a bar across the bar's middle meets no cut.

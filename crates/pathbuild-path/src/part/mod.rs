@@ -115,9 +115,9 @@ pub struct PlacedPart<'d> {
     pub left: &'d [LeftMaterial],
     /// The stretches of the part's outlines that the cutter does not reach, as drawn.
     pub corners: &'d [Curve],
-    /// The middle lines of the support bars that the cuts of the part's own path remove, as drawn.
+    /// The centre lines of the support bars that the cuts of the part's own path remove, as drawn.
     pub lost_bars: &'d [Curve],
-    /// The middle lines of the support bars that the paths of a project cut away from each other, in the program's coordinates. The program's
+    /// The centre lines of the support bars that the paths of a project cut away from each other, in the program's coordinates. The program's
     /// first part lists all of them.
     pub bars_lost_to_neighbours: Vec<Curve>,
     /// The stretches on which cuts enter the part, in the program's coordinates.

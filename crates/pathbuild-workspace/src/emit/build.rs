@@ -11,7 +11,7 @@ use pathbuild_db::{
 };
 use pathbuild_diagnostic::messages::gcode::{CUT_IN_HIGHER_MATERIAL, FEED_TOO_HIGH};
 use pathbuild_diagnostic::messages::{files, parameters, paths as messages, posts, probes};
-use pathbuild_diagnostic::{Diagnostic, Lang, Point, Severity, Value, words};
+use pathbuild_diagnostic::{Diagnostic, Lang, Point, Value, words};
 use pathbuild_gcode::native::{self, probe_name};
 use pathbuild_gcode::read::LONGEST_LINE;
 use pathbuild_gcode::verify::{
@@ -223,7 +223,7 @@ fn write_native(
         // Unused probes are reported only if no move lies outside the probes: otherwise, the warning above suffices.
         None => delivered.problems.extend(unused_probes(program, correction).map(&at)),
     }
-    // Without cycles, `check` reports each C. Without probes, any post-processor could write the program with its pecks.
+    // If `cycles` is off, `check` reports each C instead. In a program without probes, C is not useless: a post-processor can write its pecks.
     let has_pecks = || program.pecks().iter().any(|(_, depth)| depth.is_some());
     if settings.has_cycles && !program.probes.is_empty() && has_pecks() {
         let problem = Diagnostic::new(&parameters::PECKS_WITH_PROBES).with("letter", Letter::C.as_char());
@@ -264,9 +264,8 @@ fn probing_beyond_machine(
 
 fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Item = Diagnostic> {
     let unused = native::unused_probes(program, correction).into_iter();
-    unused.map(|probe| Diagnostic {
-        severity: Severity::Warning,
-        ..Diagnostic::new(&probes::WILL_BE_UNUSED).quoting("probe", probe_name(&program.probes[probe]))
+    unused.map(|probe| {
+        Diagnostic::new(&probes::WILL_BE_UNUSED).quoting("probe", probe_name(&program.probes[probe]))
     })
 }
 

@@ -4,7 +4,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::outputs;
 use pathbuild_diagnostic::reasons::cannot_write;
-use pathbuild_diagnostic::{Diagnostic, Note, Severity, Value};
+use pathbuild_diagnostic::{Diagnostic, Note, Value};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance, VERSION};
 use serde::{Deserialize, Serialize};
 
@@ -145,7 +145,7 @@ impl Task {
 
     /// Turns a warning about a program on disk into an error if this task is a comparison.
     pub(super) fn error_if_compared(self, finding: Diagnostic) -> Diagnostic {
-        if self.is_comparison() { Diagnostic { severity: Severity::Error, ..finding } } else { finding }
+        if self.is_comparison() { finding.as_error() } else { finding }
     }
 
     /// Whether this task covers files of this kind. A comparison of moves alone skips measured values and setup sheets.

@@ -8,7 +8,7 @@ use camino::Utf8Path;
 use pathbuild_db::system::{ReadError, WriteOutcome};
 use pathbuild_db::{Database, System};
 use pathbuild_diagnostic::messages::probes;
-use pathbuild_diagnostic::{Code, Diagnostic, Severity};
+use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, interpret};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance, is_same_program};
@@ -266,10 +266,7 @@ fn difference(present: &[u8], expected: &[u8], dialect: Dialect) -> Vec<Diagnost
     let problems: Vec<Diagnostic> =
         found.problems.iter().filter(|problem| is_new(problem)).cloned().collect();
     if !problems.is_empty() {
-        return problems
-            .into_iter()
-            .map(|problem| Diagnostic { severity: Severity::Error, ..problem })
-            .collect();
+        return problems.into_iter().map(Diagnostic::as_error).collect();
     }
     let words = PostWords::of_programs([expected], dialect);
     let modes = verify::foreign_modes(&found.steps, &words, dialect);

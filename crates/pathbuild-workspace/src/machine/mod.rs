@@ -17,7 +17,7 @@ use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Text, Value as Shown};
 use rawzip::{CompressionMethod, ZipArchive};
 
-use crate::files::utf_8;
+use crate::files::decode_utf8;
 
 pub use self::edit::{Change, EditedConfiguration, edit};
 use self::entries::Entries;
@@ -139,7 +139,7 @@ pub fn text(system: &dyn System, file: &Utf8Path) -> Result<String, Shown> {
     let bytes =
         system.read(file, MAX_DESCRIPTION_BYTES).map_err(|error| error.reason(MAX_DESCRIPTION_BYTES))?;
     let bytes = if bytes.starts_with(b"PK\x03\x04") { unpack(&bytes)? } else { bytes };
-    utf_8(bytes)
+    decode_utf8(bytes)
 }
 
 /// Parses a description; its format is recognized by its content. `unit` is the unit of a tool table that does not name it. `bit` returns the text of

@@ -670,8 +670,7 @@ impl<'v> Examination<'v> {
         let mut problems = self.program.read.problems.iter();
         let line = first_open_formula(&self.program.text)?;
         let is_reported = problems.any(|problem| problem.code() == Code::UncheckedFormula);
-        let warning = Diagnostic::new(&say::UNADJUSTED).at_line(line, None);
-        (!is_reported).then_some(Diagnostic { severity: Severity::Warning, ..warning })
+        (!is_reported).then(|| Diagnostic::new(&say::UNADJUSTED).at_line(line, None))
     }
 
     /// Returns doubts about the program's words. If there is a drawing to compare with, doubts about words that the drawing's program does not

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::catch_bugs;
-use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_diagnostic::Diagnostic;
 
 use super::{VerifiedProgram, Verifier, VerifyOptions};
 use crate::common_findings::unused_configurations;
@@ -73,7 +73,7 @@ fn unused_configurations_of_programs(
     let directories: Vec<_> =
         directories.iter().filter(|directory| above.contains(directory.as_path())).cloned().collect();
     let unused = unused_configurations(session, &directories);
-    unused.into_iter().map(|problem| Diagnostic { severity: Severity::Error, ..problem })
+    unused.into_iter().map(Diagnostic::as_error)
 }
 
 impl Verifier<'_> {

@@ -431,7 +431,7 @@ fn disagreements_of(tool: &CuttingTool, diameters: &ToolDiameters) -> Vec<Diagno
     found.extend(other_than_header(drawn).map(|(header, drawn)| {
         let problem = Diagnostic::new(&say::OTHER_CUTTER_DRAWN).with("place", &HEADER);
         let problem = problem.with("found", header).with("drawn", drawn);
-        Diagnostic { severity: Severity::Error, ..problem }
+        problem.as_error()
     }));
     found.extend(other_than_header(table).map(|(header, table)| {
         let problem = Diagnostic::new(&say::OTHER_CUTTER_IN_TABLE).with("index", index);

@@ -242,7 +242,7 @@ impl Watcher {
             Signal::WokenUp => self.is_woken = true,
             Signal::Over => self.is_over = true,
             Signal::Changed(Ok(event)) if !event.need_rescan() => self.add_event(event, session),
-            // The system reports that events were lost.
+            // Events were lost, or the watcher failed: some changes may be unknown.
             Signal::Changed(_) => {
                 self.pending.is_incomplete = true;
                 self.restart_debounce();

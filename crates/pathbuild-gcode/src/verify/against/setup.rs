@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use pathbuild_diagnostic::Message;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Message, Severity};
 use pathbuild_motion::{
     Action, Axes, Change, Coolant, Corners, Group, Move, NamedPosition, Pace, Plane, Position, Spindle,
     StatedWord, Step, ToolLength, Turning,
@@ -350,8 +350,7 @@ impl<'w> Setup<'w> {
             && !std::mem::replace(&mut self.reported.no_length, true)
         {
             problems.add_at_line(&say::MODES_NOT_STATED, line, |d| {
-                let d = d.quoting("words", "G49").quoting("taken", "G49");
-                Diagnostic { severity: Severity::Error, ..d }
+                d.quoting("words", "G49").quoting("taken", "G49").as_error()
             });
         }
         let fits = match fit {
