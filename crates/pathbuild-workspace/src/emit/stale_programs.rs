@@ -412,24 +412,18 @@ pub(super) fn has_stale_adjusted_program(
     post_processor: Option<&PostProcessor>,
     job: &Job,
 ) -> bool {
-    let run = EarlierPrograms {
-        session,
-        task: Task::Compare { moves_only: false },
-        post_processor,
-        join: None,
-        targets: &[],
-        arguments: &[],
-        named: &[],
-        covered: &|| &[],
-        directories: &[],
-        jobs: &[job],
+    let is_generated = job.files.iter().any(|(kind, _)| *kind == OutputKind::Milling);
+    let provenance_now = job.outcome.as_ref().and_then(|outcome| outcome.provenance.as_ref());
+    let Some(now) = provenance_now.filter(|_| post_processor.is_none() && !is_generated) else {
+        return false;
     };
-    let search = StaleSearch::new(&run);
-    let mut stale = search.former_files(&[]).filter_map(|path| search.program_if_stale(path, None));
-    let is_adjusted = |stale: StaleProgram| {
+    let path = Utf8PathBuf::from(format!("{}{}", job.stem, OutputKind::Milling.suffix()));
+    let Some((found, title)) = provenance(session, &path) else { return false };
+    let former = FormerFile { job, kind: OutputKind::Milling, provenance: now };
+    let stale = former.stale_program(session, path, &found).filter(|_| is_of(job, session, &title));
+    stale.is_some_and(|stale| {
         matches!(stale.reason, Reason::Adjusted { .. } | Reason::Edited { .. } | Reason::OtherValues { .. })
-    };
-    stale.any(is_adjusted)
+    })
 }
 
 /// Reads the provenance and the title from the head of a program.
