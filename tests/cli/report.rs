@@ -234,3 +234,60 @@ fn no_report_replaces_a_source_or_a_program() {
     assert!(place.path().join("a_Zz.txt").exists());
     assert!(!place.path().join("a.NC").exists() || place.read("a.NC") == "M30\n");
 }
+
+/// Ignore files, the baseline and the texts that the post inserts are part of the configuration.
+#[test]
+fn no_output_replaces_a_part_of_the_configuration() {
+    let post = "[post]\nname = \"mine\"\nextension = \"mpf\"\ndialect = \"linuxcnc\"\n[text]\n\
+                program-start = '\\\\\\~*head.txt*'\nline = 'G01 X{.~X1~} Y{.~Y1~} Z{.~Z1~} F{.~MovingVel~}'\n\
+                rapid = 'G00 X{.~X1~} Y{.~Y1~} Z{.~Z1~}'\ntool-change = 'S{#~MillingSpindleRate~} M03'\nprogram-end = 'M30'\n";
+    let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0\nend 40,0\n";
+    let head = "G21 G90 G17 G94\n";
+    let place = Place::new()
+        .file("1234.dxf", pathbuild_testkit::sheet(drawing).unwrap().to_dxf())
+        .file(
+            "pathbuild.toml",
+            "library = [\".\"]\nrapid = 1000\nsweep-height = 20\n[tool.a]\ndiameter = 2\nspindle = 9000\n",
+        )
+        .file("posts/my.toml", post)
+        .file("posts/head.txt", head)
+        .file(".ignore", "")
+        .file("pathbuild-baseline.txt", "");
+    let emit = "emit 1234.1P --post posts/my.toml --dialect linuxcnc";
+    assert_eq!(place.run(emit).status, Some(0), "{}", place.run(emit));
+    let program = place.read("1234_Milling.mpf");
+    let refused = |command: &str| {
+        let run = place.run(command);
+        assert!(run.stderr.contains("PB004") && run.stderr.contains("would be lost"), "{run}");
+    };
+    for name in [".ignore", ".gitignore", "pathbuild-baseline.txt", "./posts/../pathbuild-baseline.txt"] {
+        refused(&format!("check --report json={name}"));
+        refused(&format!("{emit} --deps {name}"));
+    }
+    refused("check --baseline .ignore --update-baseline");
+    refused("post 1234_Milling.mpf --dialect linuxcnc --post grbl -o .ignore");
+    refused("post 1234_Milling.mpf --dialect linuxcnc --post grbl -o pathbuild-baseline.txt");
+    refused(&format!("{emit} --deps 1234_Milling.mpf"));
+    refused(&format!("{emit} --deps posts/head.txt"));
+    refused("post 1234_Milling.mpf --dialect linuxcnc --post posts/my.toml -o posts/head.txt");
+    let configuration = place.read("pathbuild.toml");
+    let place = place.file("pathbuild.toml", format!("post = \"posts/my.toml\"\n{configuration}"));
+    let run = place.run("check --report json=1234_Milling.mpf");
+    assert!(run.stderr.contains("it has the name of a G-code program"), "{run}");
+    let run = place.run("check --report json=posts/head.txt");
+    assert!(run.stderr.contains("it belongs to the post-processor"), "{run}");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("1234.dxf", place.path().join("link.txt")).unwrap();
+        let run = place.run("check --report json=link.txt");
+        assert!(run.stderr.contains("it has the name of a drawing"), "{run}");
+    }
+    assert_eq!(place.read("posts/head.txt"), head);
+    assert_eq!(place.read("1234_Milling.mpf"), program);
+    assert_eq!(place.read(".ignore") + &place.read("pathbuild-baseline.txt"), "");
+    // Beside them, any name will do.
+    for name in ["posts/tail.txt", "ignore", "1234_Milling.txt", "report.mpf"] {
+        assert_eq!(place.run(&format!("check --report json={name}")).status, Some(0), "{name}");
+        assert!(place.path().join(name).exists(), "{name}");
+    }
+}

@@ -27,6 +27,12 @@ words! {
     NAME_OF_DEFINITION: "it has the name of a configuration or a post definition, which would be lost", "sie heißt wie eine Konfiguration oder Postprozessor-Definition, die verloren ginge";
     /// A report or similar output would overwrite measured values.
     NAME_OF_VALUES: "it has the name of a file with measured values, which would be lost", "sie heißt wie eine Datei mit Messwerten, die verloren gingen";
+    /// A report or similar output would overwrite an ignore file.
+    NAME_OF_IGNORE_FILE: "it says which drawings are ignored, and would be lost", "sie sagt, welche Zeichnungen ignoriert werden, und ginge verloren";
+    /// A report or similar output would overwrite a post definition or a text that it inserts.
+    SOURCE_OF_POST: "it belongs to the post-processor, and would be lost", "sie gehört zum Postprozessor und ginge verloren";
+    /// A report or dependency file would overwrite the baseline.
+    IS_BASELINE: "it is the baseline, which would be lost", "sie ist die Baseline, die verloren ginge";
     /// `post --output` would overwrite the program of another path.
     PROGRAM_OF_OTHER_PATH: "it is the program of another path, which would be lost", "sie ist das Programm eines anderen Pfades, das verloren ginge";
     /// `--update-baseline` would overwrite a file that is not a baseline.

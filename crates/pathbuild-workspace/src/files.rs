@@ -7,14 +7,9 @@ use std::io::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_diagnostic::messages::files;
-use pathbuild_diagnostic::reasons::{
-    IS_THERE, LEADS_OUT, NAME_OF_CONFIGURATION, NAME_OF_DEFINITION, NAME_OF_DRAWING, NAME_OF_PROGRAM,
-    NAME_OF_VALUES, NO_DIRECTORY, NOT_UTF_8, cannot_write, reason,
-};
-use pathbuild_diagnostic::{Diagnostic, Text, Value};
+use pathbuild_diagnostic::reasons::{IS_THERE, LEADS_OUT, NO_DIRECTORY, NOT_UTF_8, cannot_write, reason};
+use pathbuild_diagnostic::{Diagnostic, Value};
 
-use crate::session::OutputKind;
 use crate::workspace::Workspace;
 
 /// A file other than a drawing that a result depends on.
@@ -95,42 +90,6 @@ fn write_whole(mut file: fs::File, content: &[u8]) -> std::io::Result<()> {
     file.write_all(content)
 }
 
-/// Atomically replaces a report or a baseline. Refuses the names of drawings, configurations and programs, whether or not the
-/// file exists.
-///
-/// # Errors
-/// A diagnostic with the reason why the file cannot be written.
-pub fn replace_report(context: &Workspace, file: &Utf8Path, text: &str) -> Result<(), Box<Diagnostic>> {
-    match name_of_source_or_program(context, file) {
-        Some(reason) => Err(Box::new(replace_error(file, reason))),
-        None => replace(context, file, text),
-    }
-}
-
-/// Returns the reason if a name is that of a drawing, a configuration, a post definition or a file of measured values, which no other output may
-/// replace. Only the name matters, not whether the file exists.
-pub fn name_of_source(context: &Workspace, file: &Utf8Path) -> Option<&'static Text> {
-    let is = |extension: &str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(extension));
-    let is_configuration = file.file_name().is_some_and(|name| name.eq_ignore_ascii_case(FILE_NAME))
-        || context.settings.file.as_deref() == Some(file);
-    if is("dxf") || is("dwg") {
-        return Some(&NAME_OF_DRAWING);
-    }
-    if is_configuration {
-        return Some(&NAME_OF_CONFIGURATION);
-    }
-    if is("cbpp") || is("toml") {
-        return Some(&NAME_OF_DEFINITION);
-    }
-    let values = OutputKind::Values.suffix().to_ascii_lowercase();
-    file.as_str().to_ascii_lowercase().ends_with(&values).then_some(&NAME_OF_VALUES)
-}
-
-/// Like [`name_of_source`], for outputs that are not programs and must not replace a program either.
-pub(crate) fn name_of_source_or_program(context: &Workspace, file: &Utf8Path) -> Option<&'static Text> {
-    name_of_source(context, file).or_else(|| is_program(file).then_some(&NAME_OF_PROGRAM))
-}
-
 /// File name of a configuration.
 pub const FILE_NAME: &str = "pathbuild.toml";
 
@@ -184,12 +143,6 @@ fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
 #[cfg(not(unix))]
 fn open_stream(path: &Utf8Path) -> std::io::Result<fs::File> {
     fs::File::options().write(true).open(path)
-}
-
-/// Returns PB004 for an output that would replace a drawing, the configuration or a program.
-pub fn replace_error(file: &Utf8Path, reason: &'static Text) -> Diagnostic {
-    let name = file.file_name().unwrap_or_default();
-    Diagnostic::new(&files::WOULD_REPLACE).quoting("name", name).with("reason", reason).in_file(file)
 }
 
 /// Returns PB004 for a file that cannot be written.

@@ -20,6 +20,7 @@ pub mod memo;
 pub mod post_processor;
 pub mod program;
 pub mod program_view;
+pub mod protected_files;
 #[cfg(not(target_family = "wasm"))]
 pub mod revision;
 pub mod session;

@@ -179,6 +179,11 @@ impl PostProcessor {
         self.post.extension()
     }
 
+    /// Whether a file has a name that `emit` gives to the programs of this post-processor.
+    pub fn has_name_of_program(&self, file: &Utf8Path) -> bool {
+        self.has_extension(file) && file.file_stem().is_some_and(|stem| stem.ends_with("_Milling"))
+    }
+
     /// Whether a file has the extension of output files.
     pub fn has_extension(&self, file: &Utf8Path) -> bool {
         file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(self.extension()))

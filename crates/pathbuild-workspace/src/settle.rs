@@ -3,12 +3,13 @@
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::reasons::NO_BASELINE;
+use pathbuild_diagnostic::reasons::{IS_BASELINE, NO_BASELINE};
 use pathbuild_diagnostic::{Code, Diagnostic};
 
 use crate::baseline::Baseline;
 use crate::files;
 use crate::findings::Findings;
+use crate::protected_files::{reason_to_keep, replace_error};
 use crate::waivers::{Coverage, Waiver};
 use crate::workspace::{Failure, Workspace};
 
@@ -96,7 +97,7 @@ impl Workspace {
             return Err(Failure::Refused(faults));
         }
         if has_faults && baseline.is_empty() {
-            return Err(Failure::Found(vec![files::replace_error(file, &NO_BASELINE)]));
+            return Err(Failure::Found(vec![replace_error(file, &NO_BASELINE)]));
         }
         self.write_baseline(file, &baseline.rewritten_text(findings, self, coverage), findings.len())
     }
@@ -151,7 +152,11 @@ impl Workspace {
     }
 
     fn write_baseline(&self, file: &Utf8Path, text: &str, findings: usize) -> Result<Settled, Failure> {
-        files::replace_report(self, file, text).map_err(|fault| Failure::Found(vec![*fault]))?;
+        let reason = reason_to_keep(self, None, file);
+        if let Some(reason) = reason.filter(|reason| **reason != IS_BASELINE) {
+            return Err(Failure::Found(vec![replace_error(file, reason)]));
+        }
+        files::replace(self, file, text).map_err(|fault| Failure::Found(vec![*fault]))?;
         Ok(Settled::Written(WrittenBaseline { file: file.to_owned(), findings }))
     }
 }

@@ -12,8 +12,9 @@ use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang, shown};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::findings::Findings;
+use pathbuild_workspace::protected_files::replace_report;
 use pathbuild_workspace::waivers::WaivedFinding;
-use pathbuild_workspace::{Failure, Inputs, Workspace, files};
+use pathbuild_workspace::{Failure, Inputs, Workspace};
 use serde_json::Value;
 
 use crate::args::Cli;
@@ -216,7 +217,7 @@ impl Context {
                 self.printer.document(Stream::Stdout, &text);
             } else {
                 let file = self.working_directory.join(&report.file);
-                failed.extend(files::replace_report(self, &file, text.as_str()).err().map(|fault| *fault));
+                failed.extend(replace_report(self, &file, text.as_str()).err().map(|fault| *fault));
             }
         }
         if failed.is_empty() { status } else { status.max(self.fail(failed)) }

@@ -11,8 +11,8 @@ use pathbuild_diagnostic::messages::files as messages;
 
 use super::outcome::write_error;
 use super::plan::Job;
-use crate::files::{name_of_source_or_program, replace_error};
 use crate::post_processor::PostProcessor;
+use crate::protected_files::{reason_to_keep, replace_error};
 use crate::session::Session;
 
 /// Writes one rule per job: its output files depend on its drawings, the configuration, the post definition and the files that the post-processor
@@ -30,7 +30,7 @@ pub(super) fn write<'p>(
     let (mut text, mut inputs) = (String::new(), BTreeSet::new());
     let post = post_processor.and_then(PostProcessor::file).map(|file| session.normal(file));
     let file = session.normal(file);
-    if let Some(reason) = name_of_source_or_program(session.workspace(), &file) {
+    if let Some(reason) = reason_to_keep(session.workspace(), post_processor, &file) {
         return Some(replace_error(&file, reason));
     }
     for job in jobs {

@@ -15,7 +15,8 @@ use super::output_state;
 use crate::args::QProjectArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
-use pathbuild_workspace::files::{replace_error, write_error};
+use pathbuild_workspace::files::write_error;
+use pathbuild_workspace::protected_files::replace_error;
 use pathbuild_workspace::session::Session;
 
 /// Runs the command. Nothing is written if the drawing has errors, or if the resulting drawing would have any.
