@@ -1,0 +1,211 @@
+//! Finds stale programs: G-code of earlier runs that no path yields any more (PB520), or that shows an earlier state of its drawing because this run
+//! could not write the path again (PB522). (book: reference/commands)
+//!
+//! Each program names its drawing and path, and has a hash of its moves. Programs of removed paths are searched for only where the run knows every
+//! drawing that could have produced them: beside the drawings of named directories, or in the output directory. Former files of the run's own paths
+//! are always searched for, and so are programs that remain beside their drawings although `out-dir` is configured now.
+
+mod known_titles;
+mod names;
+mod older;
+mod reason;
+mod search;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::{FileKind, Names, join};
+use pathbuild_db::{Db, Target};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::files;
+use pathbuild_gcode::native;
+use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
+
+use super::outcome::{ProgramOutcome, Task};
+use super::plan::Job;
+use crate::memo::{Answer, DrawingResult};
+use crate::post_processor::PostProcessor;
+use crate::session::{Argument, OutputKind, Session};
+
+pub use names::program_of_other_path;
+use reason::{Reason, StaleProgram};
+use search::{FormerFile, StaleSearch};
+
+/// The outcome of searching for stale programs of earlier runs.
+#[derive(Debug, Default)]
+pub(super) struct StaleOutcome {
+    /// Earlier programs, still on disk, of paths that this run could not write.
+    pub(super) older: Vec<ProgramOutcome>,
+    pub(super) removed: Vec<Utf8PathBuf>,
+    /// Stale programs that are reported as errors.
+    pub(super) outdated: Vec<Utf8PathBuf>,
+}
+
+/// The search for programs of earlier runs in the directories of this run's programs.
+pub(super) struct EarlierPrograms<'a> {
+    pub(super) session: &'a Session<'a>,
+    pub(super) task: Task,
+    pub(super) post_processor: Option<&'a PostProcessor>,
+    /// Name of the program into which all paths are joined; `None` for one program per path.
+    pub(super) join: Option<&'a str>,
+    /// All paths of the run.
+    pub(super) targets: &'a [Target],
+    pub(super) arguments: &'a [Argument],
+    /// Drawings that the arguments name, or that may define a named path.
+    pub(super) named: &'a [Answer<DrawingResult>],
+    /// Returns the drawings whose paths were all considered.
+    pub(super) covered: &'a dyn Fn() -> &'a [Answer<DrawingResult>],
+    /// Directories that were searched for drawings.
+    pub(super) directories: &'a [Utf8PathBuf],
+    pub(super) jobs: &'a [&'a Job],
+}
+
+impl<'a> EarlierPrograms<'a> {
+    /// Finds programs that show another state of the drawings. Stale programs are reported; if `is_removed`, they are removed instead, except those
+    /// that may still be needed.
+    pub(super) fn find_and_settle(
+        &'a self,
+        is_removed: bool,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> StaleOutcome {
+        if self.task == Task::Print {
+            return StaleOutcome::default();
+        }
+        let older = self.earlier_outcomes(diagnostics);
+        let stale = self.find_stale_programs(diagnostics);
+        StaleOutcome { older, ..self.settle(stale, is_removed, diagnostics) }
+    }
+
+    fn settle(
+        &self,
+        stale: Vec<StaleProgram>,
+        is_removed: bool,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> StaleOutcome {
+        let mut dealt = StaleOutcome::default();
+        for stale in stale {
+            if !is_removed || self.is_kept(&stale) {
+                let finding = self.judge(&stale);
+                if self.session.workspace().has_error([&finding]) {
+                    dealt.outdated.push(stale.path);
+                }
+                diagnostics.push(finding);
+                continue;
+            }
+            match self.session.db().system().remove(&stale.path) {
+                Ok(()) => dealt.removed.push(stale.path),
+                Err(reason) => {
+                    let name = stale.path.file_name().unwrap_or_default();
+                    let problem = Diagnostic::new(&files::CANNOT_REMOVE).quoting("name", name);
+                    diagnostics.push(problem.with("reason", reason).in_file(&stale.path));
+                }
+            }
+        }
+        dealt
+    }
+
+    /// Whether a program is never removed: one that may belong to another library, one of a drawing that can still be emitted by its name, one that
+    /// was copied or edited, because that work would be lost, one whose drawing may become readable again, and one without a successor in the output
+    /// directory.
+    fn is_kept(&self, stale: &StaleProgram) -> bool {
+        match &stale.reason {
+            Reason::Copied
+            | Reason::Ignored { .. }
+            | Reason::OfOthers
+            | Reason::Edited { .. }
+            | Reason::Unread { .. }
+            | Reason::Unwritten { .. } => true,
+            Reason::Beside { directory } => {
+                let successor = join(directory, file_name(&stale.path));
+                self.session.db().system().kind(&successor) != FileKind::File
+            }
+            Reason::Left
+            | Reason::Adjusted { .. }
+            | Reason::OtherValues { .. }
+            | Reason::OtherHeights { .. }
+            | Reason::OtherJoined { .. }
+            | Reason::OtherMoves { .. } => false,
+        }
+    }
+
+    /// Returns the finding about a stale program. In a comparison it is an error, unless the program may belong to another library, or may have been
+    /// emitted from an ignored drawing by its name.
+    fn judge(&self, stale: &StaleProgram) -> Diagnostic {
+        let finding = stale.diagnostic();
+        match stale.reason {
+            Reason::OfOthers | Reason::Ignored { .. } => finding,
+            _ => self.task.error_if_compared(finding),
+        }
+    }
+
+    /// Finds the stale programs: among all files of the searched directories, and among former files of the jobs in other directories.
+    fn find_stale_programs(&'a self, diagnostics: &mut Vec<Diagnostic>) -> Vec<StaleProgram> {
+        let out_dir = self.session.out_dir();
+        let directories: &[Utf8PathBuf] = match &out_dir {
+            Some(directory) if !self.directories.is_empty() => std::slice::from_ref(directory),
+            _ => self.directories,
+        };
+        let finding = StaleSearch::new(self);
+        let mut stale = Vec::new();
+        for directory in directories {
+            let names = self.file_names_in(directory, diagnostics);
+            let candidates = finding.candidates(directory, &names);
+            stale.extend(candidates.filter_map(|path| finding.program_if_stale(path, Some(&names))));
+        }
+        let former = finding.former_files(directories);
+        stale.extend(former.filter_map(|path| finding.program_if_stale(path, None)));
+        // An output directory on the command line is for this run only.
+        let is_configured = self.session.workspace().settings.general.out_dir.origin.line().is_some();
+        if let Some(out_dir) = out_dir.filter(|_| is_configured) {
+            let beside = finding.programs_beside_drawings(&out_dir, diagnostics).into_iter();
+            stale.extend(
+                beside
+                    .map(|path| StaleProgram { path, reason: Reason::Beside { directory: out_dir.clone() } }),
+            );
+        }
+        stale
+    }
+
+    /// Returns the names of the files in a directory; none if it cannot be listed, which is reported.
+    fn file_names_in(&self, directory: &Utf8Path, diagnostics: &mut Vec<Diagnostic>) -> Names {
+        self.session.file_names_in(directory).unwrap_or_else(|problem| {
+            diagnostics.push(*problem);
+            Names::default()
+        })
+    }
+}
+
+/// Whether a program on disk was adjusted from an earlier state of the job's program or with heights other than those measured now, or was edited
+/// since. Such a program is the one that is milled.
+pub(super) fn has_stale_adjusted_program(
+    session: &Session<'_>,
+    post_processor: Option<&PostProcessor>,
+    job: &Job,
+) -> bool {
+    let is_generated = job.files.iter().any(|(kind, _)| *kind == OutputKind::Milling);
+    let provenance_now = job.outcome.as_ref().and_then(|outcome| outcome.provenance.as_ref());
+    let Some(now) = provenance_now.filter(|_| post_processor.is_none() && !is_generated) else {
+        return false;
+    };
+    let path = Utf8PathBuf::from(format!("{}{}", job.stem, OutputKind::Milling.suffix()));
+    let Some((found, title)) = provenance(session, &path) else { return false };
+    let former = FormerFile { job, kind: OutputKind::Milling, provenance: now };
+    let stale = former.stale_program(session, path, &found).filter(|_| is_of(job, session, &title));
+    stale.is_some_and(|stale| {
+        matches!(stale.reason, Reason::Adjusted { .. } | Reason::Edited { .. } | Reason::OtherValues { .. })
+    })
+}
+
+/// Reads the provenance and the title from the head of a program.
+fn provenance(session: &Session<'_>, program: &Utf8Path) -> Option<(Provenance, Box<str>)> {
+    Provenance::of_head(&session.db().system().read_head(program, HEAD_BYTES).ok()?)
+}
+
+/// Whether a program's title names the path of this job.
+fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
+    let db = session.db();
+    let drawing = job.drawing(db).path(db).file_name().unwrap_or_default();
+    native::is_title(title, drawing, &job.path)
+}
+
+fn file_name(drawing: &Utf8Path) -> &str {
+    drawing.file_name().unwrap_or_default()
+}

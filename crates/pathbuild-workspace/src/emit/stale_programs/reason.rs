@@ -1,0 +1,94 @@
+//! The reasons why a program on disk is stale, with their diagnostics.
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::or_current_directory;
+use pathbuild_diagnostic::messages::outputs as messages;
+use pathbuild_diagnostic::{Diagnostic, Value};
+
+use super::names::{PROGRAM_SUFFIXES, SHEET_SUFFIX};
+
+/// A program on disk that must not be run on the machine.
+#[derive(Debug)]
+pub(super) struct StaleProgram {
+    pub(super) path: Utf8PathBuf,
+    pub(super) reason: Reason,
+}
+
+/// The reason why a program is stale.
+#[derive(Debug)]
+pub(super) enum Reason {
+    /// No path yields the program any more.
+    Left,
+    /// No path yields the program any more, and `emit` would give it another name, so a person may have copied it.
+    Copied,
+    /// The program's drawing cannot be read, so it is unknown whether its path still yields the program.
+    Unread { drawing: String },
+    /// The program lies beside its drawing, but programs are written into `directory` now.
+    Beside { directory: Utf8PathBuf },
+    /// The program's drawing exists, but an ignore file or its hidden name excludes it from the search.
+    Ignored { drawing: String },
+    /// The program's drawing is not in this library, but may be in another library that shares the output directory.
+    OfOthers,
+    /// The program was adjusted from the program `clean`, which has changed since.
+    Adjusted { clean: Utf8PathBuf },
+    /// The program is not the result of adjusting `clean` with the measured heights that it states.
+    Edited { clean: Utf8PathBuf },
+    /// The program was adjusted with heights other than those in the file `values`.
+    OtherValues { values: Utf8PathBuf },
+    /// The program was converted from the adjusted `program` before that got other heights.
+    OtherHeights { program: Utf8PathBuf },
+    /// The program joins paths that yield another program now.
+    OtherJoined { paths: Vec<String> },
+    /// The program joins paths, of which `path` cannot be written now.
+    Unwritten { path: String },
+    /// The program was written through another post-processor, and its moves differ from those of the current `program`.
+    OtherMoves { program: Utf8PathBuf },
+}
+
+impl StaleProgram {
+    pub(super) fn diagnostic(&self) -> Diagnostic {
+        let name = |path: &Utf8Path| path.file_name().unwrap_or_default().to_owned();
+        let problem = match &self.reason {
+            Reason::Left => Diagnostic::new(&messages::STALE),
+            Reason::Copied => Diagnostic::new(&messages::STALE_COPY),
+            Reason::Unread { drawing } => {
+                Diagnostic::new(&messages::OUTPUT_OF_UNREAD).quoting("drawing", drawing.as_str())
+            }
+            Reason::Beside { directory } => {
+                let directory = or_current_directory(directory).as_str();
+                Diagnostic::new(&messages::STALE_BESIDE).quoting("directory", directory)
+            }
+            Reason::Ignored { drawing } => {
+                Diagnostic::new(&messages::STALE_OF_IGNORED).quoting("drawing", drawing.as_str())
+            }
+            Reason::OfOthers => Diagnostic::new(&messages::STALE_OR_OF_OTHERS),
+            Reason::Adjusted { clean } => {
+                Diagnostic::new(&messages::STALE_ADJUSTED).quoting("clean", name(clean))
+            }
+            Reason::Edited { clean } => {
+                Diagnostic::new(&messages::STALE_EDITED).quoting("clean", name(clean))
+            }
+            Reason::OtherValues { values } => {
+                Diagnostic::new(&messages::STALE_VALUES).quoting("values", name(values))
+            }
+            Reason::OtherMoves { program } => {
+                Diagnostic::new(&messages::STALE_OTHER_MOVES).quoting("program", name(program))
+            }
+            Reason::OtherHeights { program } => {
+                Diagnostic::new(&messages::STALE_CONVERTED).quoting("program", name(program))
+            }
+            Reason::OtherJoined { paths } => {
+                let stem = self.path.file_stem().unwrap_or_default();
+                let mut suffixes = PROGRAM_SUFFIXES.into_iter().chain([SHEET_SUFFIX]);
+                let join = suffixes.find_map(|suffix| stem.strip_suffix(suffix)).unwrap_or(stem);
+                let command = format!("emit {} --join {join}", paths.join(" "));
+                let problem = Diagnostic::new(&messages::STALE_JOINED).quoting("command", command);
+                problem.with("paths", paths.iter().map(String::as_str).collect::<Value>())
+            }
+            Reason::Unwritten { path } => {
+                Diagnostic::new(&messages::OLDER_OUTPUT).quoting("path", path.as_str())
+            }
+        };
+        problem.quoting("name", name(&self.path)).in_file(&self.path)
+    }
+}

@@ -1,0 +1,277 @@
+//! Finds out which programs on disk are stale, and why.
+
+use std::cell::LazyCell;
+use std::collections::{HashMap, HashSet};
+
+use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::{Names, is_drawing, join};
+use pathbuild_db::{Db, Role, program};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_gcode::adjust::{Source, is_adjusted_from, listed_heights, states_other_values};
+use pathbuild_gcode::native::{self, plain_title};
+use pathbuild_gcode::provenance::Provenance;
+
+use super::known_titles::KnownTitles;
+use super::names::{
+    CONVERTED, NATIVE_EXTENSION, PROGRAM_SUFFIXES, has_name_of_title, is_gcode, is_sheet, possible_files,
+};
+use super::reason::{Reason, StaleProgram};
+use super::{EarlierPrograms, file_name, is_of, provenance};
+use crate::emit::options::Provenances;
+use crate::emit::outcome::Task;
+use crate::emit::plan::Job;
+use crate::session::{OutputKind, Session};
+
+type Lazy<'a, T> = LazyCell<T, Box<dyn FnOnce() -> T + 'a>>;
+
+pub(super) struct StaleSearch<'a> {
+    run: &'a EarlierPrograms<'a>,
+    outputs: HashSet<&'a Utf8Path>,
+    /// Index of each job by the stem of its file names.
+    by_stem: Lazy<'a, HashMap<&'a Utf8Path, usize>>,
+    writers: Lazy<'a, KnownTitles>,
+}
+
+impl<'a> StaleSearch<'a> {
+    pub(super) fn new(run: &'a EarlierPrograms<'a>) -> Self {
+        let jobs = run.jobs;
+        Self {
+            run,
+            outputs: jobs.iter().flat_map(|job| job.files.iter().map(|(_, path)| path.as_path())).collect(),
+            by_stem: LazyCell::new(Box::new(move || {
+                jobs.iter().enumerate().map(|(number, job)| (&*job.stem, number)).collect()
+            })),
+            writers: LazyCell::new(Box::new(move || KnownTitles::new(run))),
+        }
+    }
+
+    /// Returns the programs and setup sheets in a directory that the run does not generate.
+    pub(super) fn candidates(
+        &self,
+        directory: &Utf8Path,
+        names: &Names,
+    ) -> impl Iterator<Item = Utf8PathBuf> {
+        let programs = names.iter().filter(|name| is_gcode(name, self.run.post_processor) || is_sheet(name));
+        let programs = programs.map(|name| join(directory, name));
+        let mut programs: Vec<Utf8PathBuf> =
+            programs.filter(|path| !self.outputs.contains(&**path)).collect();
+        programs.sort_unstable();
+        programs.into_iter()
+    }
+
+    /// Returns the names that former files of the jobs would have, outside the searched directories.
+    pub(super) fn former_files(&self, directories: &[Utf8PathBuf]) -> impl Iterator<Item = Utf8PathBuf> {
+        let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
+        let stems = self.run.jobs.iter().map(|job| &job.stem);
+        let stems = stems.filter(move |stem| stem.parent().is_none_or(|parent| !searched.contains(parent)));
+        let paths = stems.flat_map(|stem| possible_files(stem));
+        paths.filter(|path| !self.outputs.contains(&**path))
+    }
+
+    /// Returns the programs and setup sheets that lie beside their drawings although programs are written into `out_dir`: all in the searched
+    /// directories, and those of the jobs in other directories.
+    pub(super) fn programs_beside_drawings(
+        &self,
+        out_dir: &Utf8Path,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Vec<Utf8PathBuf> {
+        let EarlierPrograms { session, directories, jobs, .. } = *self.run;
+        let title = |path: &Utf8PathBuf| provenance(session, path).map(|(_, title)| title);
+        let mut programs = Vec::new();
+        for directory in directories.iter().filter(|directory| *directory != out_dir) {
+            let names = self.run.file_names_in(directory, diagnostics);
+            let drawings = names.iter().filter(|name| is_drawing(Utf8Path::new(name)));
+            let drawings: HashSet<String> = drawings.map(plain_title).collect();
+            let is_beside = |title: Box<str>| {
+                native::drawing_of_title(&plain_title(&title))
+                    .is_some_and(|drawing| drawings.contains(drawing))
+            };
+            programs
+                .extend(self.candidates(directory, &names).filter(|path| title(path).is_some_and(is_beside)));
+        }
+        let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
+        for job in jobs {
+            let drawing = job.drawing(session.db()).path(session.db());
+            let directory = drawing.parent().unwrap_or(Utf8Path::new(""));
+            if directory != out_dir && !searched.contains(directory) {
+                let files = possible_files(&join(directory, file_name(&job.stem)));
+                programs.extend(
+                    files.filter(|path| title(path).is_some_and(|title| is_of(job, session, &title))),
+                );
+            }
+        }
+        // The output directory may have several names, and a link beside the drawing may lead to the program in it.
+        let canonical = |path: &Utf8Path| session.db().system().canonical(path);
+        let is_current = |path: &Utf8PathBuf| canonical(path).parent() == Some(&canonical(out_dir));
+        programs.retain(|path| !is_current(path));
+        programs
+    }
+
+    /// Returns the program at `path` if it is stale. `beside` lists the files in its directory; `None` if programs of removed paths are not searched
+    /// for.
+    pub(super) fn program_if_stale(&self, path: Utf8PathBuf, beside: Option<&Names>) -> Option<StaleProgram> {
+        let (found, title) = provenance(self.run.session, &path)?;
+        match self.native_job_of(&path) {
+            Some(own) if is_of(own.job, self.run.session, &title) => {
+                own.stale_program(self.run.session, path, &found)
+            }
+            _ if self.is_converted(&path, &found, &title) => self.if_other_heights(path),
+            _ => self.of_other_post(&path, &found, &title).or_else(|| {
+                let directory = path.parent().unwrap_or(Utf8Path::new(""));
+                let reason = match native::joined_paths(&title) {
+                    Some((names, join)) => {
+                        beside?;
+                        self.joined_reason(&path, &found, &names, &join)
+                    }
+                    None => self.writers.removal_reason(directory, &title, beside?.iter()),
+                };
+                let reason = match reason? {
+                    Reason::Left | Reason::OtherJoined { .. } if !has_name_of_title(&path, &title) => {
+                        Reason::Copied
+                    }
+                    reason => reason,
+                };
+                Some(StaleProgram { path, reason })
+            }),
+        }
+    }
+
+    /// Returns the program at `path` as stale if it was written for one of the run's paths, natively or through another post-processor, and that path
+    /// has other moves now.
+    fn of_other_post(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Option<StaleProgram> {
+        let name = path.with_extension("");
+        let stem = PROGRAM_SUFFIXES.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
+        let number = *self.by_stem.get(Utf8Path::new(stem))?;
+        let job = self.run.jobs[number];
+        let now = job.outcome.as_ref()?.provenance.as_ref()?;
+        let is_meant = is_of(job, self.run.session, title) && now.moves != found.moves;
+        let program = job.files.first()?.1.clone();
+        is_meant.then(|| StaleProgram { path: path.to_owned(), reason: Reason::OtherMoves { program } })
+    }
+
+    /// Whether the program at `path` may have been converted from the current probing program or the adjusted program beside it, which `post` is for.
+    fn is_converted(&self, path: &Utf8Path, found: &Provenance, title: &str) -> bool {
+        let native = path.with_extension(NATIVE_EXTENSION);
+        let stem = CONVERTED.iter().find_map(|kind| native.as_str().strip_suffix(kind.suffix()));
+        let number = stem.and_then(|stem| self.by_stem.get(Utf8Path::new(stem)));
+        let Some(job) = number.map(|number| self.run.jobs[*number]) else { return false };
+        let now = job.outcome.as_ref().and_then(|outcome| outcome.provenance.as_ref());
+        self.run.post_processor.is_none()
+            && native != path
+            && job.files.iter().any(|(kind, _)| *kind == OutputKind::Clean)
+            && is_of(job, self.run.session, title)
+            && now.is_some_and(|now| now.moves == found.moves)
+            && provenance(self.run.session, &native).is_some_and(|(beside, _)| beside.is_same(found))
+    }
+
+    /// Returns a converted program as stale if it states other measured heights than the native one beside it.
+    fn if_other_heights(&self, path: Utf8PathBuf) -> Option<StaleProgram> {
+        let session = self.run.session;
+        let program = path.with_extension(NATIVE_EXTENSION);
+        let limit = session.workspace().settings.limits.file_size.value;
+        let heights = |file: &Utf8Path| Some(listed_heights(&session.db().system().read(file, limit).ok()?));
+        let (converted, now) = (heights(&path)?, heights(&program)?);
+        let is_other = !converted.is_empty() && converted != now;
+        is_other.then_some(StaleProgram { path, reason: Reason::OtherHeights { program } })
+    }
+
+    /// Returns the reason why the program at `path`, which joins the paths `names` as `join`, is stale; `None` if it is not, or if that is unknown.
+    fn joined_reason(
+        &self,
+        path: &Utf8Path,
+        found: &Provenance,
+        names: &[String],
+        join: &str,
+    ) -> Option<Reason> {
+        let EarlierPrograms { session, post_processor, task, .. } = *self.run;
+        // The program that the run itself writes is not stale.
+        if self.run.join.is_some_and(|own| plain_title(own) == join) {
+            return None;
+        }
+        let db = session.db();
+        let (mut programs, mut paths) = (Vec::new(), Vec::new());
+        for name in names {
+            let files = self.writers.drawings_of(session, name, path.parent()?);
+            let target = match &*files {
+                [] if self.writers.has_broken => return Some(Reason::Unwritten { path: name.clone() }),
+                [] => return self.writers.reason_if_gone(),
+                [(file, spelled)] => db.target(*file, spelled.as_str(), Role::Emitted),
+                _ => return None,
+            };
+            match session.query_target(target, |db| program(db, target).clone()).ok()? {
+                Some(program) => programs.push(program),
+                None => return Some(Reason::Unwritten { path: target.name(db).to_string() }),
+            }
+            paths.push(target.name(db).to_string());
+        }
+        let now = Provenances::new(&session.workspace().settings, post_processor).of(&programs);
+        let is_of_this_post = now.dialect == found.dialect
+            && post_processor.is_some_and(|post| path.extension() == Some(post.extension()));
+        let is_current = now.moves == found.moves
+            && (!is_of_this_post || task == Task::Compare { moves_only: true } || now.is_same(found));
+        (!is_current).then_some(Reason::OtherJoined { paths })
+    }
+
+    /// Finds the native job of the path that may have produced this file earlier.
+    fn native_job_of(&self, path: &Utf8Path) -> Option<FormerFile<'a>> {
+        if self.run.post_processor.is_some() {
+            return None;
+        }
+        let of_kind = |kind: OutputKind| Some((kind, path.as_str().strip_suffix(kind.suffix())?));
+        let (kind, stem) = OutputKind::ALL.into_iter().find_map(of_kind)?;
+        let number = *self.by_stem.get(Utf8Path::new(stem))?;
+        let job = self.run.jobs[number];
+        let provenance = job.outcome.as_ref()?.provenance.as_ref()?;
+        job.files.iter().all(|(present, _)| *present != kind).then_some(FormerFile { job, kind, provenance })
+    }
+}
+
+/// A file that a job's path yielded earlier, but that the job does not generate: `_Milling` beside `_Clean` (adjusted from it, or written before the
+/// path had probes), or `_Clean` and `_Probing` (written while the path had probes).
+pub(super) struct FormerFile<'a> {
+    pub(super) job: &'a Job,
+    pub(super) kind: OutputKind,
+    /// Provenance of the current program.
+    pub(super) provenance: &'a Provenance,
+}
+
+impl FormerFile<'_> {
+    /// Returns the former file as stale, unless it is the result of adjusting the current program with the current values.
+    pub(super) fn stale_program(
+        &self,
+        session: &Session<'_>,
+        path: Utf8PathBuf,
+        found: &Provenance,
+    ) -> Option<StaleProgram> {
+        if self.kind != OutputKind::Milling {
+            return Some(StaleProgram { path, reason: Reason::Left });
+        }
+        let reason = match self.file(OutputKind::Clean) {
+            None if self.provenance.is_same(found) => return None,
+            None => Reason::Left,
+            Some(clean) if !self.provenance.is_same(found) => Reason::Adjusted { clean: clean.to_owned() },
+            Some(clean) => self.edit_reason(session, &path, clean)?,
+        };
+        Some(StaleProgram { path, reason })
+    }
+
+    fn file(&self, kind: OutputKind) -> Option<&Utf8Path> {
+        self.job.files.iter().find(|(present, _)| *present == kind).map(|(_, path)| path.as_path())
+    }
+
+    /// Returns the reason why an adjusted program with the current provenance is stale: it was edited, or the measured values have changed. `None`
+    /// also for unreadable files.
+    fn edit_reason(&self, session: &Session<'_>, path: &Utf8Path, clean: &Utf8Path) -> Option<Reason> {
+        let limit = session.workspace().settings.limits.file_size.value;
+        let read = |file: &Utf8Path| session.db().system().read(file, limit).ok();
+        let (program_text, clean_text) = (read(path)?, read(clean)?);
+        let source = |file, bytes| Source { file, bytes };
+        let program = source(path, &program_text);
+        if !is_adjusted_from(program, source(clean, &clean_text)) {
+            return Some(Reason::Edited { clean: clean.to_owned() });
+        }
+        let values = self.file(OutputKind::Values)?;
+        let is_other = states_other_values(program, source(values, &read(values)?));
+        is_other.then(|| Reason::OtherValues { values: values.to_owned() })
+    }
+}
