@@ -171,6 +171,35 @@ fn a_second_definition_is_noticed_although_nothing_embeds_the_path() {
     assert!(!apart("[]"), "nothing finds both");
 }
 
+/// `emit` of a directory or the library writes no program of a path that two of the drawings define, as `emit NAME` does not.
+#[test]
+fn a_path_that_is_defined_twice_is_not_emitted() {
+    let emit = |file: &str, arguments: &str| {
+        let place = Place::of(&format!("{LIBRARY}== {file} ==\n{SECOND}"));
+        let config = fs::read_to_string(place.path().join("pathbuild.toml")).unwrap();
+        let place =
+            place.file("pathbuild.toml", format!("{config}[emit]\ntargets = ['1234.1P', '8001.1P']\n"));
+        let run = place
+            .run(&format!("emit --format concise {arguments} --feed 150 --rapid 1000 --sweep-height 20"));
+        let programs = |directory: &str| {
+            let files = fs::read_dir(place.path().join(directory)).unwrap();
+            files.filter(|file| file.as_ref().unwrap().path().extension().unwrap() == "gcode").count()
+        };
+        (run.stderr.matches("error[PB504]").count(), programs("components"), programs("projects"))
+    };
+    let written = |file: &str| emit(file, "components").1;
+    assert_eq!(emit("components/1234 old.dxf", "components").0, 1);
+    assert_eq!(
+        written("components/5678.dxf"),
+        written("components/1234 old.dxf") + 2,
+        "its file name does not cover the path"
+    );
+    let (problems, components, _) = emit("components/1234 old.dxf", "");
+    assert!(problems > 0 && components == 0);
+    let (problems, components, _) = emit("components/5678.dxf", "");
+    assert_eq!((problems, components), (0, 2));
+}
+
 /// A second definition is reported only if both drawings are checked.
 #[test]
 fn a_second_definition_is_noticed_among_the_drawings_that_are_checked() {

@@ -33,7 +33,7 @@ use crate::workspace::{Failure, Workspace};
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
 pub use options::{Provenances, missing_values, write_settings};
 pub use outcome::{ProgramOutcome, State, Task};
-use plan::{Job, JobBuilder, Plan, leave_out_files_of_others, plan};
+use plan::{Job, JobBuilder, Plan, leave_out_files_of_others, leave_out_second_definitions, plan};
 pub use program_scenes::{SceneReport, SheetOutcome, ShownText, sheet_of};
 pub use select::TargetPatterns;
 use select::TargetSelection;
@@ -168,6 +168,8 @@ impl Emitter<'_> {
         if lacks_paths {
             plans.iter_mut().filter_map(|plan| plan.value.job.as_mut()).for_each(Job::leave_out);
         }
+        let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
+        leave_out_second_definitions(session, &selection.covered, jobs, &mut diagnostics);
         if !matches.is_library && !is_printed {
             let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
             leave_out_files_of_others(&builder, jobs, &mut diagnostics);

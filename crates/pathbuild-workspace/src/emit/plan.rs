@@ -5,16 +5,20 @@ use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
-use pathbuild_db::{Database, Db, Role, SourceFile, Target, Trace, check_file, path_names, trace};
+use pathbuild_db::{
+    Database, Db, Role, SecondDefinition, SourceFile, Target, Trace, check_file, path_names,
+    second_definitions, trace,
+};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{outputs as messages, posts};
 use pathbuild_gcode::native;
+use pathbuild_path::PathName;
 use serde::{Deserialize, Serialize};
 
 use super::options;
 use super::outcome::{ProgramOutcome, Task, is_of_other_version, write_error};
 use crate::config::types::SheetFormat;
-use crate::memo::{Answer, Inputs, Memo, OutputState};
+use crate::memo::{Answer, DrawingResult, Inputs, Memo, OutputState};
 use crate::post_processor::PostProcessor;
 use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
 use crate::workspace::Workspace;
@@ -378,6 +382,33 @@ fn leave_out_if_named_like_path(builder: &JobBuilder<'_>, name: &str, job: &mut 
     let problem = problem.quoting("name", output.unwrap_or_default()).in_file(job.drawing(db).path(db));
     job.leave_out();
     Some(problem)
+}
+
+/// Leaves out the jobs of paths that two of these drawings define (PB504): nobody could tell their programs apart.
+pub(super) fn leave_out_second_definitions<'p>(
+    session: &Session<'_>,
+    drawings: &[Answer<DrawingResult>],
+    jobs: impl Iterator<Item = &'p mut Job>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let db = session.db();
+    let names = drawings.iter().map(|answer| (answer.drawing(), &*answer.value.names));
+    let found = second_definitions(db, names);
+    let is_of = |target: &Target, definition: &SecondDefinition<'_>| {
+        *definition.name == PathName::new(target.name(db))
+            && definition.files.contains(&target.file(db).path(db).as_path())
+    };
+    let mut reported = BTreeSet::new();
+    for job in jobs {
+        let is_of_job =
+            |definition: &&SecondDefinition<'_>| job.targets.iter().any(|target| is_of(target, definition));
+        let own: Vec<_> = found.iter().filter(is_of_job).collect();
+        if !own.is_empty() {
+            job.leave_out();
+            reported.extend(own);
+        }
+    }
+    diagnostics.extend(reported.into_iter().map(SecondDefinition::diagnostic));
 }
 
 /// Leaves out jobs whose file another drawing of the library, which has the same name, would write in another run (PB514). An output directory on the
