@@ -226,7 +226,7 @@ fn measured_values_of_other_probes_are_kept_unless_forced() {
     let place = library("probe 20,20", "probe 21,20");
     place.run("emit 8002.1P");
     let nothing_measured = place.read("projects/8002_Z.txt");
-    let values = nothing_measured.replace('=', "=5.125");
+    let values = nothing_measured.replace("=\n", "=5.125\n");
     let place = Place::of(LIBRARY).file("projects/8002_Z.txt", &values);
     assert_snapshot!(place.run("emit 8002.1P"));
     assert_eq!(written(&place), ["projects/8002_Z.txt"], "nothing of that path is written");

@@ -285,6 +285,36 @@ fn values_that_were_entered_are_kept() {
     assert_ne!(place.read("a_Clean.gcode"), before);
 }
 
+/// A file of values that an editor saved with a byte order mark or in UTF-16, or that has values in the wrong place.
+#[test]
+fn values_that_are_entered_differently_are_not_lost() {
+    let place = plate("");
+    succeed(&emit(&place, "a.dxf"));
+    measure(&place, |_, _| 0.1);
+    let measured = place.read("a_Z.txt");
+    let with_mark = format!("\u{feff}{measured}");
+    write(&place, "a_Z.txt", &with_mark);
+    succeed(&emit(&place, "a.dxf"));
+    assert_eq!(place.read("a_Z.txt"), with_mark);
+
+    let wide: Vec<u8> = with_mark.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let before_probe = |line: &str| {
+        let (probe, value) = line.rsplit_once('=').unwrap();
+        format!("{}=\n", probe.replace(") #", &format!(") {value} #")))
+    };
+    let misplaced: String = measured.lines().map(before_probe).collect();
+    assert_ne!(misplaced, measured);
+    for (file, word) in [(wide, "UTF-16"), (misplaced.into_bytes(), "valid probe line")] {
+        std::fs::write(place.path().join("a_Z.txt"), &file).unwrap();
+        let refused = emit(&place, "a.dxf");
+        assert!(refused.status == Some(1) && refused.stderr.contains("PB605"), "{refused}");
+        assert_eq!(std::fs::read(place.path().join("a_Z.txt")).unwrap(), file);
+        let refused = place.run("adjust a.dxf --max-correction 0.5");
+        assert!(refused.status == Some(1) && refused.stderr.contains(word), "{refused}");
+        assert!(!refused.stderr.contains("PB603"), "{refused}");
+    }
+}
+
 /// Files written by the original program or by older versions lack the positions of probes in the emitted drawing.
 #[test]
 fn values_without_places_are_kept_and_used() {

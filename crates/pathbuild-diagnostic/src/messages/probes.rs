@@ -8,6 +8,13 @@ messages! {
         help_en: "restore the form ([X Y]/T=HEIGHT) #NUMBER=VALUE; enter only the value by hand",
         help_de: "die Form ([X Y]/T=HÖHE) #NUMMER=WERT wiederherstellen; von Hand nur den Wert eintragen",
     }
+    /// A file of measured values in UTF-16, as Notepad saves "Unicode".
+    VALUES_IN_UTF_16: InvalidProbeLine {
+        en: "this file is in UTF-16",
+        de: "diese Datei ist in UTF-16 gespeichert",
+        help_en: "open it in an editor and save it as UTF-8 (in Notepad: File, Save as, Encoding)",
+        help_de: "sie in einem Editor öffnen und als UTF-8 speichern (im Windows-Editor: Datei, Speichern unter, Codierung)",
+    }
     /// A probe without a measured value.
     NO_VALUE: InvalidProbeLine {
         en: "#{probe} has no value",
@@ -203,6 +210,13 @@ messages! {
         de: "{name} enthält gemessene Werte, die zu anderen Proben gehören",
         help_en: "use --force and measure again: the drawing's probes have changed since; nothing was written for this path",
         help_de: "--force verwenden und neu messen: die Proben der Zeichnung haben sich seither geändert; für diesen Pfad wurde nichts geschrieben",
+    }
+    /// A file that is to be overwritten and has lines that `emit` did not write. They may contain measured values.
+    OTHER_LINES_PRESENT: ProbeValuesPresent {
+        en: "{name} has lines that are not those of probes, and may contain measured values",
+        de: "{name} hat Zeilen, die keine gültigen Messzeilen sind, und enthält womöglich gemessene Werte",
+        help_en: "correct these lines, which `adjust` names; or use --force if the file is not needed; nothing was written for this path",
+        help_de: "diese Zeilen berichtigen, die `adjust` nennt, oder --force verwenden, wenn die Datei nicht gebraucht wird; für diesen Pfad wurde nichts geschrieben",
     }
     /// A path that mills outside of the area that its probes enclose.
     OUTSIDE: OutsideProbes {

@@ -10,7 +10,7 @@ use pathbuild_toolpath::odd_probes;
 
 use super::Inputs;
 use super::scan::{ProbeSurvey, ProbeUse};
-use super::values::{EnteredValue, ProbeLine, ProbePoint, ProbeTable, ProgramProbe};
+use super::values::{EnteredValue, ProbeLine, ProbePoint, ProbeTable, ProgramProbe, hides_probes};
 use crate::native::{f3, push_exact};
 
 /// Measured heights in mm, by probe number.
@@ -36,7 +36,9 @@ impl Check<'_, '_> {
                 Err(problem) => problems.push(*problem),
             }
         }
-        problems.extend(self.report_unknown_probes(lines));
+        if !problems.iter().any(hides_probes) {
+            problems.extend(self.report_unknown_probes(lines));
+        }
         values
     }
 

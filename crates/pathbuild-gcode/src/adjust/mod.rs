@@ -28,6 +28,7 @@ use scan::{
     value_of,
 };
 use surface::MeasuredSurface;
+pub use values::loss_of_values;
 use values::{ProbeTable, entry_of_line, is_header};
 pub(crate) use values::{ProgramProbe, probe_entry};
 

@@ -57,6 +57,10 @@ static VALUE_LINE: LazyLock<bytes::Regex> = LazyLock::new(|| {
 pub(super) fn read<'a>(values: Source<'a>, problems: &mut Vec<Diagnostic>) -> Vec<ProbeLine<'a>> {
     let mut found: Vec<ProbeLine<'_>> = Vec::new();
     let mut known: BTreeMap<u32, u32> = BTreeMap::new();
+    if values.bytes.contains(&0) {
+        problems.push(Diagnostic::new(&messages::VALUES_IN_UTF_16).in_file(values.file));
+        return found;
+    }
     for line in lines(values).filter(|line| !line.content().trim_ascii().is_empty()) {
         let Some(mut read) = VALUE_LINE.captures(line.content()).and_then(|parts| probe_line(line, &parts))
         else {
@@ -75,6 +79,21 @@ pub(super) fn read<'a>(values: Source<'a>, problems: &mut Vec<Diagnostic>) -> Ve
         found.push(read);
     }
     found
+}
+
+/// Returns the message (PB605) about what would be lost if a file of measured values were written again; `None` if nothing was entered in it.
+pub fn loss_of_values(values: Source<'_>) -> Option<&'static Message> {
+    let mut problems = Vec::new();
+    let lines = read(values, &mut problems);
+    if problems.iter().any(hides_probes) {
+        return Some(&messages::OTHER_LINES_PRESENT);
+    }
+    lines.iter().any(|line| line.value != EnteredValue::Nothing).then_some(&messages::VALUES_PRESENT)
+}
+
+/// Whether a problem of a file of values hides probes, so that probes which seem to be missing are not reported.
+pub(super) fn hides_probes(problem: &Diagnostic) -> bool {
+    [&messages::NO_PROBE_LINE, &messages::VALUES_IN_UTF_16].contains(&problem.message)
 }
 
 impl ProbeLine<'_> {

@@ -7,8 +7,8 @@ use std::thread::{self, Builder};
 use camino::Utf8Path;
 use pathbuild_db::system::{ReadError, WriteOutcome};
 use pathbuild_db::{Database, System};
-use pathbuild_diagnostic::messages::probes;
 use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_gcode::adjust::{self, Source};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, interpret};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance, is_same_program};
@@ -152,11 +152,8 @@ fn write<'a>(
 ) -> Result<(), Box<Diagnostic>> {
     let mut values =
         outputs.clone().map(|(output, _)| output).filter(|output| output.kind == OutputKind::Values);
-    if !force && let Some(lost) = values.find(|output| would_overwrite_values(system, output)) {
-        let name = lost.path.file_name().unwrap_or_default();
-        return Err(Box::new(
-            Diagnostic::new(&probes::VALUES_PRESENT).quoting("name", name).in_file(&lost.path),
-        ));
+    if !force && let Some(problem) = values.find_map(|output| loss_of_values(system, output)) {
+        return Err(Box::new(problem));
     }
     for (output, hash) in outputs {
         let is_kept = output.kind == OutputKind::Values && !force && has_same_probes(system, output);
@@ -190,11 +187,13 @@ fn is_edited(system: &dyn System, output: &Output, limit: u64) -> bool {
     is_own && system.read(&output.path, limit).is_ok_and(has_other_moves)
 }
 
-/// Whether the file on disk contains measured values for probes other than those in the generated file.
-fn would_overwrite_values(system: &dyn System, output: &Output) -> bool {
-    let Some(present) = text_on_disk(system, &output.path) else { return false };
-    let has_values = without_values(present.as_bytes()) != present.trim_end();
-    has_values && !is_for_probes(&present, &output.text)
+/// Returns PB605 if the file on disk contains measured values for probes other than those in the generated file, or lines that may contain some.
+fn loss_of_values(system: &dyn System, output: &Output) -> Option<Diagnostic> {
+    let present =
+        text_on_disk(system, &output.path).filter(|present| !is_for_probes(present, &output.text))?;
+    let message = adjust::loss_of_values(Source { file: &output.path, bytes: present.as_bytes() })?;
+    let name = output.path.file_name().unwrap_or_default();
+    Some(Diagnostic::new(message).quoting("name", name).in_file(&output.path))
 }
 
 /// Whether the file of measured values exists and is for the same probes as the generated one.

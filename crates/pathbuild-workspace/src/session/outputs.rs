@@ -157,11 +157,11 @@ fn is_direction(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Returns the text of a file of measured values without the text after each `=`, and with normalized line ends.
+/// Returns the text of a file of measured values without the text after each `=`, without a byte order mark, and with normalized line ends.
 pub fn without_values(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
     let line = |line: &str| line.split_inclusive('=').filter(|part| part.ends_with('=')).collect::<String>();
-    text.lines().map(line).collect::<Vec<_>>().join("\n")
+    text.trim_start_matches('\u{feff}').lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// Returns the text of a file of measured values without the positions of the probes in the emitted drawing.
