@@ -85,6 +85,24 @@ fn a_program_is_written_through_a_post() {
     assert!(place.path().join("out/1300X_Milling.nc").is_file(), "R is part of the name");
 }
 
+/// A program of pathbuild always has an end. A foreign program may lack one.
+#[test]
+fn a_program_that_was_cut_off_is_not_converted() {
+    let place = library("");
+    for post in ["native", "grbl"] {
+        let whole = place.run(&format!("emit 1234.1P -o - --post {post}")).stdout;
+        let half: String =
+            whole.lines().take(whole.lines().count() / 2).map(|line| format!("{line}\n")).collect();
+        let foreign = half.replace("pathbuild", "another program");
+        for (text, is_refused) in [(&whole, false), (&half, true), (&foreign, false)] {
+            std::fs::write(place.path().join("a.nc"), text).unwrap();
+            let run = place.run("post a.nc --post linuxcnc -o -");
+            assert_eq!(run.stderr.contains("error[PB710]"), is_refused, "{text} {run}");
+            assert_eq!(run.stdout.is_empty(), is_refused, "{run}");
+        }
+    }
+}
+
 #[test]
 fn the_configurations_post_is_the_default_and_native_can_be_asked_for() {
     let place = library("post = \"grbl\"");

@@ -110,6 +110,7 @@ fn rewrite_and_report(
     let mut program =
         Program::open(context, file, args.reading.options()).map_err(|problem| vec![*problem])?;
     program.read.problems.iter_mut().for_each(refuse_machine_value);
+    refuse_cut_off(&mut program);
     if program.read.problems.iter().any(Diagnostic::is_error) {
         return Err(program.read.problems);
     }
@@ -214,6 +215,17 @@ fn refuse_machine_value(problem: &mut Diagnostic) {
         problem.message = &posts::JOB_MACHINE_VALUE;
         problem.severity = Severity::Error;
     } else if problem.message == &gcode::RETRACT_NOT_STATED {
+        problem.severity = Severity::Error;
+    }
+}
+
+/// Makes it an error that a program of pathbuild has no end: the file was cut off, and its new version would look complete.
+fn refuse_cut_off(program: &mut Program) {
+    if Provenance::of_head(&program.text).is_none() {
+        return;
+    }
+    let problems = program.read.problems.iter_mut();
+    for problem in problems.filter(|problem| problem.message == &gcode::NO_END) {
         problem.severity = Severity::Error;
     }
 }
