@@ -508,6 +508,25 @@ fn a_wait_in_milliseconds_is_refused() {
     }
 }
 
+/// Only a shell replaces `~` and variables: here they would be names of directories.
+#[test]
+fn a_directory_with_an_abbreviation_of_shells_is_refused() {
+    for (path, is_wrong) in [
+        ("~/gcode", true),
+        ("~", true),
+        ("$HOME/gcode", true),
+        ("%USERPROFILE%\\gcode", true),
+        ("./~/gcode", false),
+        ("~gcode", false),
+        ("100%", false),
+        ("%%", false),
+    ] {
+        let run = Place::new().file("pathbuild.toml", format!("out-dir = '{path}'\n")).run("config show");
+        let is_reported = run.stderr.contains("which only a shell replaces");
+        assert_eq!((run.status == Some(2), is_reported), (is_wrong, is_wrong), "{path}: {run}");
+    }
+}
+
 /// A TOML table extends to the next one: a key added at the end belongs to the last table.
 #[test]
 fn a_key_in_the_wrong_table_is_told_where_it_belongs() {

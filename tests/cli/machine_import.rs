@@ -38,6 +38,11 @@ fn findings(content: impl AsRef<[u8]>) -> Run {
 }
 
 #[test]
+fn a_byte_order_mark_is_no_part_of_the_first_setting() {
+    assert_eq!(findings(format!("\u{feff}{GRBL}")).stdout, findings(GRBL).stdout);
+}
+
+#[test]
 fn every_form_is_compared_with_the_configuration() {
     let place = Place::new()
         .file("pathbuild.toml", CONFIGURED)

@@ -307,6 +307,13 @@ fn invalid_dates_are_named_with_their_places() {
     let line = "0123456789abcdef0123456789abcdef";
     let text = format!("{line} until=2026-02-30 PB114 a.dxf\n{line} reason=why PB114\n{line} until=soon\n");
     let place = place().file("known.txt", text);
+    for word in
+        ["until:2031-01-01", "until =2031-01-01", "Until=2031-01-01", "reason:", "Depth=1", "severity=error"]
+    {
+        std::fs::write(place.path().join("slip.txt"), format!("{line} {word} PB114 a.dxf\n")).unwrap();
+        let run = place.run("check --baseline slip.txt");
+        assert!(run.status == Some(2) && run.stderr.contains("slip.txt:1"), "{word}: {run}");
+    }
     assert_snapshot!(place.run("check --baseline known.txt"));
     assert_snapshot!(place.run("check --baseline known.txt --update-baseline --lang de"));
     for until in ["\"2026-13-01\"", "2026-12-31T00:00:00", "20261231", "\" 2026-12-31\""] {

@@ -501,11 +501,26 @@ fn entry(line: &str) -> Result<(&str, Entry), LineFault> {
         } else if word == "severity=warning" {
             is_for_warning = true;
             rest = rest[word.len()..].trim_start();
+        } else if let Some(message) = misspelt_field(word) {
+            return Err(LineFault { message, part: start..start + word.len() });
         } else {
             let (description, line) = (rest.trim_end().to_owned(), line.to_owned());
             return Ok((fingerprint, Entry { waiver, depth, is_for_warning, description, line }));
         }
     }
+}
+
+/// Returns the message about a word that begins with the name of a field, but is none, such as `until:2026-12-31`. Otherwise it would pass for the
+/// beginning of the description, and the waiver would never end.
+fn misspelt_field(word: &str) -> Option<&'static Message> {
+    let name = word.split(['=', ':']).next().unwrap_or_default();
+    let fields = [
+        ("until", &messages::BASELINE_DATE),
+        ("depth", &messages::BASELINE_DEPTH),
+        ("reason", &messages::BASELINE_REASON),
+        ("severity", &messages::BASELINE_SEVERITY),
+    ];
+    fields.into_iter().find_map(|(field, message)| name.eq_ignore_ascii_case(field).then_some(message))
 }
 
 fn fingerprint(line: &str) -> Option<&str> {

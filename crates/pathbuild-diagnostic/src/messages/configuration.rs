@@ -52,6 +52,13 @@ messages! {
         help_en: "write the path in single quotes, or with `/`",
         help_de: "den Dateipfad in einfache Anführungszeichen setzen oder mit `/` schreiben",
     }
+    /// A file or directory whose name begins with an abbreviation of shells, such as `~/` or `$HOME/`.
+    SHELL_ABBREVIATION: InvalidConfiguration {
+        en: "the value of `{key}` begins with {found}, which only a shell replaces: here it would be the name of a directory",
+        de: "der Wert von `{key}` beginnt mit {found}, was nur eine Shell ersetzt: hier wäre es der Name eines Verzeichnisses",
+        help_en: "write the path in full, or relative to this file; write ./ before it if a directory has this name",
+        help_de: "den Dateipfad ausschreiben oder bezogen auf diese Datei angeben; ./ davor schreiben, wenn ein Verzeichnis so heißt",
+    }
     /// An unknown key that is similar to a known one.
     UNKNOWN_KEY: InvalidConfiguration {
         en: "unknown key `{key}`",
@@ -313,6 +320,13 @@ messages! {
         de: "der Grund ist kein Text in Anführungszeichen",
         help_en: "write reason=\"...\", with a backslash before each quote inside",
         help_de: "reason=\"...\" schreiben, mit einem Backslash vor jedem Anführungszeichen im Text",
+    }
+    /// A baseline entry with an invalid severity.
+    BASELINE_SEVERITY: InvalidConfiguration {
+        en: "`{found}` is not a severity",
+        de: "`{found}` ist keine Einstufung",
+        help_en: "write severity=warning, or remove the word if the finding is an error",
+        help_de: "severity=warning schreiben oder das Wort entfernen, wenn der Befund ein Fehler ist",
     }
     /// A glob of a table `[[severity-in]]` that matches neither a drawing nor a program.
     GLOB_WITHOUT_FILE: GlobWithoutFile {

@@ -92,6 +92,10 @@ impl<'a> TomlReader<'a> {
             self.report(self.fault(&messages::CONTROL_CHARACTER, value.span()));
             return None;
         }
+        if let Some(found) = shell_abbreviation(name) {
+            self.report(self.fault(&messages::SHELL_ABBREVIATION, value.span()).quoting("found", found));
+            return None;
+        }
         let path: Utf8PathBuf = with_forward_slashes(self.directory.join(name).components().collect());
         match self.confined.filter(|confined| !confined.is_in_configured_root(&path)) {
             None => Some(path),
@@ -494,4 +498,11 @@ mod tests {
         assert_eq!(key_index.find("rate"), None);
         assert_eq!(key_index.find("colour-of-the-bit"), None);
     }
+}
+
+/// Returns the first part of a path if a shell would replace it: `~`, `$HOME` or `%USERPROFILE%`.
+fn shell_abbreviation(path: &str) -> Option<&str> {
+    let first = path.split(['/', '\\']).next()?;
+    let is_of_windows = first.len() > 2 && first.starts_with('%') && first.ends_with('%');
+    (first == "~" || first.starts_with('$') || is_of_windows).then_some(first)
 }

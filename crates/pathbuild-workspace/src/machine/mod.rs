@@ -139,7 +139,8 @@ pub fn text(system: &dyn System, file: &Utf8Path) -> Result<String, Shown> {
     let bytes =
         system.read(file, MAX_DESCRIPTION_BYTES).map_err(|error| error.reason(MAX_DESCRIPTION_BYTES))?;
     let bytes = if bytes.starts_with(b"PK\x03\x04") { unpack(&bytes)? } else { bytes };
-    decode_utf8(bytes)
+    // Some editors begin a file with a byte order mark.
+    decode_utf8(bytes).map(|text| text.trim_start_matches('\u{feff}').to_owned())
 }
 
 /// Parses a description; its format is recognized by its content. `unit` is the unit of a tool table that does not name it. `bit` returns the text of
