@@ -423,6 +423,11 @@ impl Move {
         self.named.is_some_and(|named| named.axes().has(Axes::Z))
     }
 
+    /// Whether the move goes somewhere at a cutting feed.
+    pub fn is_cut(&self) -> bool {
+        matches!(self.pace, Pace::Feed(_)) && !self.is_standstill()
+    }
+
     /// Whether the move probes straight down.
     pub fn probes_down(&self) -> bool {
         matches!(self.pace, Pace::Probe { toward: true, .. })

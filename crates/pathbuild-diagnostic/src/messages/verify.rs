@@ -324,7 +324,7 @@ messages! {
         help_de: "die Zahlen eines bearbeiteten Programms prüfen oder es mit seiner Zeichnung vergleichen (--against PFAD); mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
     }
     /// A comment of a probing program without the probe that it announces.
-    PROBE_MISSING: Disagreement {
+    PROBE_MISSING: Disagreement as Error {
         en: "the comment in line {comment} announces a probe, but no probing move down follows it",
         de: "der Kommentar in Zeile {comment} kündigt ein Antasten an, aber darauf folgt keine Antastbewegung nach unten",
         help_en: "write the probing program again: with G1 in place of G38.2 (of G31 on Fanuc, Haas and Mach3), the tool does not stop at the touch plate",

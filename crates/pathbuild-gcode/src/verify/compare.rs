@@ -411,7 +411,7 @@ impl<'m> Walker<'m> {
     /// Returns the rest of the current move.
     pub(super) fn stretch(&self) -> Option<Stretch> {
         let (_, movement) = self.current()?;
-        Some(Stretch { movement, begin: self.done, length: movement.length() * (1.0 - self.done) })
+        Some(Stretch::rest(movement, self.done))
     }
 
     /// Returns the current position, or the end of the current move if its start is unknown; `None` if there are no moves.
@@ -443,7 +443,12 @@ impl<'m> Walker<'m> {
 
 impl Stretch {
     pub(super) fn whole(movement: Move) -> Self {
-        Self { movement, begin: 0.0, length: movement.length() }
+        Self::rest(movement, 0.0)
+    }
+
+    /// Creates the part of a move from a fraction to its end.
+    pub(super) fn rest(movement: Move, begin: f64) -> Self {
+        Self { movement, begin, length: movement.length() * (1.0 - begin) }
     }
 
     pub(super) fn end(&self) -> [f64; 3] {

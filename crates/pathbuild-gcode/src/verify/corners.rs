@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::{Action, Change, Corners, Pace, Step};
+use pathbuild_motion::{Action, Change, Corners, Step};
 
 /// Rounding of corners in mm that the built-in posts permit.
 pub(super) const BUILT_IN_ROUNDING: f64 = 0.01;
@@ -34,7 +34,7 @@ impl CornerRules {
     pub fn step(&mut self, step: &Step) {
         match &step.action {
             Action::Change(Change::Corners(corners)) => self.corners = Some((step.line, *corners)),
-            Action::Move(motion) if matches!(motion.pace, Pace::Feed(_)) && !motion.is_standstill() => {
+            Action::Move(motion) if motion.is_cut() => {
                 self.cut();
             }
             _ => {}

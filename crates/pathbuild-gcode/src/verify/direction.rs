@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::{Action, Pace, Step, Turning};
+use pathbuild_motion::{Action, Step, Turning};
 
 /// Rule that finds cuts during which the spindle turns against the direction of the tool, and programs that cut without ever starting the spindle:
 /// pass every step of a program, then call [`finish`](Self::finish). Each tool is reported at most once.
@@ -30,7 +30,7 @@ impl DirectionRules {
                 self.turning = spindle.turning;
                 self.has_speed |= spindle.speed.is_some_and(|speed| speed > 0.0);
             }
-            Action::Move(motion) if matches!(motion.pace, Pace::Feed(_)) && !motion.is_standstill() => {
+            Action::Move(motion) if motion.is_cut() => {
                 self.check(step.line);
             }
             _ => {}

@@ -72,7 +72,9 @@ impl<'m> MachineRules<'m> {
             Action::System { frame, .. } => self.reach.enter(*frame),
             Action::Move(movement) => {
                 if let Some(travel) = &self.machine.travel {
-                    self.reach.check(step.line, movement, travel, &mut self.problems);
+                    for found in self.reach.check(movement, travel) {
+                        self.problems.add_at_line(found.message, step.line, |_| found);
+                    }
                 }
                 self.check_feed(step.line, movement);
             }
@@ -164,8 +166,9 @@ impl Reach {
         self.is_entering |= std::mem::replace(&mut self.current, frame) != frame;
     }
 
-    fn check(&mut self, line: u32, movement: &Move, travel: &Travel, problems: &mut Problems) {
-        self.check_machine_position(line, movement, travel, problems);
+    /// Takes a move into account and returns the findings about it, without places.
+    fn check(&mut self, movement: &Move, travel: &Travel) -> Vec<Diagnostic> {
+        let mut found = self.check_machine_position(movement, travel);
         if movement.named.is_none() {
             let changes = |axis: &usize| movement.from.at[*axis] != movement.to.at[*axis];
             self.moved = (0..3).filter(changes).map(Axes::of).fold(self.moved, Axes::with);
@@ -177,7 +180,7 @@ impl Reach {
         }
         let moved = movement.extent();
         if moved.iter().all(Option::is_none) {
-            return;
+            return found;
         }
         let index = self.frames.iter().position(|(frame, _)| *frame == self.current).unwrap_or_else(|| {
             self.frames.push((self.current, Extent::default()));
@@ -188,24 +191,18 @@ impl Reach {
             let whole = widen(&mut self.frames[index].1[axis], range);
             match travel {
                 // The limits are those of the system in which the program begins.
-                Travel::Placed(limits) if index == 0 => {
-                    self.check_placed(line, axis, range, limits[axis], problems);
-                }
+                Travel::Placed(limits) if index == 0 => found.extend(self.outside(axis, range, limits[axis])),
                 Travel::Placed(_) => {}
-                Travel::Size(sizes) => self.check_size(line, axis, whole, sizes[axis], problems),
+                Travel::Size(sizes) => found.extend(self.too_large(axis, whole, sizes[axis])),
             }
         }
+        found
     }
 
     /// Checks a position in machine coordinates that is unknown in the program's coordinates.
-    fn check_machine_position(
-        &mut self,
-        line: u32,
-        movement: &Move,
-        travel: &Travel,
-        problems: &mut Problems,
-    ) {
-        let Some(NamedPosition::Machine(axes)) = movement.named else { return };
+    fn check_machine_position(&mut self, movement: &Move, travel: &Travel) -> Vec<Diagnostic> {
+        let mut found = Vec::new();
+        let Some(NamedPosition::Machine(axes)) = movement.named else { return found };
         for axis in 0..3 {
             let is_machine = axes.has(Axes::of(axis)) && !movement.to.known.has(Axes::of(axis));
             if !is_machine {
@@ -217,45 +214,32 @@ impl Reach {
                 Travel::Placed(limits) => limits[axis].1 - limits[axis].0,
                 Travel::Size(sizes) => sizes[axis],
             };
-            self.check_size(line, axis, whole, size, problems);
+            found.extend(self.too_large(axis, whole, size));
         }
+        found
     }
 
-    fn check_placed(
+    /// Returns findings about the ends of a move that are outside the limits of an axis. Each end of an axis is reported once.
+    fn outside(
         &mut self,
-        line: u32,
         axis: usize,
         extent: (f64, f64),
         limits: (f64, f64),
-        problems: &mut Problems,
-    ) {
-        for (end, value, is_outside) in
-            [(0, extent.0, extent.0 < limits.0 - ROUNDING), (1, extent.1, extent.1 > limits.1 + ROUNDING)]
-        {
-            if is_outside && !std::mem::replace(&mut self.said[axis][end], true) {
-                problems.add_at_line(&say::OUTSIDE_MACHINE, line, |d| {
-                    d.with("axis", AXES[axis])
-                        .with("value", value)
-                        .with("least", limits.0)
-                        .with("most", limits.1)
-                });
-            }
-        }
+    ) -> impl Iterator<Item = Diagnostic> {
+        let ends = [(extent.0, extent.0 < limits.0 - ROUNDING), (extent.1, extent.1 > limits.1 + ROUNDING)];
+        ends.into_iter().zip(&mut self.said[axis]).filter_map(move |((value, is_outside), is_said)| {
+            let is_new = is_outside && !std::mem::replace(is_said, true);
+            let found =
+                || Diagnostic::new(&say::OUTSIDE_MACHINE).with("axis", AXES[axis]).with("value", value);
+            is_new.then(|| found().with("least", limits.0).with("most", limits.1))
+        })
     }
 
-    fn check_size(
-        &mut self,
-        line: u32,
-        axis: usize,
-        (low, high): (f64, f64),
-        most: f64,
-        problems: &mut Problems,
-    ) {
+    /// Returns a finding about an extent that is larger than the travel of an axis. Each axis is reported once.
+    fn too_large(&mut self, axis: usize, (low, high): (f64, f64), most: f64) -> Option<Diagnostic> {
         let size = high - low;
-        if size > most + 2.0 * ROUNDING && !std::mem::replace(&mut self.said[axis][0], true) {
-            problems.add_at_line(&say::LARGER_THAN_MACHINE, line, |d| {
-                d.with("axis", AXES[axis]).with("size", size).with("most", most)
-            });
-        }
+        let is_new = size > most + 2.0 * ROUNDING && !std::mem::replace(&mut self.said[axis][0], true);
+        let found = || Diagnostic::new(&say::LARGER_THAN_MACHINE).with("axis", AXES[axis]);
+        is_new.then(|| found().with("size", size).with("most", most))
     }
 }

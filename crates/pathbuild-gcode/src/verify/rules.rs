@@ -3,7 +3,7 @@
 use std::fmt;
 
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_diagnostic::{Diagnostic, Message};
 use pathbuild_motion::{
     Action, Arc, Axes, Change, Move, MoveShape, NamedPosition, Pace, Plane, Position, Spindle, Step, Turning,
 };
@@ -12,9 +12,9 @@ use super::frames::Frames;
 use super::material::Stock;
 use super::tip_height::TipHeight;
 use crate::dialect::Dialect;
-use crate::interpret::{Options, code_name, interpret_each};
+use crate::interpret::code_name;
 use crate::native::announces_probe;
-use crate::read::{BlockReader, Problems, Value, Word};
+use crate::read::Problems;
 
 /// Tolerance in mm within which heights are equal.
 const HEIGHT_TOLERANCE: f64 = 0.002;
@@ -171,27 +171,17 @@ impl<'c> Rules<'c> {
     /// Checks moves to machine positions, which are straight rapid moves from the position of the tool.
     fn check_home_move(&mut self, line: u32, movement: &Move) {
         let stays = movement.to.known.has(Axes::XY) && movement.keeps_xy();
-        if movement.named.is_none() || stays || !movement.from.known.has(Axes::Z) {
-            return;
-        }
-        if let Some(surface) = self.surface_above(line, movement.from.z()) {
-            let z = movement.from.z();
-            self.problems
-                .add_at_line(&say::HOME_FROM_DEPTH, line, |d| d.with("z", z).with("surface", surface));
+        if movement.named.is_some() && !stays {
+            self.report_if_below_surface(&say::HOME_FROM_DEPTH, line, movement.from);
         }
     }
 
     /// Checks the first move in another coordinate system. The direction of this move is unknown.
     fn leave_frame(&mut self, line: u32, movement: &Move) {
-        let leaves = std::mem::take(&mut self.changes_frame) && self.at.known.has(Axes::Z);
+        let leaves = std::mem::take(&mut self.changes_frame);
         let rises = movement.keeps_xy() && movement.to.z() >= movement.from.z();
-        if !leaves || rises || movement.named.is_some() {
-            return;
-        }
-        let z = self.at.z();
-        if let Some(surface) = self.surface_above(line, z) {
-            self.problems
-                .add_at_line(&say::SYSTEM_FROM_DEPTH, line, |d| d.with("z", z).with("surface", surface));
+        if leaves && !rises && movement.named.is_none() {
+            self.report_if_below_surface(&say::SYSTEM_FROM_DEPTH, line, self.at);
         }
     }
 
@@ -216,23 +206,26 @@ impl<'c> Rules<'c> {
         (z < surface - HEIGHT_TOLERANCE).then_some(surface)
     }
 
+    /// Reports a tool below the surface of the material; nothing if its height is unknown.
+    fn report_if_below_surface(&mut self, message: &'static Message, line: u32, at: Position) {
+        if !at.known.has(Axes::Z) {
+            return;
+        }
+        if let Some(surface) = self.surface_above(line, at.z()) {
+            self.problems.add_at_line(message, line, |d| d.with("z", at.z()).with("surface", surface));
+        }
+    }
+
     fn check_diagonal(&mut self, line: u32, movement: &Move) {
-        let is_known = movement.is_known();
         let is_diagonal = !movement.keeps_xy() && movement.to.z() < movement.from.z();
-        let z = movement.to.z();
-        if movement.pace == Pace::Rapid
-            && is_known
-            && is_diagonal
-            && let Some(surface) = self.surface_above(line, z)
-        {
-            self.problems
-                .add_at_line(&say::DIAGONAL_RAPID, line, |d| d.with("z", z).with("surface", surface));
+        if movement.pace == Pace::Rapid && movement.is_known() && is_diagonal {
+            self.report_if_below_surface(&say::DIAGONAL_RAPID, line, movement.to);
         }
     }
 
     /// Checks that the spindle turns, but only in programs that switch it: on many machines the operator switches the spindle.
     fn check_cutting(&mut self, line: u32, movement: &Move) {
-        if !is_cut(movement) {
+        if !is_cut_after_approach(movement) {
             return;
         }
         self.has_cut = true;
@@ -262,10 +255,7 @@ impl<'c> Rules<'c> {
         let Some(comment) = self.announced_probe.take() else { return };
         if !next.is_some_and(|(_, movement)| movement.probes_down()) {
             let line = next.map_or(comment, |(line, _)| line);
-            self.problems.add_at_line(&say::PROBE_MISSING, line, |d| Diagnostic {
-                severity: Severity::Error,
-                ..d.with("comment", u64::from(comment))
-            });
+            self.problems.add_at_line(&say::PROBE_MISSING, line, |d| d.with("comment", u64::from(comment)));
         }
     }
 
@@ -332,23 +322,14 @@ impl<'c> Rules<'c> {
 
     /// Reports a stop with the tool in the material. At the end of a program, [`check_end`](Self::check_end) reports it instead.
     fn report_stop(&mut self) {
-        let Some(line) = self.stop_at_depth.take() else { return };
-        let z = self.at.z();
-        if let Some(surface) = self.surface_above(line, z) {
-            self.problems.add_at_line(&say::STOP_AT_DEPTH, line, |d| d.with("z", z).with("surface", surface));
+        if let Some(line) = self.stop_at_depth.take() {
+            self.report_if_below_surface(&say::STOP_AT_DEPTH, line, self.at);
         }
     }
 
     fn check_tool_change(&mut self, line: u32) {
         self.stop_at_depth = None;
-        let z = self.at.z();
-        if !self.at.known.has(Axes::Z) {
-            return;
-        }
-        if let Some(surface) = self.surface_above(line, z) {
-            self.problems
-                .add_at_line(&say::TOOL_CHANGE_AT_DEPTH, line, |d| d.with("z", z).with("surface", surface));
-        }
+        self.report_if_below_surface(&say::TOOL_CHANGE_AT_DEPTH, line, self.at);
     }
 
     fn check_end(&mut self) {
@@ -356,21 +337,12 @@ impl<'c> Rules<'c> {
             self.problems.add_at_line(&say::SPINDLE_LEFT_ON, self.spindle_line, |d| d);
         }
         if let Some((line, code, is_late)) = self.shifted {
-            self.problems.add_at_line(&say::OFFSET_LEFT_ON, line, |mut diagnostic| {
-                if is_late {
-                    diagnostic.severity = Severity::Error;
-                }
-                diagnostic.quoting("word", code_name('G', code))
+            self.problems.add_at_line(&say::OFFSET_LEFT_ON, line, |d| {
+                let found = d.quoting("word", code_name('G', code));
+                if is_late { found.as_error() } else { found }
             });
         }
-        let z = self.at.z();
-        if !self.at.known.has(Axes::Z) {
-            return;
-        }
-        if let Some(surface) = self.surface_above(self.line, z) {
-            self.problems
-                .add_at_line(&say::END_NOT_RAISED, self.line, |d| d.with("z", z).with("surface", surface));
-        }
+        self.report_if_below_surface(&say::END_NOT_RAISED, self.line, self.at);
     }
 }
 
@@ -398,7 +370,7 @@ impl ArcDirections {
         let (from, to) = (&movement.from, &movement.to);
         let before = std::mem::take(self);
         let is_level = from.known.and(to.known) == Axes::ALL && from.z() == to.z();
-        if !is_level || movement.is_standstill() || !matches!(movement.pace, Pace::Feed(_)) {
+        if !is_level || !movement.is_cut() {
             return;
         }
         match movement.shape {
@@ -429,11 +401,11 @@ fn is_opposite(one: [f64; 2], other: [f64; 2]) -> bool {
 
 /// Whether a move cuts, and does not stay above the material.
 pub(super) fn is_cut_in_stock(line: u32, movement: &Move, stock: Option<&Stock>) -> bool {
-    is_cut(movement) && !is_above_stock(line, movement, stock)
+    is_cut_after_approach(movement) && !is_above_stock(line, movement, stock)
 }
 
-fn is_cut(movement: &Move) -> bool {
-    matches!(movement.pace, Pace::Feed(_)) && !movement.is_standstill() && !is_first_height(movement)
+fn is_cut_after_approach(movement: &Move) -> bool {
+    movement.is_cut() && !is_first_height(movement)
 }
 
 /// Whether a move stays above the material; false if that is unknown.
@@ -460,56 +432,4 @@ fn check_probe_direction(line: u32, movement: &Move, problems: &mut Problems) {
     } else if movement.to.z() > movement.from.z() {
         problems.add_at_line(&say::USELESS_PROBE, line, |d| d);
     }
-}
-
-/// Number of decimals that arc centres in millimetres require.
-const MIN_CENTRE_DECIMALS: u8 = 3;
-
-/// Tolerance in mm within which radii are equal.
-const RADIUS_TOLERANCE: f64 = 1e-4;
-
-/// Reports the first arc of a program in millimetres whose centre has decimals, if no coordinate or centre in the program has three of them and some
-/// arc has different radii at its ends. Numbers without decimals are considered to be written by hand and exact.
-pub fn coarse_arc_finding(text: &[u8], dialect: Dialect) -> Option<Diagnostic> {
-    let mut reader = BlockReader::new(text, dialect.rules());
-    let (mut finest, mut first) = (0, None);
-    while let Some(block) = reader.next_block() {
-        for word in &block.words {
-            if is_inch(word) {
-                return None;
-            }
-            let Value::Number(number) = word.value else { continue };
-            let is_centre = matches!(word.letter, b'I' | b'J' | b'K');
-            if is_centre || matches!(word.letter, b'X' | b'Y' | b'Z') {
-                finest = finest.max(number.decimals);
-            }
-            if finest >= MIN_CENTRE_DECIMALS {
-                return None;
-            }
-            if is_centre && number.decimals > 0 {
-                first = first.or(Some(block.line));
-            }
-        }
-    }
-    let line = first.filter(|_| has_rounded_arc(text, dialect))?;
-    let mut problems = Problems::default();
-    let step = if finest == 1 { 0.1 } else { 0.01 };
-    problems.add_at_line(&say::COARSE_ARCS, line, |d| d.with("step", step));
-    problems.into_diagnostics().pop()
-}
-
-/// Whether some arc has different radii at its ends. If all radii match exactly, the numbers were not rounded.
-fn has_rounded_arc(text: &[u8], dialect: Dialect) -> bool {
-    let mut is_rounded = false;
-    interpret_each(text, dialect, &Options::default(), &mut |step| {
-        let Some((_, movement)) = step.as_move() else { return };
-        let MoveShape::Arc(arc) = movement.shape else { return };
-        is_rounded |= libm::fabs(arc.radius(&movement.from) - arc.radius(&movement.to)) > RADIUS_TOLERANCE;
-    });
-    is_rounded
-}
-
-fn is_inch(word: &Word) -> bool {
-    let Value::Number(number) = word.value else { return false };
-    word.letter == b'G' && (number.value == 20.0 || number.value == 70.0)
 }

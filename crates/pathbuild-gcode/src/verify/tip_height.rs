@@ -7,7 +7,7 @@
 
 use pathbuild_diagnostic::Message;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::{Action, Axes, Change, Move, NamedPosition, Pace, Step, ToolLength};
+use pathbuild_motion::{Action, Axes, Change, Move, NamedPosition, Step, ToolLength};
 
 use crate::dialect::{Dialect, ToolChanger};
 
@@ -140,7 +140,7 @@ impl TipHeight {
             Height::Unstated => self.leave_start(movement),
             Height::Stopped { .. } | Height::Changed => self.leave_stop(step, movement),
         };
-        if matches!(movement.pace, Pace::Feed(_)) && !movement.is_standstill() {
+        if movement.is_cut() {
             self.cutting = self.selected;
             if matches!(self.height, Height::Stopped { .. }) {
                 self.height = Height::Known;

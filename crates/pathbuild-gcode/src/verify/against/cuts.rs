@@ -1,17 +1,12 @@
-//! Compares cuts move by move, and the rapid moves between two cuts as a whole, and checks whether a program hits the clamps of its drawing.
-//! (book: language/keep-outs)
+//! Compares cuts move by move, and the rapid moves between two cuts as a whole.
 
 use std::iter::Peekable;
 
-use pathbuild_diagnostic::messages::{gcode, paths as say};
-use pathbuild_diagnostic::{Diagnostic, Point};
-use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Position, Step};
-use pathbuild_path::{KeepOut, KeepOutMap};
-use pathbuild_toolpath::{kind_of_move, tip_move};
+use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::gcode;
+use pathbuild_motion::{Axes, Move, MoveShape, Pace, Position};
 
 use crate::dialect::Dialect;
-use crate::interpret::{Program, Text};
-use crate::read::Problems;
 use crate::verify::compare::{
     Difference, DifferenceKind, Ends, Stretch, Tolerance, are_alike, check_pace, check_shape,
     meeting_fraction,
@@ -224,9 +219,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
     /// rounding error on a steep arc means a difference in height.
     fn slack_of_height(&mut self) -> f64 {
         let within = self.expected.peek().filter(|_| self.done > 0.0);
-        let steepness = within.map_or(0.0, |(_, movement)| {
-            Stretch { movement: *movement, begin: 0.0, length: 0.0 }.steepness()
-        });
+        let steepness = within.map_or(0.0, |(_, movement)| Stretch::whole(*movement).steepness());
         2.0 * self.tolerance.place * (1.0 + steepness)
     }
 
@@ -234,8 +227,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
     fn place(&mut self) -> Position {
         match self.expected.peek() {
             Some((_, movement)) if self.done > 0.0 => {
-                let stretch = Stretch { movement: *movement, begin: self.done, length: 0.0 };
-                let [x, y, z] = stretch.point(self.done);
+                let [x, y, z] = movement.point(self.done);
                 Position::known(x, y, z)
             }
             _ => self.at,
@@ -245,7 +237,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
     fn cut(&mut self, line: u32, movement: &Move) -> Result<(), Box<Difference>> {
         let mut begin = 0.0;
         loop {
-            let ours = Stretch { movement: *movement, begin, length: movement.length() * (1.0 - begin) };
+            let ours = Stretch::rest(*movement, begin);
             let next = self.expected.peek().copied();
             let differs =
                 |kind| Box::new(Difference { kind, found: Some((line, *movement)), expected: next });
@@ -261,11 +253,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
                     Err(differs(next.map_or(DifferenceKind::Place, |_| DifferenceKind::Pace)))
                 };
             };
-            let theirs = Stretch {
-                movement: expected,
-                begin: self.done,
-                length: expected.length() * (1.0 - self.done),
-            };
+            let theirs = Stretch::rest(expected, self.done);
             let is_helix = theirs.is_arc() && expected.from.z() != expected.to.z();
             let is_chord = is_helix && !self.takes_helices && !ours.is_arc();
             if ours.end_together(&theirs, slack) && !is_chord {
@@ -581,62 +569,5 @@ impl ExpectedTraverse<'_> {
 
     fn is_near(&self, a: &Position, b: &Position) -> bool {
         self.is_at(a, b) && self.is_same_height(a.z(), b.z())
-    }
-}
-
-/// Clamps in program coordinates, and the tool that must not hit them.
-#[derive(Debug)]
-pub struct Clamps {
-    all: Vec<KeepOut>,
-    map: KeepOutMap,
-    radius: f64,
-}
-
-/// The collisions of a program with clamps that were found so far.
-struct ClampCollisions<'c> {
-    clamps: &'c Clamps,
-    /// Maximum error in mm due to rounding, and to chords that replace helices. A move that touches a clamp in the drawing may be written slightly
-    /// inside it.
-    slack: f64,
-    problems: Problems,
-}
-
-impl Clamps {
-    /// Creates clamps at their positions, for a cutter with the given diameter in mm.
-    pub fn new(clamps: Vec<KeepOut>, cutter: f64) -> Self {
-        let map = KeepOutMap::new(clamps.iter().map(|clamp| (clamp.height, &*clamp.outline)));
-        Self { all: clamps, map, radius: cutter / 2.0 }
-    }
-
-    /// Returns the moves of a program that hit the clamps, ordered by line.
-    pub fn collisions(&self, program: &Text<'_>) -> Vec<Diagnostic> {
-        let mut collisions = ClampCollisions::new(self, program.dialect);
-        program.each(&mut |step| collisions.step(step));
-        collisions.problems.into_diagnostics()
-    }
-}
-
-impl<'c> ClampCollisions<'c> {
-    fn new(clamps: &'c Clamps, dialect: Dialect) -> Self {
-        let chord = if dialect.rules().arcs.helix { 0.0 } else { CHORD_TOLERANCE };
-        Self { clamps, slack: POSITION_TOLERANCE + chord, problems: Problems::default() }
-    }
-
-    fn step(&mut self, step: &Step) {
-        let Action::Move(it) = &step.action else { return };
-        let Some(way) = tip_move(it) else { return };
-        let Clamps { all, map, radius } = self.clamps;
-        for clamp in map.entered_clamps(&way, *radius, self.slack) {
-            let KeepOut { layer, at, height, .. } = &all[clamp];
-            self.problems.add_at_line(&say::LINE_INTO_CLAMP, step.line, |found| {
-                found
-                    .with("tool", 2.0 * radius)
-                    .quoting("layer", layer.as_str())
-                    .with("clamp", Point::new(at.x, at.y))
-                    .with("height", *height)
-                    .with("what", kind_of_move(it))
-                    .with("z", way.lowest())
-            });
-        }
     }
 }

@@ -3,6 +3,7 @@
 //! The program of the drawing defines where the tool goes, in one coordinate system, in the plane XY, with one tool at one spindle speed. Anything
 //! else in a program that could change where, how deep or how fast the tool cuts is a difference. The claims in the program's header are ignored.
 
+mod clamps;
 mod cuts;
 mod setup;
 
@@ -15,7 +16,7 @@ use super::words::{PostWords, WordRules};
 use crate::dialect::Dialect;
 use crate::read::Problems;
 
-pub use cuts::Clamps;
+pub use clamps::Clamps;
 use cuts::CutComparison;
 use setup::Setup;
 
@@ -139,7 +140,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         self.words.step(step);
-        self.setup.step(step, &mut self.problems);
+        self.setup.step(step);
         self.lacks_number &= !matches!(step.action, Action::ProgramNumber(_));
         if let (Action::ProgramNumber(found), Some(expected)) = (&step.action, self.number)
             && *found != expected
@@ -159,16 +160,18 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
     }
 
     /// Completes the comparison at the end of the program and returns its result.
-    pub fn finish(mut self) -> Agreement {
-        self.setup.finish(&mut self.problems);
+    pub fn finish(self) -> Agreement {
+        let has_uncompared_coolant = self.setup.has_uncompared_coolant();
+        let mut problems = self.setup.finish();
+        problems.append(self.problems);
         if let Some(expected) = self.number.filter(|_| self.lacks_number) {
-            self.problems.add_at_line(&say::NUMBER_MISSING, 1, |d| d.with("expected", u64::from(expected)));
+            problems.add_at_line(&say::NUMBER_MISSING, 1, |d| d.with("expected", u64::from(expected)));
         }
-        let mut differences = self.problems.into_diagnostics();
+        let mut differences = problems.into_diagnostics();
         differences.extend(self.words.finish());
         let (found, equal) = self.cuts.finish();
         differences.extend(found);
         differences.sort_by_key(|diagnostic| diagnostic.place.line);
-        Agreement { differences, equal, has_uncompared_coolant: self.setup.has_uncompared_coolant() }
+        Agreement { differences, equal, has_uncompared_coolant }
     }
 }

@@ -46,6 +46,7 @@ pub(super) struct Setup<'w> {
     /// Seconds for which the program has dwelt since it last changed the state of the spindle.
     running: f64,
     reported: ReportedFaults,
+    problems: Problems,
 }
 
 /// Problems that have been reported. Each is reported once, until the state changes.
@@ -94,115 +95,122 @@ impl<'w> Setup<'w> {
             line: 0,
             running: 0.0,
             reported: ReportedFaults::default(),
+            problems: Problems::default(),
         }
     }
 
-    pub(super) fn step(&mut self, step: &Step, problems: &mut Problems) {
+    pub(super) fn step(&mut self, step: &Step) {
         let line = step.line;
         self.line = line;
         let spindle_before = self.tools.spindle();
         self.tools.step(step);
         match &step.action {
-            Action::Move(movement) => self.check_move(line, movement, problems),
-            Action::Dwell(seconds) => self.check_dwell(line, *seconds, problems),
+            Action::Move(movement) => self.check_move(line, movement),
+            Action::Dwell(seconds) => self.check_dwell(line, *seconds),
             Action::Stop { optional } if self.is_low() => {
                 let word = if *optional { "M1" } else { "M0" };
-                report_extra_word(line, word.to_owned(), problems);
+                self.report_extra_word(line, word.to_owned());
             }
             Action::Word(StatedWord { group: Some(group), .. }) => _ = self.missing.remove(group),
-            Action::SelectTool(number) => self.check_selected_tool(line, *number, problems),
+            Action::SelectTool(number) => self.check_selected_tool(line, *number),
             Action::ChangeTool(number) => {
                 let number = number.unwrap_or(0);
-                self.check_selected_tool(line, number, problems);
+                self.check_selected_tool(line, number);
                 if self.has_post() && !self.words.has('M', 60) {
-                    report_extra_word(line, "M6".to_owned(), problems);
+                    self.report_extra_word(line, "M6".to_owned());
                 }
             }
-            Action::Spindle(spindle) => self.switch_spindle(line, spindle_before, *spindle, problems),
+            Action::Spindle(spindle) => self.switch_spindle(line, spindle_before, *spindle),
             Action::Coolant(coolant) => {
                 (self.coolant, self.coolant_line) = (*coolant, line);
                 self.reported.coolant = false;
                 if coolant.is_on() && !self.takes_coolant() {
-                    report_extra_word(line, coolant_text(*coolant).to_owned(), problems);
+                    self.report_extra_word(line, coolant_text(*coolant).to_owned());
                 } else if coolant.is_on() {
                     self.has_uncompared_coolant |= self.expected.coolant.is_none();
                 }
             }
-            Action::Change(change) => self.check_change(line, *change, problems),
+            Action::Change(change) => self.check_change(line, *change),
             _ => {}
         }
     }
 
-    pub(super) fn finish(&mut self, problems: &mut Problems) {
+    /// Returns the findings at the end of the program.
+    pub(super) fn finish(mut self) -> Problems {
         if self.is_spindle_on() {
             if self.expected.turning.is_some_and(Turning::is_on) {
-                problems.add_at_line(&say::STOP_MISSING, self.line, |d| d.quoting("word", "M5"));
+                self.problems.add_at_line(&say::STOP_MISSING, self.line, |d| d.quoting("word", "M5"));
             } else {
                 let word = spindle_text(Some(self.tools.spindle().turning), None);
-                report_extra_word(self.spindle_line, word, problems);
+                self.report_extra_word(self.spindle_line, word);
             }
         }
         if self.coolant != Coolant::default() && self.takes_coolant() {
             if self.expected.coolant.is_some_and(|expected| expected != Coolant::default()) {
-                problems.add_at_line(&say::STOP_MISSING, self.line, |d| d.quoting("word", "M9"));
+                self.problems.add_at_line(&say::STOP_MISSING, self.line, |d| d.quoting("word", "M9"));
             } else {
-                report_extra_word(self.coolant_line, coolant_text(self.coolant).to_owned(), problems);
+                self.report_extra_word(self.coolant_line, coolant_text(self.coolant).to_owned());
             }
         }
+        self.problems
     }
 
-    fn check_change(&mut self, line: u32, change: Change, problems: &mut Problems) {
+    fn report_extra_word(&mut self, line: u32, word: String) {
+        self.problems.add_at_line(&say::NOT_IN_DRAWING, line, |d| d.quoting("word", word));
+    }
+
+    fn check_change(&mut self, line: u32, change: Change) {
         match change {
             Change::ToolLength(ToolLength::Other(code)) => {
-                report_extra_word(line, code_name('G', code), problems);
+                self.report_extra_word(line, code_name('G', code));
             }
             Change::ToolLength(ToolLength::OfTool(_)) if self.tools.length_fit() != LengthFit::Fits => {
                 self.reported.length = true;
-                problems.add_at_line(&say::LENGTHS_DIFFER, line, |d| d);
+                self.problems.add_at_line(&say::LENGTHS_DIFFER, line, |d| d);
             }
             Change::ToolLength(_) => self.reported.length = false,
-            Change::Offsets { code, .. } => report_extra_word(line, code_name('G', code), problems),
+            Change::Offsets { code, .. } => self.report_extra_word(line, code_name('G', code)),
             Change::Corners(corners) => {
                 self.corners = Some(corners);
                 match corners {
                     // G64 P0 sets no limit, as if there were no P.
                     Corners::Rounded(Some(most)) if !(most > 0.0 && most <= BUILT_IN_ROUNDING * MARGIN) => {
-                        report_extra_word(line, "G64 P".to_owned(), problems);
+                        self.report_extra_word(line, "G64 P".to_owned());
                     }
                     Corners::Rounded(None) if self.words.rounds_freely => {}
-                    Corners::Rounded(None) => report_extra_word(line, "G64".to_owned(), problems),
+                    Corners::Rounded(None) => self.report_extra_word(line, "G64".to_owned()),
                     Corners::Rounded(Some(_)) | Corners::Exact => {}
                 }
             }
             Change::RapidFeed(feed) => {
                 let most = self.words.rapid_feed.unwrap_or(f64::INFINITY);
                 if feed == 0.0 {
-                    problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", "F"));
+                    self.problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", "F"));
                 } else if feed > most + SPEED_TOLERANCE {
-                    report_extra_word(line, "G0 F".to_owned(), problems);
+                    self.report_extra_word(line, "G0 F".to_owned());
                 }
             }
             Change::Plane(Plane::Xy) | Change::Switch(_) => {}
-            Change::Plane(Plane::Zx) => report_extra_word(line, "G18".to_owned(), problems),
-            Change::Plane(Plane::Yz) => report_extra_word(line, "G19".to_owned(), problems),
-            Change::Parameter => report_extra_word(line, "#".to_owned(), problems),
+            Change::Plane(Plane::Zx) => self.report_extra_word(line, "G18".to_owned()),
+            Change::Plane(Plane::Yz) => self.report_extra_word(line, "G19".to_owned()),
+            Change::Parameter => self.report_extra_word(line, "#".to_owned()),
         }
     }
 
-    fn check_selected_tool(&mut self, line: u32, number: u32, problems: &mut Problems) {
+    fn check_selected_tool(&mut self, line: u32, number: u32) {
         if !self.words.chooses_tools && self.has_post() {
-            return report_extra_word(line, "T".to_owned(), problems);
+            return self.report_extra_word(line, "T".to_owned());
         }
         let expected = *self.expected.number.get_or_insert(number);
         self.reported.length = false;
         if number != expected {
-            problems.add_at_line(&say::TOOLS_DIFFER, line, |d| {
+            self.problems.add_at_line(&say::TOOLS_DIFFER, line, |d| {
                 d.with("found", u64::from(number)).with("expected", u64::from(expected))
             });
         }
     }
 
-    fn switch_spindle(&mut self, line: u32, before: Spindle, spindle: Spindle, problems: &mut Problems) {
+    fn switch_spindle(&mut self, line: u32, before: Spindle, spindle: Spindle) {
         self.spindle_line = line;
         if spindle != before {
             self.running = 0.0;
@@ -214,14 +222,14 @@ impl<'w> Setup<'w> {
             && spindle.turning == Turning::Unstated
             && spindle.speed.unwrap_or_default() == 0.0;
         if is_left_alone && !is_foot {
-            report_extra_word(line, spindle_text(Some(spindle.turning), spindle.speed), problems);
+            self.report_extra_word(line, spindle_text(Some(spindle.turning), spindle.speed));
         }
     }
 
-    fn check_dwell(&mut self, line: u32, seconds: f64, problems: &mut Problems) {
+    fn check_dwell(&mut self, line: u32, seconds: f64) {
         self.running += seconds;
         if self.is_low() {
-            report_extra_word(line, "G4".to_owned(), problems);
+            self.report_extra_word(line, "G4".to_owned());
         }
     }
 
@@ -230,24 +238,24 @@ impl<'w> Setup<'w> {
         self.at.known.has(Axes::Z) && self.at.z() < self.clearance - HEIGHT_TOLERANCE
     }
 
-    fn check_move(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
+    fn check_move(&mut self, line: u32, movement: &Move) {
         // Only the machine knows the height at which a probe has stopped. A program may wait there: nothing turns in the material.
         self.at = if matches!(movement.pace, Pace::Probe { .. }) { Position::default() } else { movement.to };
-        self.check_setup_words(line, problems);
+        self.check_setup_words(line);
         if matches!(movement.named, Some(NamedPosition::Machine(_)))
             && !movement.to.known.has(Axes::Z)
             && movement.to.z() != 0.0
         {
-            report_extra_word(line, "G53 Z".to_owned(), problems);
+            self.report_extra_word(line, "G53 Z".to_owned());
         }
         if movement.pace != Pace::Rapid && !movement.is_standstill() {
-            self.check_cutting_tool(line, problems);
-            self.check_cutting_length(line, problems);
+            self.check_cutting_tool(line);
+            self.check_cutting_length(line);
         }
-        if matches!(movement.pace, Pace::Feed(_)) && !movement.is_standstill() {
-            self.check_cutting_spindle(line, problems);
-            self.check_cutting_coolant(line, problems);
-            self.check_cutting_corners(line, problems);
+        if movement.is_cut() {
+            self.check_cutting_spindle(line);
+            self.check_cutting_coolant(line);
+            self.check_cutting_corners(line);
         }
     }
 
@@ -257,14 +265,14 @@ impl<'w> Setup<'w> {
     }
 
     /// Reports the words that the post writes before the first move and the program lacks.
-    fn check_setup_words(&mut self, line: u32, problems: &mut Problems) {
+    fn check_setup_words(&mut self, line: u32) {
         for code in std::mem::take(&mut self.missing).into_values() {
-            problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", code_name('G', code)));
+            self.problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", code_name('G', code)));
         }
     }
 
     /// Checks that the selected tool or layer is that of the drawing.
-    fn check_cutting_tool(&mut self, line: u32, problems: &mut Problems) {
+    fn check_cutting_tool(&mut self, line: u32) {
         // If the post inserts its tool by M6, T alone only selects the next tool.
         let chosen = self.tools.inserted().or(self.tools.selected().filter(|_| !self.words.has('M', 60)));
         // On XpertMILL, the layer takes the place of the tool. On other controls, a wrong tool has already been reported where it was selected.
@@ -274,7 +282,7 @@ impl<'w> Setup<'w> {
         let is_chosen = chosen.is_some_and(fits);
         if !is_chosen && self.words.chooses_tools && !std::mem::replace(&mut self.reported.tool, true) {
             let expected = self.expected.number.map_or("T".to_owned(), |number| format!("T{number}"));
-            problems.add_at_line(&say::TOOL_NOT_CHOSEN, line, |d| d.quoting("expected", expected));
+            self.problems.add_at_line(&say::TOOL_NOT_CHOSEN, line, |d| d.quoting("expected", expected));
         }
     }
 
@@ -288,26 +296,26 @@ impl<'w> Setup<'w> {
         self.has_uncompared_coolant
     }
 
-    fn check_cutting_coolant(&mut self, line: u32, problems: &mut Problems) {
+    fn check_cutting_coolant(&mut self, line: u32) {
         let differs = |expected: &Coolant| *expected != self.coolant && self.takes_coolant();
         let Some(expected) = self.expected.coolant.filter(differs) else { return };
         if !std::mem::replace(&mut self.reported.coolant, true) {
             let found = coolant_text(self.coolant);
-            problems.add_at_line(&say::COOLANT_DIFFERS, line, |d| {
+            self.problems.add_at_line(&say::COOLANT_DIFFERS, line, |d| {
                 d.quoting("found", found).quoting("expected", coolant_text(expected))
             });
         }
     }
 
     /// Checks that the program sets the behaviour at corners if the post does, because a control otherwise keeps that of the previous program.
-    fn check_cutting_corners(&mut self, line: u32, problems: &mut Problems) {
+    fn check_cutting_corners(&mut self, line: u32) {
         let is_stated = self.corners.is_some() || !self.words.has('G', 640);
         if !is_stated && !std::mem::replace(&mut self.reported.corners, true) {
-            problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", "G64 P"));
+            self.problems.add_at_line(&say::MODE_MISSING, line, |d| d.quoting("word", "G64 P"));
         }
     }
 
-    fn check_cutting_spindle(&mut self, line: u32, problems: &mut Problems) {
+    fn check_cutting_spindle(&mut self, line: u32) {
         if self.reported.spindle {
             return;
         }
@@ -319,7 +327,7 @@ impl<'w> Setup<'w> {
             return;
         };
         self.reported.spindle = true;
-        self.spindle_differs(line, message, problems);
+        self.spindle_differs(line, message);
     }
 
     fn is_spindle_on(&self) -> bool {
@@ -330,11 +338,11 @@ impl<'w> Setup<'w> {
         self.tools.turns_otherwise(self.expected.turning, self.expected.speed, SPEED_TOLERANCE)
     }
 
-    fn spindle_differs(&self, line: u32, message: &'static Message, problems: &mut Problems) {
+    fn spindle_differs(&mut self, line: u32, message: &'static Message) {
         let (expected, found) = (self.expected, self.tools.spindle());
         let running = spindle_text(Some(found.turning), found.speed);
         let message = if running.is_empty() { &say::SPINDLE_NOT_SWITCHED } else { message };
-        problems.add_at_line(message, line, |d| {
+        self.problems.add_at_line(message, line, |d| {
             d.quoting("found", running)
                 .quoting("expected", spindle_text(expected.turning, expected.speed))
                 .with("seconds", self.spin_up)
@@ -343,13 +351,13 @@ impl<'w> Setup<'w> {
 
     /// Checks that the active length is that of the tool in the spindle if M6 inserts tools. Programs without M6, such as the native one, apply no
     /// length.
-    fn check_cutting_length(&mut self, line: u32, problems: &mut Problems) {
+    fn check_cutting_length(&mut self, line: u32) {
         let fit = self.tools.length_fit();
         if fit == LengthFit::Unstated
             && self.keeps_lengths()
             && !std::mem::replace(&mut self.reported.no_length, true)
         {
-            problems.add_at_line(&say::MODES_NOT_STATED, line, |d| {
+            self.problems.add_at_line(&say::MODES_NOT_STATED, line, |d| {
                 d.quoting("words", "G49").quoting("taken", "G49").as_error()
             });
         }
@@ -361,9 +369,9 @@ impl<'w> Setup<'w> {
         if !fits && !std::mem::replace(&mut self.reported.length, true) {
             let at = self.tools.length_line().unwrap_or(line);
             if fit == LengthFit::Fits {
-                return report_extra_word(at, "G43".to_owned(), problems);
+                return self.report_extra_word(at, "G43".to_owned());
             }
-            problems.add_at_line(&say::LENGTHS_DIFFER, at, |d| d);
+            self.problems.add_at_line(&say::LENGTHS_DIFFER, at, |d| d);
         }
     }
 
@@ -396,8 +404,4 @@ fn spindle_text(turning: Option<Turning>, speed: Option<f64>) -> String {
     };
     let speed = speed.map(|speed| format!("S{}", pathbuild_diagnostic::Number(speed))).unwrap_or_default();
     [word, &speed].join(" ").trim().to_owned()
-}
-
-fn report_extra_word(line: u32, word: String, problems: &mut Problems) {
-    problems.add_at_line(&say::NOT_IN_DRAWING, line, |d| d.quoting("word", word));
 }
