@@ -16,7 +16,7 @@ use crate::findings::EngineOutput;
 use crate::job::{Job, Operation, Units};
 use crate::line_words::{CommentMarks, first_other_line, words};
 use crate::number::StatedOption;
-use crate::read_back::{self, ReadBackOptions};
+use crate::read_back::{self, ReadBackOptions, Wording};
 use crate::rs274_translation::TranslatedText;
 use crate::target::{self, Target};
 use crate::{PostMacro, PostOptions, Row, cad6, cambam};
@@ -223,8 +223,8 @@ impl PostDefinition {
         // Some definitions round feeds to integers.
         let tolerance = Tolerance { place: half, feed: half.max(0.5), chord, ends: Ends::Cutting };
         let target = target.filter(|_| !self.has_own_axes());
-        let translated = target.is_none().then_some(shadow);
-        let text = translated.map_or(text, |translated| translated.text.as_bytes());
+        let wording = target.map_or(Wording::Translated(shadow), Wording::Control);
+        let text = if target.is_some() { text } else { shadow.text.as_bytes() };
         let tolerance = (!options.unchecked).then_some(tolerance);
         let is_manual = options.manual_spindle || target.is_some_and(|target| !target.switches_spindle());
         let machine = options.machine.as_ref();
@@ -232,11 +232,10 @@ impl PostDefinition {
         let milliseconds = options.milliseconds;
         let part_tolerance = options.part_tolerance;
         let expected = ReadBackOptions {
-            target,
+            wording,
             tolerance,
             machine,
             part_tolerance,
-            translated,
             is_manual,
             is_flat,
             follows_coolant,

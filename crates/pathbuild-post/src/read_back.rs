@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Message, Note, Severity, TextFault, Value};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::interpret::{self, Options, code_name};
+use pathbuild_gcode::interpret::{self, Interpretation, Options, code_name};
 use pathbuild_gcode::verify::{
     BentRapidRules, CornerRules, Cutter, LengthRules, Machine, MachineRules, Rules, Stock, StockSpan,
     Tolerance, coarse_arc_finding,
@@ -24,19 +24,46 @@ use crate::target::Target;
 use crate::traverse::{self, MatchedCut};
 use crate::{ambiguous, dwells, tools};
 
+/// How the words of a text are understood.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Wording<'a> {
+    /// As those of this control.
+    Control(&'a Target),
+    /// No dialect defines them, or the definition has its own axes: the text that is checked is this translation to RS274.
+    Translated(&'a TranslatedText),
+}
+
+impl<'a> Wording<'a> {
+    pub(super) fn control(self) -> Option<&'a Target> {
+        match self {
+            Self::Control(target) => Some(target),
+            Self::Translated(_) => None,
+        }
+    }
+
+    fn translation(self) -> Option<&'a TranslatedText> {
+        match self {
+            Self::Control(_) => None,
+            Self::Translated(translated) => Some(translated),
+        }
+    }
+
+    /// Returns the dialect in which the text is read.
+    pub(super) fn reader(self) -> Dialect {
+        self.control().map_or(Dialect::LinuxCnc, |target| target.reader)
+    }
+}
+
 /// The expectations that a text is checked against.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub(super) struct ReadBackOptions<'a> {
-    /// The control that the text is for. Without a target, the text that is checked is its translation to RS274.
-    pub(super) target: Option<&'a Target>,
+    pub(super) wording: Wording<'a>,
     /// Permitted deviation of the moves from the job. `None` if the user takes responsibility for the moves.
     pub(super) tolerance: Option<Tolerance>,
     pub(super) machine: Option<&'a Machine>,
     /// Maximum distance in mm by which cuts may miss the outline of a part.
     pub(super) part_tolerance: f64,
-    /// The translation to RS274 of a text without a target.
-    pub(super) translated: Option<&'a TranslatedText>,
     /// Whether the program need not switch the spindle, because the operator does it or the target has no word for it.
     pub(super) is_manual: bool,
     /// Whether the text never moves in Z, because a beam cuts at all depths.
@@ -54,107 +81,109 @@ pub(super) fn check(
     job: &Job,
     expected: &ReadBackOptions<'_>,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let ReadBackOptions {
-        target,
-        tolerance,
-        translated,
-        is_manual,
-        is_flat,
-        follows_coolant,
-        milliseconds,
-        ..
-    } = expected;
-    let reader = target.map_or(Dialect::LinuxCnc, |target| target.reader);
-    let options = Options { milliseconds: *milliseconds, ..Options::default() };
+    let ReadBackOptions { wording, tolerance, .. } = expected;
+    let (reader, control) = (wording.reader(), wording.control());
+    let options = Options { milliseconds: expected.milliseconds, ..Options::default() };
     let mut read = interpret::interpret(text, reader, &options);
     mark_skippable_stops(&mut read.steps, text);
-    let mut problems: Vec<Diagnostic> =
-        read.problems.iter().filter(|problem| problem.is_error()).cloned().map(as_finding_of_post).collect();
-    if !problems.is_empty() && target.is_some() {
-        return if tolerance.is_some() { Err(problems) } else { Ok(Vec::new()) };
-    }
-    if tolerance.is_some() && target.is_some() {
-        problems.extend(first_of(&read.problems, &gcode::NO_DECIMAL_POINT));
-        if !problems.is_empty() {
-            return Err(problems);
+    if control.is_some() {
+        let errors: Vec<Diagnostic> =
+            read.problems.iter().filter(|problem| problem.is_error()).cloned().collect();
+        if !errors.is_empty() {
+            let errors = errors.into_iter().map(as_finding_of_post).collect();
+            return if tolerance.is_some() { Err(errors) } else { Ok(Vec::new()) };
+        }
+        if let Some(problem) = first_of(&read.problems, &gcode::NO_DECIMAL_POINT)
+            && tolerance.is_some()
+        {
+            return Err(vec![problem]);
         }
     }
-    problems = if tolerance.is_some() { ambiguous::errors(&read.problems, text) } else { Vec::new() };
-    if tolerance.is_some() {
-        problems.extend(first_of(&read.problems, &gcode::NO_MOTION));
-        if target.is_none() {
-            // Some controls run these lines.
-            problems.extend(first_of(&read.problems, &gcode::AFTER_END));
-        }
-        problems.extend(skippable_line(text, &read.steps));
-    }
-    let (mut broken, mut doubts) = broken_rules(&read.steps, job, expected);
-    let is_started = is_started(&read.steps) || !is_manual && job.starts_spindle();
-    if target.is_none() && (tolerance.is_none() || !is_started) {
-        // The text's words may mean something other than the spindle, or the operator switches the spindle and the final M5 is only for safety.
-        broken.retain(|problem| !is_rule_of_spindle(problem));
-    }
-    if *is_flat || target.is_none() && tolerance.is_none() {
-        broken.retain(|problem| problem.message != &gcode::CHANGE_NOT_RAISED);
-    }
+    let mut errors = Vec::new();
+    let (broken, mut doubts) = broken_rules(&read.steps, job, expected);
     doubts.extend(work_offset_warnings(&read.steps));
-    doubts.extend(target.filter(|target| target.has_probe_alarm()).and_then(|_| lenient_probe(&read.steps)));
+    doubts
+        .extend(control.filter(|control| control.has_probe_alarm()).and_then(|_| lenient_probe(&read.steps)));
     if let Some(tolerance) = tolerance {
-        let mut wanted = moves(job).map_err(|error| vec![*error])?;
-        let mut clearance =
-            job.operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
-        let mut found: Vec<(u32, Move)> = read.moves().into_iter().map(with_equal_probes).collect();
-        if *is_flat {
-            (wanted, found, clearance) = (moves_in_plane(&wanted), moves_in_plane(&found), 0.0);
-            problems.extend(check_beam(&read.steps).map(as_finding_of_post));
-        }
-        match traverse::check(&found, &wanted, clearance, tolerance) {
-            Ok(cuts) => {
-                let tools = tools::check(
-                    &read.steps,
-                    job,
-                    &cuts,
-                    target.map(|target| target.reader),
-                    *is_manual,
-                    *is_flat,
-                    *follows_coolant,
-                );
-                let of_changes = [&gcode::SPINNING_AT_CHANGE, &gcode::CHANGE_NOT_RAISED];
-                let is_told = |problem: &Diagnostic| {
-                    of_changes.contains(&problem.message)
-                        && broken.iter().any(|told| told.message == problem.message)
-                };
-                problems
-                    .extend(tools.into_iter().filter(|problem| !is_told(problem)).map(as_finding_of_post));
-                problems.extend(rapids_with_other_length(&read.steps, reader));
-                problems
-                    .extend(target.iter().flat_map(|target| bent_rapids(&read.steps, job, &cuts, target)));
-            }
-            Err(movement) => {
-                // A line that RS274 refuses, such as G83 without Q, may be the reason.
-                let cause = read.problems.iter().find(|problem| target.is_none() && problem.is_error());
-                problems.extend(cause.cloned().map(as_finding_of_post));
-                problems.push(as_finding_of_post(*movement));
-            }
-        }
-        if let Some(translated) = translated {
+        errors.extend(line_errors(text, &read, *wording));
+        errors.extend(move_errors(&read, job, expected, tolerance, &broken)?);
+        if let Wording::Translated(translated) = wording {
             let (wrong, doubtful) = translation_findings(translated, &read.problems);
-            problems.extend(wrong.into_iter().map(as_finding_of_post));
+            errors.extend(wrong.into_iter().map(as_finding_of_post));
             doubts.extend(doubtful);
         }
         let needs_coolant = |operation: &Operation| operation.coolant.is_some_and(Coolant::is_on);
-        if *follows_coolant && job.operations.iter().any(needs_coolant) && !tools::cools(&read.steps) {
+        if expected.follows_coolant && job.operations.iter().any(needs_coolant) && !tools::cools(&read.steps)
+        {
             doubts.push(Diagnostic::new(&posts::COOLANT_NEVER_ON));
         }
         let shortest = tolerance.place.max(DWELL_TOLERANCE);
-        problems.extend(dwells::check(&read.steps, *translated, job, shortest).map(as_finding_of_post));
-        if target.is_some() {
+        errors
+            .extend(dwells::check(&read.steps, wording.translation(), job, shortest).map(as_finding_of_post));
+        if control.is_some() {
             doubts.extend(coarse_arc_finding(text, reader));
             doubts.extend(read.problems);
         }
     }
-    problems.extend(broken);
-    if problems.is_empty() { Ok(doubts) } else { Err(problems) }
+    errors.extend(broken);
+    if errors.is_empty() { Ok(doubts) } else { Err(errors) }
+}
+
+/// Returns errors about lines that controls may understand in different ways, skip, or ignore.
+fn line_errors(text: &[u8], read: &Interpretation, wording: Wording<'_>) -> Vec<Diagnostic> {
+    let mut errors = ambiguous::errors(&read.problems, text);
+    errors.extend(first_of(&read.problems, &gcode::NO_MOTION));
+    if wording.translation().is_some() {
+        // Some controls run these lines.
+        errors.extend(first_of(&read.problems, &gcode::AFTER_END));
+    }
+    errors.extend(skippable_line(text, &read.steps));
+    errors
+}
+
+/// Compares the moves of a text with those of the job and, if they agree, the tools of the cuts. Returns the errors that `broken`, those of the rules
+/// of `verify`, do not contain.
+///
+/// # Errors
+/// A hole of the job that cannot be divided into moves.
+fn move_errors(
+    read: &Interpretation,
+    job: &Job,
+    expected: &ReadBackOptions<'_>,
+    tolerance: &Tolerance,
+    broken: &[Diagnostic],
+) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
+    let mut errors = Vec::new();
+    let mut wanted = moves(job).map_err(|error| vec![*error])?;
+    let mut clearance =
+        job.operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
+    let mut found: Vec<(u32, Move)> = read.moves().into_iter().map(with_equal_probes).collect();
+    if expected.is_flat {
+        (wanted, found, clearance) = (moves_in_plane(&wanted), moves_in_plane(&found), 0.0);
+        errors.extend(check_beam(&read.steps).map(as_finding_of_post));
+    }
+    match traverse::check(&found, &wanted, clearance, tolerance) {
+        Ok(cuts) => {
+            let of_changes = [&gcode::SPINNING_AT_CHANGE, &gcode::CHANGE_NOT_RAISED];
+            let is_told = |problem: &Diagnostic| {
+                of_changes.contains(&problem.message)
+                    && broken.iter().any(|told| told.message == problem.message)
+            };
+            let tools = tools::check(&read.steps, job, &cuts, expected).into_iter();
+            errors.extend(tools.filter(|problem| !is_told(problem)).map(as_finding_of_post));
+            errors.extend(rapids_with_other_length(&read.steps, expected.wording.reader()));
+            let control = expected.wording.control().into_iter();
+            errors.extend(control.flat_map(|control| bent_rapids(&read.steps, job, &cuts, control)));
+        }
+        Err(movement) => {
+            // A line that RS274 refuses, such as G83 without Q, may be the reason.
+            let is_translated = expected.wording.translation().is_some();
+            let cause = read.problems.iter().find(|problem| is_translated && problem.is_error());
+            errors.extend(cause.cloned().map(as_finding_of_post));
+            errors.push(as_finding_of_post(*movement));
+        }
+    }
+    Ok(errors)
 }
 
 /// Returns the errors and the warnings about the words of a translation. `problems` are those of its reader.
@@ -353,8 +382,9 @@ fn broken_rules(
 ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let stock = job.lowest_surface().map(|surface| Stock::uniform(surface, 1.0));
     let mut rules = Rules::new(stock.as_ref());
-    if let Some(target) = expected.target {
-        rules = rules.in_dialect(target.reader);
+    let control = expected.wording.control();
+    if let Some(control) = control {
+        rules = rules.in_dialect(control.reader);
     }
     let mut limits = expected.machine.map(MachineRules::new);
     let mut corners = CornerRules::new(expected.part_tolerance);
@@ -371,7 +401,8 @@ fn broken_rules(
     found.extend(rules.finish());
     found.sort_by_key(|problem| problem.place.line);
     // A beam has no height. If the dialect is unknown and the user takes responsibility for the moves, words may mean anything.
-    let is_followed = !expected.is_flat && (expected.target.is_some() || expected.tolerance.is_some());
+    let is_known = control.is_some() || expected.tolerance.is_some();
+    let is_followed = !expected.is_flat && is_known;
     let (mut broken, mut doubts) = (Vec::new(), Vec::from_iter(corners.finish()));
     for mut problem in found {
         // Programs that were not written by pathbuild only get a warning for these problems; a program that is about to be written must
@@ -390,6 +421,14 @@ fn broken_rules(
         } else if is_followed || problem.message == &gcode::OFFSET_LEFT_ON {
             doubts.push(problem);
         }
+    }
+    let is_started = is_started(steps) || !expected.is_manual && job.starts_spindle();
+    if control.is_none() && (expected.tolerance.is_none() || !is_started) {
+        // The text's words may mean something other than the spindle, or the operator switches the spindle and the final M5 is only for safety.
+        broken.retain(|problem| !is_rule_of_spindle(problem));
+    }
+    if expected.is_flat || !is_known {
+        broken.retain(|problem| problem.message != &gcode::CHANGE_NOT_RAISED);
     }
     (broken, doubts)
 }

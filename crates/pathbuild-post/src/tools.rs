@@ -8,24 +8,20 @@ use pathbuild_gcode::verify::{LengthFit, TipHeight, ToolState};
 use pathbuild_motion::{Action, Change, Coolant, Move, Pace, Step, ToolLength, Turning};
 
 use crate::job::{Job, JobStep, Operation};
+use crate::read_back::ReadBackOptions;
 use crate::traverse::MatchedCut;
 
 /// Difference in spindle speed, in 1/min, that is attributed to rounding. Some definitions write whole numbers.
 const SPEED_TOLERANCE: f64 = 0.5 * (1.0 + 1e-6);
 
-/// Returns the first problem of each kind. `cuts` are the cuts of the text, in order. For `is_manual` and `is_flat`, see
-/// [`ReadBackOptions`](crate::read_back::ReadBackOptions).
+/// Returns the first problem of each kind. `cuts` are the cuts of the text, in order.
 pub(super) fn check(
     steps: &[Step],
     job: &Job,
     cuts: &[MatchedCut],
-    target: Option<Dialect>,
-    is_manual: bool,
-    is_flat: bool,
-    follows_coolant: bool,
+    expected: &ReadBackOptions<'_>,
 ) -> Vec<Diagnostic> {
-    let mut checker = Checker::new(steps, job, target, is_manual, is_flat);
-    checker.coolant = (follows_coolant && cools(steps)).then(Coolant::default);
+    let mut checker = Checker::new(steps, job, expected);
     let mut rest = cuts;
     let mut current: Option<MatchedCut> = None;
     for step in steps {
@@ -126,20 +122,21 @@ fn stops(job: &Job) -> Vec<Option<bool>> {
 }
 
 impl<'j> Checker<'j> {
-    fn new(steps: &[Step], job: &'j Job, target: Option<Dialect>, is_manual: bool, is_flat: bool) -> Self {
+    fn new(steps: &[Step], job: &'j Job, expected: &ReadBackOptions<'_>) -> Self {
+        let ReadBackOptions { wording, is_manual, is_flat, follows_coolant, .. } = *expected;
         let cutting = job.operations.iter().filter(|operation| operation.cuts());
         let surface = cutting.map(|operation| operation.surface).reduce(f64::max);
         Self {
             operations: job.operations_by_step(),
-            tools: ToolState::new(target.unwrap_or(Dialect::LinuxCnc)),
-            words: ToolWords::new(steps, target),
+            tools: ToolState::new(wording.reader()),
+            words: ToolWords::new(steps, wording.control().map(|control| control.reader)),
             is_manual,
             is_flat,
-            coolant: None,
+            coolant: (follows_coolant && cools(steps)).then(Coolant::default),
             surface: surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY),
             last: None,
             spinning: None,
-            tip_height: TipHeight::new(target.unwrap_or(Dialect::LinuxCnc)),
+            tip_height: TipHeight::new(wording.reader()),
             moved_low: None,
             stops: stops(job),
             reached: 0,
@@ -183,7 +180,7 @@ impl<'j> Checker<'j> {
         let index = usize::try_from(number).unwrap_or(usize::MAX).wrapping_sub(1);
         let Some(operation) = self.operations.get(index).copied() else { return };
         let is_low = movement.lowest() < self.surface;
-        if !matches!(movement.pace, Pace::Feed(_)) || movement.is_standstill() || !is_low {
+        if !movement.is_cut() || !is_low {
             return;
         }
         if let Some(tool) = operation.tool.is_named.then_some(operation.tool.index) {
