@@ -29,8 +29,6 @@ pub(super) struct KnownTitles {
     searched: BTreeSet<String>,
     /// Names of all drawings in the directories of the library, even if they are ignored, by the names normalised for comparison.
     in_library: BTreeMap<String, Box<str>>,
-    /// Whether all programs are written into an output directory.
-    has_out_dir: bool,
     /// The paths of covered drawings, by their names, normalised for comparison.
     paths: Vec<(String, Utf8PathBuf, PathName)>,
     /// Whether a covered drawing has errors, which may hide paths.
@@ -38,8 +36,26 @@ pub(super) struct KnownTitles {
     /// Whether the run knows all drawings of the library, or all drawings beside the program. If so, a drawing that it does not know does not exist
     /// any more.
     knows_all: bool,
-    /// Whether the output directory lies outside the configuration's directory, where other libraries may use it.
-    is_shared: bool,
+    place: OutputPlace,
+}
+
+/// Where programs are written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum OutputPlace {
+    BesideDrawings,
+    OwnDirectory,
+    /// An output directory outside the configuration's directory, where other libraries may use it.
+    SharedDirectory,
+}
+
+impl OutputPlace {
+    fn new(session: &Session<'_>, out_dir: Option<&Utf8Path>) -> Self {
+        match out_dir {
+            None => Self::BesideDrawings,
+            Some(directory) if is_outside(session, directory) => Self::SharedDirectory,
+            Some(_) => Self::OwnDirectory,
+        }
+    }
 }
 
 /// Returns the title of a program, normalised for comparison.
@@ -86,7 +102,6 @@ impl KnownTitles {
             unread: unread.collect(),
             others: others.map(written).collect(),
             searched: searched_drawings(session),
-            has_out_dir: out_dir.is_some(),
             in_library: session.names_in_library().map(|name| (plain_title(&name), name)).collect(),
             has_broken: !broken.is_empty(),
             paths,
@@ -95,7 +110,7 @@ impl KnownTitles {
             } else {
                 out_dir.is_none()
             },
-            is_shared: out_dir.as_ref().is_some_and(|directory| is_outside(session, directory)),
+            place: OutputPlace::new(session, out_dir.as_deref()),
         }
     }
 
@@ -122,7 +137,11 @@ impl KnownTitles {
         }
         // A drawing that exists although the run does not know it is ignored, unless the search finds it or another library may have it.
         let in_library = self.in_library.get(&drawing.1).map(|name| &**name);
-        let ignored = if self.has_out_dir { in_library.filter(|_| !self.is_shared) } else { beside };
+        let ignored = match self.place {
+            OutputPlace::BesideDrawings => beside,
+            OutputPlace::OwnDirectory => in_library,
+            OutputPlace::SharedDirectory => None,
+        };
         if let Some(drawing) = ignored {
             return Some(Reason::Ignored { drawing: drawing.to_owned() });
         }
@@ -132,7 +151,8 @@ impl KnownTitles {
 
     /// Returns the reason why a program is stale if its drawing was not found.
     pub(super) fn reason_if_gone(&self) -> Option<Reason> {
-        self.knows_all.then_some(if self.is_shared { Reason::OfOthers } else { Reason::Left })
+        let is_shared = self.place == OutputPlace::SharedDirectory;
+        self.knows_all.then_some(if is_shared { Reason::OfOthers } else { Reason::Left })
     }
 
     /// Returns the drawings that define a path, among those of the run, those beside the program and those where paths are looked up, with the path's
