@@ -29,9 +29,10 @@ struct AllLayers {
 }
 
 /// Messages about paths that break off or stop for a reason in the path itself: a copy, a gap or a branch.
-const EXPLAINED: [&Message; 10] = [
+const EXPLAINED: [&Message; 11] = [
     &paths::DRAWN_TWICE,
     &paths::PART_DRAWN_TWICE,
+    &paths::UNREACHED_CIRCLE,
     &paths::UNREACHED_TWICE,
     &paths::UNREACHED_PART_TWICE,
     &paths::UNREACHED_BESIDE,

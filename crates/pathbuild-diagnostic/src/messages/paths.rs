@@ -143,6 +143,13 @@ messages! {
         help_en: "delete the shorter of the two",
         help_de: "das kürzere der beiden löschen",
     }
+    /// Arcs that form a circle whose centre the path reaches: probably a hole, as some programs export circles.
+    UNREACHED_CIRCLE: UnreachedSegments {
+        en: "segments not reached: {left}, among them arcs that form a circle of {diameter} mm around {point}",
+        de: "nicht alle Segmente wurden erreicht; übrig: {left}, darunter Bögen, die einen Kreis von {diameter} mm um {point} bilden",
+        help_en: "draw a hole as a CIRCLE: its diameter is that of the hole, but the middle of the cutter would run along these arcs, and the hole would be larger by O",
+        help_de: "ein Loch als CIRCLE (Kreis) zeichnen: dessen Durchmesser ist der des Lochs; auf diesen Bögen liefe dagegen die Mitte des Fräsers, und das Loch würde um O größer",
+    }
     /// A segment that is not reached because it touches another kind of segment between that segment's ends.
     NO_END_THERE: UnreachedSegments {
         en: "segments not reached: {left}; {element} at {point} touches {other}, which does not end there",

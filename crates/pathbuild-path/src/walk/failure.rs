@@ -8,12 +8,15 @@ use pathbuild_diagnostic::{Diagnostic, Message, Text, Value, words};
 use crate::approx::{coincide, grid_square};
 use crate::chain::Item;
 use crate::element::{Element, diagnostic_point};
-use crate::geometry::{Curve, PlaceKey, Xy};
+use crate::geometry::{Arc, Curve, PlaceKey, Xy};
 use crate::path::{Path, SegmentKind, SubpathName};
 use crate::walk::{MAX_SKIPPED_GAP, OpenEnds, Walker};
 
 /// Tolerance in mm within which a point is considered to be on a curve: the offset is invisible on screen.
 const ON_CURVE_TOLERANCE: f64 = 0.001;
+
+/// Number of arcs that are examined for a circle. Each is compared with all others.
+const MAX_SEARCHED_CIRCLES: usize = 16;
 
 /// An end of a remaining segment that a small gap separates from the end of a traversed one.
 struct EndBeside {
@@ -202,6 +205,10 @@ impl Walker<'_> {
             about(&messages::UNREACHED_TWICE, first(segment))
         } else if let Some(segment) = part_twice {
             about(&messages::UNREACHED_PART_TWICE, first(segment))
+        } else if let Some(arc) = self.unreached_circle() {
+            Diagnostic::new(&messages::UNREACHED_CIRCLE)
+                .with("diameter", 2.0 * arc.radius)
+                .with("point", diagnostic_point(arc.centre))
         } else if let Some(EndBeside { segment, end, other, distance }) = self.end_beside_traversed() {
             let [one, two] = self.ends.of(other);
             let beside = if (two - end).norm() < (one - end).norm() { two } else { one };
@@ -227,6 +234,23 @@ impl Walker<'_> {
         let is_told = twice.is_some() || part_twice.is_some();
         let problem = self.path.end_origin.at(problem.with("left", self.left));
         if is_told { problem } else { self.with_duplicate(problem) }
+    }
+
+    /// Returns one of the arcs that were not reached, if they form a full circle whose centre the walk passed.
+    fn unreached_circle(&self) -> Option<Arc> {
+        let arc = |segment: usize| match self.path.curve(&self.path.segments[segment]) {
+            Some(Curve::Arc(arc)) => Some(arc),
+            _ => None,
+        };
+        let arcs: Vec<Arc> = self.unreached_segments().filter_map(arc).collect();
+        let is_of = |circle: &Arc, other: &Arc| {
+            coincide(circle.centre, other.centre) && (circle.radius - other.radius).abs() < ON_CURVE_TOLERANCE
+        };
+        let degrees = |circle: &Arc| {
+            arcs.iter().filter(|other| is_of(circle, other)).map(|arc| arc.degrees).sum::<f64>()
+        };
+        let is_full = |circle: &&Arc| (degrees(circle) - 360.0).abs() < 0.1;
+        arcs.iter().filter(|arc| self.is_passed(arc.centre)).take(MAX_SEARCHED_CIRCLES).find(is_full).copied()
     }
 
     /// Returns a traversed segment that passes through a point without ending there.

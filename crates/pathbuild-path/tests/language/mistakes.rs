@@ -457,6 +457,35 @@ fn a_subpath_drawn_twice_is_named() {
     assert!(found.iter().any(|found| found.starts_with(begin)), "{found:?}");
 }
 
+/// Some programs export a circle as a closed polyline, or as one or two arcs.
+#[test]
+fn a_hole_drawn_as_arcs_is_named() {
+    let with = |arcs: &str| {
+        let text = format!("sweep 0,0 20,0\n{arcs}\nsweep 20,0 40,0\nend 40,0");
+        messages_with_help(&compile(&path(P, &text)).found)
+    };
+    let half = "mill arc centre 20,0 r 4 from 0 to 180";
+    for arcs in [
+        format!("{half}\nmill arc centre 20,0 r 4 from 180 to 360"),
+        "mill arc centre 20,0 r 4 from 0 to 360".to_owned(),
+    ] {
+        let found = with(&arcs);
+        let is_named = |found: &String| {
+            found.contains("form a circle of 8 mm around (20, 0)")
+                && found.contains("draw a hole as a CIRCLE")
+        };
+        assert!(found.len() == 1 && is_named(&found[0]), "{found:?}");
+    }
+    for others in [half.to_owned(), format!("{half}\nmill arc centre 20,0 r 4 from 180 to 350")] {
+        let found = with(&others);
+        assert!(!found.is_empty() && !found.iter().any(|found| found.contains("form a circle")), "{found:?}");
+    }
+    // A round outline with a gap before it.
+    let outline = "mill arc centre 20,50 r 4 from 0 to 180\nmill arc centre 20,50 r 4 from 180 to 360";
+    let found = with(outline);
+    assert!(!found.is_empty() && !found.iter().any(|found| found.contains("form a circle")), "{found:?}");
+}
+
 #[test]
 fn a_circle_on_another_is_left_over() {
     let with = |circle: &str| codes_of(&format!("circle 0,0 d 3\n{circle}\nsweep 0,0 20,0\nend 20,0"));
