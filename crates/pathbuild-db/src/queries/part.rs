@@ -1,5 +1,6 @@
 //! Findings about cuts into the parts of a drawing, and about material that the cuts leave at them. (book: language/part)
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use pathbuild_diagnostic::Diagnostic;
@@ -135,8 +136,8 @@ pub fn uncut_rings(db: &dyn Db, file: SourceFile) -> Vec<&[Curve]> {
     findings.uncut.iter().filter_map(ring).collect()
 }
 
-/// Returns PB220 for each outline that no path comes near, and PB223 for each outline in an opening that is cut as a part. The drawing is read again
-/// for the positions of the outlines.
+/// Returns PB220 for each outline that no path comes near and each layer that names a missing path, and PB223 for each outline in an opening that is
+/// cut as a part. The drawing is read again for the positions of the outlines.
 pub(super) fn doubtful_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
     let Some(findings) = example_findings(db, file).filter(|findings| has_doubtful_outlines(findings)) else {
         return Vec::new();
@@ -145,15 +146,25 @@ pub(super) fn doubtful_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic
     let reading = Reading { compatible: false, ..Settings::get(db).reading(db).clone() };
     let mut drawn =
         read_parts(&read_layers_as(db, file, &reading, &|layer| language.is_part(layer)), language);
-    drawn.judge_open_outlines(file_parts(db, file).map_or(&[], |found| &found.cuts));
-    let problem = |message, (part, ring): &(usize, usize)| {
+    let paths = file_parts(db, file).map_or(&[][..], |found| &found.cuts);
+    drawn.judge_open_outlines(paths);
+    let place = |problem, (part, ring): &(usize, usize)| {
         let place = drawn.places.get(*part)?.get(*ring)?.clone();
-        let mut problem = Diagnostic { place, ..Diagnostic::new(message) };
+        let mut problem = Diagnostic { place, ..problem };
         lower_to_warnings(db, [&mut problem]);
         Some(problem.in_file(file.path(db)))
     };
-    let uncut = findings.uncut.iter().filter_map(|ring| problem(&messages::OUTLINE_NOT_CUT, ring));
-    let inner = findings.inner.iter().filter_map(|ring| problem(&messages::PART_IN_OPENING, ring));
+    // A layer that names a missing path is reported once, not for each of its outlines.
+    let mut reported = BTreeSet::new();
+    let uncut = findings.uncut.iter().filter_map(|ring| {
+        let part = drawn.parts.get(ring.0)?;
+        match part.missing_path(paths) {
+            Some(problem) => reported.insert(&part.layer).then(|| place(problem, ring))?,
+            None => place(Diagnostic::new(&messages::OUTLINE_NOT_CUT), ring),
+        }
+    });
+    let inner =
+        findings.inner.iter().filter_map(|ring| place(Diagnostic::new(&messages::PART_IN_OPENING), ring));
     uncut.chain(inner).collect()
 }
 

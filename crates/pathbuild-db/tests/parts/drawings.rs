@@ -710,7 +710,10 @@ fn a_group_in_the_expression_names_the_path() {
     let part = |layer: &str| plate("bars").replace("layer Part", &format!("layer \"{layer}\""));
     let test = PartTest { pattern: Some("Part ([0-9_]+)"), ..PartTest::default() };
     assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_1"))]), [""; 0]);
-    assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_2"))]), ["PB220"]);
+    let found = test.diagnostics(&[("1234.1P.dxf", &part("Part 1234_2"))]);
+    let [found] = &found[..] else { panic!("once for all outlines: {found:?}") };
+    let text = "layer Part 1234_2 names path 1234.2, which this drawing does not have, so this part is only checked for cuts into it";
+    assert_eq!((found.code().to_string(), found.text(Lang::En)), ("PB220".to_owned(), text.to_owned()));
     assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_"))]), ["PB220"], "digits follow");
 }
 

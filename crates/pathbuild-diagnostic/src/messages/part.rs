@@ -148,6 +148,13 @@ messages! {
         help_en: "draw the missing path; give a path along it that ends above the plate a lower B; move a path that runs O or more away to half of O beside the outline; if this is not an outline of the part, move it to another layer",
         help_de: "den fehlenden Pfad zeichnen; einem Pfad daran, der über der Platte endet, ein tieferes B geben; einen Pfad, der um O oder mehr entfernt verläuft, auf die Hälfte von O neben den Umriss verschieben; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
     }
+    /// A layer with a part that names a path which its drawing lacks.
+    LAYER_WITHOUT_PATH: OutlineNotCut {
+        en: "layer {layer} names path {name}, which this drawing does not have, so this part is only checked for cuts into it",
+        de: "Layer {layer} nennt den Pfad {name}, den es in dieser Zeichnung nicht gibt; daher wird dieses Teil nur auf Schnitte ins Teil geprüft",
+        help_en: "rename the layer after a path of this drawing ({names}), or correct the group in `part` in pathbuild.toml",
+        help_de: "den Layer nach einem Pfad dieser Zeichnung ({names}) benennen oder die Gruppe in `part` in pathbuild.toml berichtigen",
+    }
     /// Two paths that cut the same part, but are embedded at different places.
     DISPLACED_PATH: DisplacedPath {
         en: "paths {name} and {other} cut the same part, but place it up to {distance} mm apart: in the program, its outline begins at {point} and at {place}",

@@ -215,10 +215,10 @@ impl LayerPattern {
         self.first.is_none_or(|known| known.eq_ignore_ascii_case(&first) || !first.is_ascii())
     }
 
-    /// Returns the text of the first group that took part in matching a layer.
+    /// Returns the text of the first group that captures any of a layer's name.
     pub(crate) fn captured<'l>(&self, layer: &'l str) -> Option<&'l str> {
         let captures = self.whole.get().captures(layer)?;
-        captures.iter().skip(1).flatten().next().map(|found| found.as_str())
+        captures.iter().skip(1).flatten().map(|found| found.as_str()).find(|text| !text.is_empty())
     }
 }
 

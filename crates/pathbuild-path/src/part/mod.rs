@@ -16,7 +16,8 @@ mod open;
 mod prepared;
 mod waste;
 
-use pathbuild_diagnostic::{Diagnostic, Place};
+use pathbuild_diagnostic::messages::part as messages;
+use pathbuild_diagnostic::{Diagnostic, Place, Value};
 use smol_str::SmolStr;
 
 use crate::geometry::{Curve, Placement};
@@ -96,7 +97,22 @@ impl Part {
     pub(crate) fn may_belong_to(&self, path: &PathName) -> bool {
         may_belong_to(self.paths.as_ref(), path)
     }
+
+    /// Returns PB220 for the layer of the part if it names a path that its drawing does not have. `paths` are the paths of the drawing.
+    pub fn missing_path(&self, paths: &[PathCuts]) -> Option<Diagnostic> {
+        let name = self.paths.as_ref()?;
+        if paths.is_empty() || paths.iter().any(|path| self.may_belong_to(&path.name)) {
+            return None;
+        }
+        let others = (paths.len() > MAX_LISTED_PATHS).then_some("...");
+        let listed = paths.iter().take(MAX_LISTED_PATHS).map(|path| path.name.as_str()).chain(others);
+        let problem = Diagnostic::new(&messages::LAYER_WITHOUT_PATH).quoting("layer", &*self.layer);
+        Some(problem.quoting("name", &**name).with("names", listed.collect::<Value>()))
+    }
 }
+
+/// Largest number of paths that a message lists.
+const MAX_LISTED_PATHS: usize = 5;
 
 /// Whether an outline may belong to a path. If the pattern captures no name, it may belong to any path; otherwise, to paths with the captured name,
 /// possibly followed by letters.
