@@ -181,6 +181,8 @@ struct BarPlace {
     circle: Option<Xy>,
 }
 
+    /// P in mm.
+    length: f64,
 impl SegmentBars<'_> {
     fn places(&self, tool: f64) -> Vec<BarPlace> {
         let length = self.curve.length();
@@ -195,6 +197,7 @@ impl SegmentBars<'_> {
             circle: self.circle,
         };
         spans.into_iter().map(place).collect()
+            length: self.bars.length,
     }
 }
 
@@ -215,6 +218,6 @@ impl BarPlace {
             // nothing of the bar must be found; one between other such segments stands anyway.
             (is_at_end == [true; 2] && is_whole[0] == is_whole[1]).then_some(self.curve)
         };
-        StandingBar { middle, foot, top: self.top, circle: self.circle }
+        StandingBar { middle, foot, top: self.top, required: self.length, circle: self.circle }
     }
 }

@@ -314,6 +314,31 @@ fn a_cut_beside_all_bars_separates_them_from_the_plate() {
         let second = format!("sweep -8,-8 -3,{y}\nmill -3,{y} {end},{y}\nsweep {end},{y} 60,-5");
         plate_with_bars_below(&second)
     };
+/// The bar, between 24 and 29, is longer than P. Each cut removes 1.96 mm of it.
+#[test]
+fn a_bar_of_which_p_remains_is_not_lost() {
+    let codes = |length: f64, cuts: &[f64]| {
+        let mut drawing = plate("mill").replace(
+            "mill to 42,27 0,27 0,0",
+            &format!("mill to 42,27 30,27\nbars to 23,27 \"P{length} U50\"\nmill to 0,27 0,0"),
+        );
+        for (number, x) in cuts.iter().enumerate() {
+            drawing += &format!(
+                "layer 1234.{}P\nstart -8,-8 \"T2 O2 I0.5 B0 S5\"\nsweep -8,-8 {x},32\nmill {x},32 {x},27\n\
+                 sweep {x},27 60,-5\nend 60,-5\n",
+                number + 2
+            );
+        }
+        let mut codes = PartTest::default().codes(&[("1234.dxf", &drawing)]);
+        codes.retain(|code| code != "PB408");
+        codes
+    };
+    assert_eq!(codes(3.1, &[26.5]), [""; 0]);
+    assert_eq!(codes(3.3, &[26.5]), ["PB218"]);
+    assert_eq!(codes(3.1, &[25.2]), [""; 0]);
+    assert_eq!(codes(3.1, &[25.2, 27.8]), ["PB218"], "both together");
+}
+
     let codes = |drawing: &str| PartTest::default().codes(&[("1234.dxf", drawing)]);
     assert_eq!(codes(&cut(-1.5, 45.0)), ["PB217"]);
     assert_eq!(codes(&cut(-2.09, 45.0)), ["PB217"], "what is left between the cuts holds nothing");

@@ -40,20 +40,27 @@ pub struct LostBar {
     pub is_too_short: bool,
 }
 
-/// Returns the bars of all paths that are cut away, once for each path that cuts one away.
+/// Returns the bars of all paths that are cut away, once for each path that cuts one away. A bar of which all cuts together leave P, such as a long
+/// one round a corner to which a cut leads, holds as it should.
 pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
     let mut found = Vec::new();
     for (of, path) in cuts.paths.iter().enumerate() {
         for (bar, whole) in whole_bars(path).into_iter().enumerate() {
             let losses = BarLoss { cuts, tolerance, bar: &whole }.losses();
+            let sections: Vec<Curve> = whole.iter().map(|(_, middle)| *middle).collect();
+            let length = sections.iter().map(Curve::length).sum();
+            let remaining = length - joined_length(losses.values().flat_map(BTreeMap::values).flatten());
+            let required = whole.iter().map(|(bar, _)| bar.required).fold(0.0, f64::max).min(length);
+            if remaining >= (1.0 - BAR_LOSS) * required {
+                continue;
+            }
             found.extend(losses.into_iter().filter_map(|(by, elements)| {
-                let (lost, element) = total_loss(elements)?;
-                let sections: Vec<Curve> = whole.iter().map(|(_, middle)| *middle).collect();
-                let length = sections.iter().map(Curve::length).sum();
+                let (lost, element) = total_loss(&elements)?;
                 let at = middle_of(&sections);
                 let is_lost = lost > BAR_LOSS * length;
                 let is_segment = matches!(&whole[..], [(bar, _)] if bar.foot.length() <= length + JOIN_GAP);
                 let is_too_short = by == of && is_segment && length <= 2.0 * path.radius + MAX_WEAK_BRIDGE;
+                let sections = sections.clone();
                 is_lost.then_some(LostBar { of, bar, by, element, lost, length, at, sections, is_too_short })
             }));
         }
@@ -172,12 +179,16 @@ impl BarLoss<'_> {
 }
 
 /// Returns the length in mm that the elements of a path cut away, and the element that cuts most of it away.
-fn total_loss(elements: BTreeMap<u32, Vec<Stretch>>) -> Option<(f64, u32)> {
-    let length = |stretches: Vec<Stretch>| {
-        join_stretches(stretches, JOIN_GAP).iter().map(|(from, to)| to - from).sum::<f64>()
-    };
-    let all = elements.values().flatten().copied().collect();
-    let lengths = elements.into_iter().map(|(element, stretches)| (length(stretches), element));
+fn total_loss(elements: &BTreeMap<u32, Vec<Stretch>>) -> Option<(f64, u32)> {
+    let lengths = elements.iter().map(|(element, stretches)| (joined_length(stretches), *element));
     let (_, element) = lengths.reduce(|most, next| if next.0 > most.0 + JOIN_GAP { next } else { most })?;
-    Some((length(all), element))
+    Some((joined_length(elements.values().flatten()), element))
+}
+
+/// Returns the total length in mm of stretches that may overlap.
+fn joined_length<'s>(stretches: impl IntoIterator<Item = &'s Stretch>) -> f64 {
+    join_stretches(stretches.into_iter().copied().collect(), JOIN_GAP)
+        .iter()
+        .map(|(from, to)| to - from)
+        .sum()
 }

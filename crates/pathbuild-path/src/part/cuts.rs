@@ -92,6 +92,8 @@ pub struct StandingBar {
     /// The centre of the helical circle on which the bar stands.
     pub circle: Option<Xy>,
 }
+    /// P: the length in mm that the bar needs in order to hold.
+    pub required: f64,
 
 /// Z in mm up to which a cut is considered to go through the plate: a cut that ends at Z0.001 still does.
 pub const THROUGH_HEIGHT: f64 = 0.001 + 1e-6;

@@ -226,12 +226,12 @@ impl<'c> PlacedCuts<'c> {
             element.supported = element.supported.map(|segment| place(&segment, element.circle));
         });
         placed.bars.iter_mut().for_each(|bar| {
-            let StandingBar { middle, foot, top, circle } = *bar;
+            let StandingBar { middle, foot, top, circle, .. } = *bar;
             *bar = StandingBar {
                 middle: middle.map(|middle| place(&middle, circle)),
                 foot: place(&foot, circle),
                 top: top + raised,
-                circle,
+                ..*bar
             };
         });
         placed
