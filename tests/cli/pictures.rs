@@ -336,10 +336,10 @@ fn findings_about_parts_are_placed_at_the_damage() {
         place = place.file(name, fs::read(folder.join(name)).unwrap());
     }
     for (drawing, expected) in [
-        ("1122.1P", vec![[2.999, 20.5]]),
+        ("1122.1P", vec![[0.223, 20.5]]),
         ("1123.1P", vec![[10.324, 20.0]]),
         ("1126.1P", vec![[13.0, 21.0]]),
-        ("8121.1P", vec![[2.999, 27.0], [3.2, 26.5]]),
+        ("8121.1P", vec![[0.223, 27.0], [2.0, 26.5]]),
     ] {
         let run = place.run(&format!("view {drawing}.dxf -o {drawing}.json"));
         let scene: Value = serde_json::from_str(&place.read(&format!("{drawing}.json"))).unwrap();

@@ -55,7 +55,7 @@ pub use names::{
 };
 pub use numbers::{parse_integer, parse_number};
 pub use part::{
-    CutElement, DrawnParts, EarlierCuts, EmbeddedPlace, LeftMaterial, LostBar, MAX_WEAK_BRIDGE,
+    CutElement, DrawnParts, EarlierCuts, EmbeddedPlace, LeftMaterial, LostBar, MAX_WEAK_BRIDGE, MilledMove,
     NeighbourCuts, NeighbourGouge, Part, PartCut, PartFindings, PartRing, PartSettings, PartSweep, PathCuts,
     PlacedCuts, PlacedPart, SeveredPart, StandingBar, THROUGH_HEIGHT, WasteCut, check_parts, gouging_moves,
     largest_displacement,

@@ -253,6 +253,20 @@ pub struct SubpathValue {
 }
 
 impl Path {
+    /// Returns B of a segment with support bars: Z in mm down to which it mills between its bars. `None` without bars.
+    pub fn bottom_between_bars(&self, segment: &Segment) -> Option<f64> {
+        match segment.kind {
+            SegmentKind::Cut(cut) => {
+                let cut = &self.cuts[cut as usize];
+                cut.bars.as_ref().map(|_| cut.bottom)
+            }
+            SegmentKind::Helix(helix) => {
+                self.helices[helix as usize].bars.as_ref().map(|(bottom, _)| *bottom)
+            }
+            _ => None,
+        }
+    }
+
     /// Whether the path has errors. Such a path is checked further, but gives no program.
     pub fn has_faults(&self) -> bool {
         self.faults.is_some()

@@ -20,7 +20,8 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
         match item {
             Item::Chain(chain) => {
                 for member in walked.members(chain) {
-                    let supported = member.cut(path).bars.map(|_| member.curve(path));
+                    let cut = member.cut(path);
+                    let supported = cut.bars.as_ref().map(|_| (member.curve(path), cut.bottom));
                     found.add(member.element(path), supported, None, last_pass(path, member, is_compatible));
                 }
             }
@@ -33,7 +34,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
             Item::Helix { segment, helix } => {
                 let helix = &path.helices[*helix as usize];
                 let curve = drawn_circle(path, helix);
-                let supported = helix.bars.map(|_| curve);
+                let supported = helix.bars.as_ref().map(|(bottom, _)| (curve, *bottom));
                 let turns = last_turns(helix, path.thickness, path.tool, &curve);
                 found.add(path.segments[*segment].element, supported, Some(helix.centre), turns);
             }
@@ -67,12 +68,12 @@ struct CutCollector<'p> {
 }
 
 impl CutCollector<'_> {
-    /// Adds those sections of an element that lie in the material. `supported` is the whole segment if it has bars, `circle` the centre of a helical
-    /// circle.
+    /// Adds those sections of an element that lie in the material. `supported` is the whole segment if it has bars, with B; `circle` the centre of
+    /// a helical circle.
     fn add(
         &mut self,
         drawn: u32,
-        supported: Option<Curve>,
+        supported: Option<(Curve, f64)>,
         circle: Option<Xy>,
         sections: impl IntoIterator<Item = Section>,
     ) {
@@ -90,7 +91,9 @@ impl CutCollector<'_> {
             return;
         }
         if number == self.elements.len() {
-            self.elements.push(CutElement { supported, circle, ..cut_element(self.path, drawn) });
+            let bottom = supported.map_or(f64::INFINITY, |(_, bottom)| bottom);
+            let supported = supported.map(|(segment, _)| segment);
+            self.elements.push(CutElement { supported, bottom, circle, ..cut_element(self.path, drawn) });
             self.numbers.insert(drawn, number);
         }
         let element = &mut self.elements[number];
@@ -121,7 +124,7 @@ fn embedded_place(path: &Path, placed: &PlacedSubpath, cuts_before: usize) -> Op
 fn cut_element(path: &Path, number: u32) -> CutElement {
     let element = &path.drawn.elements[number as usize];
     let origin = path.drawn.origin(element);
-    CutElement { origin, lowest: f64::INFINITY, supported: None, circle: None }
+    CutElement { origin, lowest: f64::INFINITY, supported: None, bottom: f64::INFINITY, circle: None }
 }
 
 /// Returns the circle of a helix in a program of its own path.
@@ -178,11 +181,11 @@ struct BarPlace {
     /// Upper bound on the length in mm of the slopes beside the bar.
     slope: f64,
     top: f64,
+    /// P in mm.
+    length: f64,
     circle: Option<Xy>,
 }
 
-    /// P in mm.
-    length: f64,
 impl SegmentBars<'_> {
     fn places(&self, tool: f64) -> Vec<BarPlace> {
         let length = self.curve.length();
@@ -194,10 +197,10 @@ impl SegmentBars<'_> {
             to,
             slope: self.bars.top - self.bottom,
             top: self.bars.top,
+            length: self.bars.length,
             circle: self.circle,
         };
         spans.into_iter().map(place).collect()
-            length: self.bars.length,
     }
 }
 

@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Diagnostic, Point, TraceStep};
 use pathbuild_path::{
-    Curve, LostBar, NeighbourCuts, NeighbourGouge, Origin, Part, PartSettings, PathCuts, PlacedCuts,
-    PlacedPart, Placement, SeveredPart, TipMove, Xy, gouging_moves,
+    Curve, LostBar, MilledMove, NeighbourCuts, NeighbourGouge, Origin, Part, PartSettings, Path, PathCuts,
+    PlacedCuts, PlacedPart, Placement, SeveredPart, Xy, gouging_moves,
 };
 use pathbuild_toolpath::tip_move;
 
@@ -451,12 +451,22 @@ fn instance_of<'db>(db: &'db dyn Db, target: Target, cutting: &programs::Part) -
     })
 }
 
-/// Returns the milling moves of a program, each with the height in mm by which its path is raised.
-fn milled_moves(traced: &TracedProgram) -> Vec<(TipMove, f64)> {
+/// Returns the milling moves of a program.
+fn milled_moves(traced: &TracedProgram) -> Vec<MilledMove> {
+    let bottoms: Vec<BTreeMap<u32, f64>> = traced.parts.iter().map(|part| bottoms(&part.path)).collect();
     let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
-    let with_height = milled.filter_map(|(step, movement)| {
+    let placed = milled.filter_map(|(step, movement)| {
         let origin = traced.trace.steps.get(step as usize - 1)?;
-        Some((tip_move(&movement)?, traced.trace.occurrences[origin.occurrence as usize].raised))
+        let occurrence = &traced.trace.occurrences[origin.occurrence as usize];
+        let bottom = origin.element.and_then(|element| bottoms[occurrence.id].get(&element));
+        let bottom = bottom.map_or(f64::INFINITY, |bottom| bottom + occurrence.raised);
+        Some(MilledMove { way: tip_move(&movement)?, raised: occurrence.raised, bottom })
     });
-    with_height.collect()
+    placed.collect()
+}
+
+/// Returns B of the elements with support bars, by index of the drawn element.
+fn bottoms(path: &Path) -> BTreeMap<u32, f64> {
+    let segments = path.segments.iter();
+    segments.filter_map(|segment| Some((segment.element, path.bottom_between_bars(segment)?))).collect()
 }

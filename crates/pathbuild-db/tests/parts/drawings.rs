@@ -228,6 +228,29 @@ fn grooves_and_marks_above_the_plate_may_cross_the_part() {
     assert_eq!(codes("mill 20,5 20,15 \"B0.001\""), ["PB213"], "through");
 }
 
+/// A segment with support bars that goes through the plate between them is part of an outline, so nothing of it may enter the part.
+#[test]
+fn segments_with_bars_must_not_enter_the_part() {
+    let gouges = |from: f64, y: f64, letters: &str| {
+        let drawing = format!(
+            "{}layer 1234.1L\nstart -8,-8 \"T2 O2 I0.5 P3 U8 {letters} S5\"\nsweep -8,-8 {from},{y}\nbars {from},{y} 19,{y}\n\
+             sweep 19,{y} 60,-5\nend 60,-5\n",
+            plate("bars")
+        );
+        let mut found = PartTest::default().diagnostics(&[("1234.1.dxf", &drawing)]);
+        found.retain(|found| found.code().to_string() == "PB213");
+        let numbers = found.iter().map(|found| ["depth", "length"].map(|name| number(found, name)));
+        numbers.map(|numbers| numbers.map(|number| (1000.0 * number).round() / 1000.0)).collect::<Vec<_>>()
+    };
+    assert_eq!(gouges(23.0, 26.97, "B0 D0.8"), [[0.03, 4.0]], "no gap");
+    assert_eq!(gouges(23.0, 26.99, "B0 D0.8"), [[0.0; 2]; 0], "within the tolerance");
+    assert_eq!(gouges(39.0, 26.97, "B0 D0.8"), [[0.03, 20.0]], "gaps, slopes and bars");
+    assert_eq!(gouges(23.0, 26.97, "B0 D1.98"), [[0.03, 4.0]]);
+    assert_eq!(gouges(23.0, 26.97, "B0 D1.995"), [[0.0; 2]; 0], "at the upper face");
+    assert_eq!(gouges(23.0, 20.0, "B0.001 D0.8").len(), 1);
+    assert_eq!(gouges(23.0, 20.0, "B0.002 D0.8"), [[0.0; 2]; 0], "a groove");
+}
+
 #[test]
 fn corners_that_no_cutter_reaches_are_one_remark() {
     let corner = |outline: &str| {
@@ -291,29 +314,6 @@ fn a_bar_that_another_path_cuts_is_lost() {
     assert_eq!(codes(&second(11.7, -0.2)), ["PB218"], "6 % of a bar");
 }
 
-#[test]
-fn a_contour_whose_bars_a_second_path_cuts_is_loose() {
-    let drawing = format!(
-        "{}layer 1234.1L\nstart -8,-8 \"T2 O2 I0.5 B-0.2 S5\"\nsweep -8,-8 0,0\n\
-         mill 0,0 42,0\nmill to 42,27 0,27 0,0\nsweep 0,0 60,-5\nend 60,-5\n",
-        plate("bars")
-    );
-    assert_eq!(PartTest::default().codes(&[("1234.1.dxf", &drawing)]), ["PB217", "PB218"]);
-}
-
-/// Returns the plate with bars on its lower side only, and a second path.
-fn plate_with_bars_below(second: &str) -> String {
-    let plate = plate("mill").replace("mill 0,0 42,0", "bars 0,0 42,0");
-    format!("{plate}layer 1234.2P\nstart -8,-8 \"T2 O2 I0.5 B-0.2 S5\"\n{second}\nend 60,-5\n")
-}
-
-/// The bars are between Y-1 and 1. The second path separates the bars from the plate without removing them.
-#[test]
-fn a_cut_beside_all_bars_separates_them_from_the_plate() {
-    let cut = |y: f64, end: f64| {
-        let second = format!("sweep -8,-8 -3,{y}\nmill -3,{y} {end},{y}\nsweep {end},{y} 60,-5");
-        plate_with_bars_below(&second)
-    };
 /// The bar, between 24 and 29, is longer than P. Each cut removes 1.96 mm of it.
 #[test]
 fn a_bar_of_which_p_remains_is_not_lost() {
@@ -339,6 +339,29 @@ fn a_bar_of_which_p_remains_is_not_lost() {
     assert_eq!(codes(3.1, &[25.2, 27.8]), ["PB218"], "both together");
 }
 
+#[test]
+fn a_contour_whose_bars_a_second_path_cuts_is_loose() {
+    let drawing = format!(
+        "{}layer 1234.1L\nstart -8,-8 \"T2 O2 I0.5 B-0.2 S5\"\nsweep -8,-8 0,0\n\
+         mill 0,0 42,0\nmill to 42,27 0,27 0,0\nsweep 0,0 60,-5\nend 60,-5\n",
+        plate("bars")
+    );
+    assert_eq!(PartTest::default().codes(&[("1234.1.dxf", &drawing)]), ["PB217", "PB218"]);
+}
+
+/// Returns the plate with bars on its lower side only, and a second path.
+fn plate_with_bars_below(second: &str) -> String {
+    let plate = plate("mill").replace("mill 0,0 42,0", "bars 0,0 42,0");
+    format!("{plate}layer 1234.2P\nstart -8,-8 \"T2 O2 I0.5 B-0.2 S5\"\n{second}\nend 60,-5\n")
+}
+
+/// The bars are between Y-1 and 1. The second path separates the bars from the plate without removing them.
+#[test]
+fn a_cut_beside_all_bars_separates_them_from_the_plate() {
+    let cut = |y: f64, end: f64| {
+        let second = format!("sweep -8,-8 -3,{y}\nmill -3,{y} {end},{y}\nsweep {end},{y} 60,-5");
+        plate_with_bars_below(&second)
+    };
     let codes = |drawing: &str| PartTest::default().codes(&[("1234.dxf", drawing)]);
     assert_eq!(codes(&cut(-1.5, 45.0)), ["PB217"]);
     assert_eq!(codes(&cut(-2.09, 45.0)), ["PB217"], "what is left between the cuts holds nothing");
@@ -472,6 +495,21 @@ fn neighbours_in_a_project_need_room_for_the_cutter() {
         assert_eq!(found.code().to_string(), "PB214");
         assert!((number(found, "depth") - 0.5).abs() < 1e-6, "{found:?}");
     }
+}
+
+/// No side of the components has a gap, and the upper edge of their bars is at 0.8. The lower component is 2 mm thick.
+#[test]
+fn bars_of_a_component_must_not_enter_a_neighbour() {
+    let component = component().replace("U8", "U50");
+    let found = |distance: f64, height: f64| {
+        let files = [("8001.1P.dxf", &*project(distance, height)), ("1234.1P.dxf", &*component)];
+        let found = PartTest::default().diagnostics(&files);
+        found.iter().filter(|found| found.code().to_string() == "PB214").count()
+    };
+    assert_eq!(found(2.0, 0.0), 0, "they touch");
+    assert_eq!(found(1.5, 0.0), 2);
+    assert_eq!(found(1.5, 1.18), 2);
+    assert_eq!(found(1.5, 1.2), 1, "above the lower component");
 }
 
 /// The values of a project decide whether its component is cut through, and thus whether material is left and whether the part is loose. The
@@ -740,6 +778,8 @@ fn a_group_in_the_expression_names_the_path() {
     let text = "layer Part 1234_2 names path 1234.2, which this drawing does not have, so this part is only checked for cuts into it";
     assert_eq!((found.code().to_string(), found.text(Lang::En)), ("PB220".to_owned(), text.to_owned()));
     assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part 1234_"))]), ["PB220"], "digits follow");
+    let test = PartTest { pattern: Some("Part ?([0-9_]*)"), ..PartTest::default() };
+    assert_eq!(test.codes(&[("1234.1P.dxf", &part("Part"))]), [""; 0], "an empty group");
 }
 
 /// The second path is more than O away from all outlines of the part.

@@ -27,8 +27,7 @@ pub struct PartFindings {
     pub inner: Vec<(usize, usize)>,
     /// The findings about each path, by the index of the path.
     pub of_paths: Vec<Vec<Diagnostic>>,
-    /// For each path, the indices of the parts that may belong to it and to which it comes within O, and of those into which it cuts right through
-    /// the plate.
+    /// For each path, the indices of the parts that may belong to it and to which it comes within O, and of those that its cuts spoil.
     pub parts: Vec<Vec<usize>>,
     /// The material that each path leaves at outlines, by path.
     pub left: Vec<Vec<LeftMaterial>>,
@@ -230,7 +229,7 @@ impl<'s> PartCheck<'s> {
 
     /// Returns PB213 for the cuts into the part.
     fn gouge_findings(&self) -> impl Iterator<Item = (usize, Diagnostic)> {
-        let gouges = gouges(self.part, self.judged.iter());
+        let gouges = gouges(self.part, &self.judged);
         gouges.into_iter().map(|((path, element), gouge)| {
             let path_cuts = self.cuts.paths[path];
             let mut problem = gouge_problem(&gouge, path_cuts.radius);
@@ -256,10 +255,9 @@ impl<'s> PartCheck<'s> {
         })
     }
 
-    /// Returns the paths with cuts through the plate that go into the part.
+    /// Returns the paths with cuts that go into the part and must not.
     fn entering_paths(&self) -> BTreeSet<usize> {
-        let enters = |judged: &&ClassifiedCut<'_>| judged.cut.through.is_some() && !judged.entered.is_empty();
-        self.judged.iter().filter(enters).map(|judged| judged.cut.path).collect()
+        self.judged.spoiling.iter().map(|section| section.cut.path).collect()
     }
 
     fn leftovers(&self) -> Leftovers {
@@ -406,6 +404,7 @@ mod tests {
             },
             lowest: 0.0,
             supported: None,
+            bottom: f64::INFINITY,
             circle: None,
         };
         let cut = |(number, line): (u32, Line)| PartCut {

@@ -4,6 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use rstar::{AABB, Envelope as _};
 
 use super::boxes::{BoxIndex, widened};
+use super::gouge::MIN_CUT_DEPTH;
 use super::intervals::JOIN_GAP;
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
@@ -57,6 +58,8 @@ pub struct CutElement {
     pub lowest: f64,
     /// For an element with support bars, its whole segment: the cuts, and the sections with bars.
     pub supported: Option<Curve>,
+    /// For an element with support bars, B: Z in mm down to which it mills between the bars. Infinite without bars.
+    pub bottom: f64,
     /// The centre of a helical circle. Its cuts and bars are placed by [`Placement::of_circle`](crate::Placement::of_circle).
     pub circle: Option<Xy>,
 }
@@ -89,11 +92,11 @@ pub struct StandingBar {
     pub foot: Curve,
     /// Z of the bar's top in mm.
     pub top: f64,
+    /// P: the length in mm that the bar needs in order to hold.
+    pub required: f64,
     /// The centre of the helical circle on which the bar stands.
     pub circle: Option<Xy>,
 }
-    /// P: the length in mm that the bar needs in order to hold.
-    pub required: f64,
 
 /// Z in mm up to which a cut is considered to go through the plate: a cut that ends at Z0.001 still does.
 pub const THROUGH_HEIGHT: f64 = 0.001 + 1e-6;
@@ -198,6 +201,16 @@ impl IndexedCut<'_> {
     /// Returns the index of the cut's path, and the index of the cut's element in that path.
     pub(super) fn number(&self) -> (usize, u32) {
         (self.path, self.cut.element)
+    }
+
+    /// Returns the section that must not enter a part: the one that goes through the plate. An element with support bars that goes through the plate
+    /// between them is part of an outline and no groove, so everything that it mills in the material counts.
+    pub(super) fn spoiling_section(&self, index: &CutIndex<'_>) -> Option<Curve> {
+        if self.element(index).bottom > THROUGH_HEIGHT {
+            return self.through;
+        }
+        let top = index.paths[self.path].thickness - MIN_CUT_DEPTH;
+        self.cut.way.part_below(top.max(THROUGH_HEIGHT))
     }
 
     pub(super) fn element<'c>(&self, index: &CutIndex<'c>) -> &'c CutElement {

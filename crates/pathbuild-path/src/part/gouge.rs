@@ -20,12 +20,25 @@ pub(super) struct ClassifiedCut<'c> {
     pub(super) curve: Curve,
     /// The side of the part on which the middle of the curve lies.
     pub(super) side: Side,
-    /// The stretches of the curve on which the cutter goes into the part.
-    pub(super) entered: Vec<Stretch>,
+    /// Whether the cutter goes into the part somewhere on the curve.
+    pub(super) is_entering: bool,
 }
 
-/// Classified cuts in ascending order of their numbers.
-pub(super) struct ClassifiedCuts<'c>(Vec<ClassifiedCut<'c>>);
+/// A section of a cut that spoils the part.
+pub(super) struct SpoilingSection<'c> {
+    pub(super) cut: &'c IndexedCut<'c>,
+    curve: Curve,
+    /// The stretches of the curve on which the cutter goes into the part.
+    entered: Vec<Stretch>,
+}
+
+/// The cuts near a part.
+pub(super) struct ClassifiedCuts<'c> {
+    /// The cuts that may shape an outline, in ascending order of their numbers.
+    shaping: Vec<ClassifiedCut<'c>>,
+    /// The sections that go into the part and must not.
+    pub(super) spoiling: Vec<SpoilingSection<'c>>,
+}
 
 /// The damage that the cuts of one element do to a part.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,33 +52,46 @@ pub(super) struct Gouge {
 }
 
 /// Determines the side of the part on which each cut lies, and where the cut goes into the part. `numbers` are the numbers of the cuts to examine, in
-/// ascending order. A cut that does not go through the plate is included only at the lowest depth of its element, where it may shape the outline.
+/// ascending order. A cut that does not go through the plate may shape the outline only at the lowest depth of its element.
 pub(super) fn classify_cuts<'c>(
     part: &PreparedPart<'_>,
     index: &'c CutIndex<'c>,
     numbers: impl Iterator<Item = usize>,
     tolerance: f64,
 ) -> ClassifiedCuts<'c> {
-    let mut judged = Vec::new();
+    let mut judged = ClassifiedCuts { shaping: Vec::new(), spoiling: Vec::new() };
     // Most segments with bars touch no ring. All cuts of such a segment are on one side, which is computed only once.
     let mut last: Option<((usize, u32), Option<Side>)> = None;
     for number in numbers {
         let cut = &index.cuts[number];
         let element = cut.element(index);
         let shapes = || cut.cut.way.lowest() <= element.lowest + JOIN_GAP;
-        let Some(curve) = cut.through.or_else(|| shapes().then_some(cut.cut.way.curve)) else { continue };
+        let shaping = cut.through.or_else(|| shapes().then_some(cut.cut.way.curve));
+        let spoiling = cut.spoiling_section(index);
+        if shaping.is_none() && spoiling.is_none() {
+            continue;
+        }
         let known = last.take().filter(|(number, _)| *number == cut.number()).map(|(_, side)| side);
         let clear = known.unwrap_or_else(|| {
             element.supported.and_then(|segment| part.clear_side(&segment, cut.radius, tolerance))
         });
-        let CutterPassage { side, entered } = match &clear {
-            Some(side) => CutterPassage::on_side(side.clone(), &curve),
-            None => part.passage(&curve, cut.radius, tolerance),
+        let passage = |curve: &Curve| match &clear {
+            Some(side) => CutterPassage::on_side(side.clone(), curve),
+            None => part.passage(curve, cut.radius, tolerance),
         };
+        let shaping = shaping.map(|curve| (curve, passage(&curve)));
+        if let Some(curve) = spoiling {
+            let known = shaping.as_ref().filter(|(shaping, _)| *shaping == curve);
+            let entered = known.map_or_else(|| passage(&curve).entered, |(_, known)| known.entered.clone());
+            judged.spoiling.extend((!entered.is_empty()).then_some(SpoilingSection { cut, curve, entered }));
+        }
+        judged.shaping.extend(shaping.map(|(curve, CutterPassage { side, entered })| {
+            let is_entering = !entered.is_empty();
+            ClassifiedCut { number, cut, curve, side, is_entering }
+        }));
         last = Some((cut.number(), clear));
-        judged.push(ClassifiedCut { number, cut, curve, side, entered });
     }
-    ClassifiedCuts(judged)
+    judged
 }
 
 impl ClassifiedCut<'_> {
@@ -77,26 +103,23 @@ impl ClassifiedCut<'_> {
 
 impl<'c> ClassifiedCuts<'c> {
     pub(super) fn get(&self, number: usize) -> Option<&ClassifiedCut<'c>> {
-        let place = self.0.binary_search_by_key(&number, |judged| judged.number).ok()?;
-        self.0.get(place)
+        let place = self.shaping.binary_search_by_key(&number, |judged| judged.number).ok()?;
+        self.shaping.get(place)
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = &ClassifiedCut<'c>> {
-        self.0.iter()
+        self.shaping.iter()
     }
 }
 
 /// Returns the cuts into a part, one for each path and element.
-pub(super) fn gouges<'j>(
-    part: &PreparedPart<'_>,
-    judged: impl Iterator<Item = &'j ClassifiedCut<'j>>,
-) -> BTreeMap<(usize, u32), Gouge> {
+pub(super) fn gouges(part: &PreparedPart<'_>, judged: &ClassifiedCuts<'_>) -> BTreeMap<(usize, u32), Gouge> {
     let mut found: BTreeMap<(usize, u32), Gouge> = BTreeMap::new();
-    for cut in judged.filter(|judged| judged.cut.through.is_some()) {
-        for stretch in &cut.entered {
-            let (at, depth) = part.deepest(&cut.curve, *stretch, cut.cut.radius);
+    for SpoilingSection { cut, curve, entered } in &judged.spoiling {
+        for stretch in entered {
+            let (at, depth) = part.deepest(curve, *stretch, cut.radius);
             let new = Gouge { at, depth, length: 0.0 };
-            let gouge = found.entry((cut.cut.path, cut.cut.cut.element)).or_insert(new);
+            let gouge = found.entry(cut.number()).or_insert(new);
             if gouge.is_exceeded_by(at, depth) {
                 (gouge.at, gouge.depth) = (at, depth);
             }
@@ -106,20 +129,32 @@ pub(super) fn gouges<'j>(
     found
 }
 
+/// A milling move of a program.
+#[derive(Clone, Copy, Debug)]
+pub struct MilledMove {
+    /// The path of the tool tip.
+    pub way: TipMove,
+    /// The height in mm by which the path of the move is raised.
+    pub raised: f64,
+    /// For an element with support bars, B in the program: Z in mm. Infinite without bars.
+    pub bottom: f64,
+}
+
 /// Returns the stretches of moves on which a cutter goes into a part, for pictures. `ways` are the moves of the program in which the part is
-/// placed and raised, each with the height by which its path is raised. `thickness` is that of the part's plate.
+/// placed and raised. `thickness` is that of the part's plate.
 pub fn gouging_moves<'w>(
     part: &Part,
     placement: &Placement,
     [raised, thickness]: [f64; 2],
-    ways: impl IntoIterator<Item = &'w (TipMove, f64)>,
+    ways: impl IntoIterator<Item = &'w MilledMove>,
     [radius, tolerance]: [f64; 2],
 ) -> Vec<Curve> {
     let part = placed_part(part, placement);
     let part = PreparedPart::new(&part);
-    let through = ways.into_iter().filter_map(|way| {
-        let (way, height) = way;
-        way.part_below(level_for_cuts(raised, thickness, *height) + THROUGH_HEIGHT)
+    let through = ways.into_iter().filter_map(|MilledMove { way, raised: height, bottom }| {
+        let through = level_for_cuts(raised, thickness, *height) + THROUGH_HEIGHT;
+        let is_outline = *bottom <= through;
+        way.part_below(if is_outline { through.max(raised + thickness - MIN_CUT_DEPTH) } else { through })
     });
     let near = through.filter(|way| widened_box(way, radius).intersects(&part.extent()));
     let stretches = near.flat_map(|way| {

@@ -159,7 +159,7 @@ impl<'s> LeftoverSearch<'s> {
         tolerance: f64,
     ) -> Self {
         let enters = |judged: &&ClassifiedCut<'_>| {
-            !judged.entered.is_empty() && judged.cut.element(cuts).lowest > THROUGH_HEIGHT
+            judged.is_entering && judged.cut.element(cuts).lowest > THROUGH_HEIGHT
         };
         let grooves = judged.iter().filter(enters).map(|judged| judged.cut.number());
         let grooves = grooves.collect();

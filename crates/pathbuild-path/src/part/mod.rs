@@ -32,7 +32,7 @@ pub use bars::LostBar;
 pub use check::{PartFindings, check_parts};
 pub use cuts::{CutElement, EmbeddedPlace, PartCut, PartSweep, PathCuts, StandingBar, THROUGH_HEIGHT};
 pub use displacement::largest_displacement;
-pub use gouge::gouging_moves;
+pub use gouge::{MilledMove, gouging_moves};
 pub use leftover::LeftMaterial;
 pub use loose::MAX_WEAK_BRIDGE;
 pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts, SeveredPart};

@@ -105,10 +105,10 @@ impl<'c> PlacedCuts<'c> {
         if !self.is_reached_by(other) {
             return NeighbourCuts::default();
         }
-        let (own, cutting) = (
-            self.placed(self.raised),
-            other.placed(level_for_cuts(self.raised, self.cuts.thickness, other.raised)),
-        );
+        let level = level_for_cuts(self.raised, self.cuts.thickness, other.raised);
+        let (own, mut cutting) = (self.placed(self.raised), other.placed(level));
+        // What the other path mills above the plate of this one spoils nothing.
+        cutting.thickness = self.raised + self.cuts.thickness - level;
         let paths = [&own, &cutting];
         let cuts = CutIndex::new(&paths);
         let mut gouged = Vec::new();
@@ -117,7 +117,7 @@ impl<'c> PlacedCuts<'c> {
             let prepared = PreparedPart::new(&part);
             let near = cuts.near(prepared.extent()).filter(|cut| cuts.cuts[*cut].path == 1);
             let judged = classify_cuts(&prepared, &cuts, near, tolerance);
-            gouged.extend(gouges(&prepared, judged.iter()).into_iter().map(|((_, element), gouge)| {
+            gouged.extend(gouges(&prepared, &judged).into_iter().map(|((_, element), gouge)| {
                 NeighbourGouge { part: number, element, at: gouge.at, depth: gouge.depth }
             }));
         }
@@ -223,6 +223,7 @@ impl<'c> PlacedCuts<'c> {
         placed.cuts.iter_mut().for_each(|cut| *cut = PartCut { way: way(cut), ..*cut });
         placed.elements.iter_mut().for_each(|element| {
             element.lowest += raised;
+            element.bottom += raised;
             element.supported = element.supported.map(|segment| place(&segment, element.circle));
         });
         placed.bars.iter_mut().for_each(|bar| {
