@@ -13,7 +13,7 @@ use crate::interpret::INCH;
 use crate::native::announces_probe;
 use crate::provenance::{Provenance, head_remarks};
 use crate::read::Problems;
-use crate::verify::Cutter;
+use crate::verify::{Cutter, tool_to_insert};
 
 /// Greatest error in mm that rounding may cause in a length of a comment, which often has two decimals. Two such lengths may differ by twice this.
 const ROUNDING_TOLERANCE: f64 = 0.01;
@@ -100,13 +100,16 @@ pub struct HeaderForm {
     pub source: &'static str,
     /// A comment in this form.
     pub sample: &'static str,
-    /// The start of an earlier comment that must occur in the program, if the form by itself could be free text.
+    /// The start of an earlier comment, in upper or lower case, that must occur in the program if the form by itself could be free text.
     pub signature: Option<&'static str>,
     read: fn(&str) -> Option<Statement>,
 }
 
+/// The start of the header line, in the case in which most posts write it.
+const PATHBUILD: &str = "pathbuild ";
+
 macro_rules! header_forms {
-    ($($name:literal, $source:literal, $sample:literal, $($signature:literal)? => $read:ident;)*) => {
+    ($($name:literal, $source:literal, $sample:literal, $($signature:expr)? => $read:ident;)*) => {
         /// The known forms. All samples were made up to fit the form, not copied from programs.
         ///
         /// Estlcam, `SheetCam` and dxf2gcode name tools by free text only, so nothing is read from their programs.
@@ -119,14 +122,16 @@ macro_rules! header_forms {
         },)*];
     };
     (signature) => { None };
-    (signature $signature:literal) => { Some($signature) };
+    (signature $signature:expr) => { Some($signature) };
 }
 
 header_forms! {
     "pathbuild", "provenance.rs",
         "pathbuild 0.2.0 3f2a9c0d41b7e685-09c1d2e3 grbl O2 T5", => pathbuild_tool;
     "pathbuild", "the list of tools and the tool changes of the built-in posts, and those of CamBam's definitions",
-        "T2: 1.0 end mill", "pathbuild " => pathbuild_list_entry;
+        "T2: 1.0 end mill", PATHBUILD => pathbuild_list_entry;
+    "pathbuild", "the built-in post for Marlin, because Marlin has no T",
+        "Insert T2, set Z zero", PATHBUILD => pathbuild_change;
     "Fusion 360", "shooshx/led_floor, cad/nc/6mm/1022_block2x2_17bit.nc; posts that Autodesk publishes",
         "T1  D=1.7 CR=0 - ZMIN=-3 - flat end mill", => fusion_tool;
     "CutViewer", "TOOL/MILL, diameter, corner radius, height, taper angle: Carbide Create, CamBam, HeeksCNC",
@@ -168,6 +173,8 @@ pub struct HeaderReader {
     has_calls: bool,
     /// Whether comments announce probes, as those of pathbuild's probing programs do.
     announces_probes: bool,
+    /// Whether the program stops without a message that names the tool to insert. The operator may change the tool there.
+    has_unnamed_stop: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,6 +206,14 @@ impl HeaderReader {
                 return;
             }
             Action::Comment(text) => return self.comment(step.line, text),
+            Action::Stop { .. } => {
+                let names_tool =
+                    |event: &Event| matches!(event, Event::Statement(Statement { change: Some(_), .. }));
+                let last = self.events.last();
+                self.has_unnamed_stop |=
+                    !last.is_some_and(|(line, event)| *line == step.line && names_tool(event));
+                return;
+            }
             _ => return,
         };
         let is_repeated = matches!(event, Event::Cut | Event::Probe)
@@ -219,7 +234,12 @@ impl HeaderReader {
     fn comment(&mut self, line: u32, text: &str) {
         self.announces_probes |= announces_probe(text);
         let signed = FORMS.iter().filter_map(|form| form.signature);
-        self.signatures.extend(signed.filter(|signature| text.trim().starts_with(signature)));
+        // Some posts write only upper case.
+        let begins = |signature: &&str| {
+            let start = text.trim().get(..signature.len());
+            start.is_some_and(|start| start.eq_ignore_ascii_case(signature))
+        };
+        self.signatures.extend(signed.filter(begins));
         let found = parse_comment(text, &|signature| self.signatures.contains(&signature));
         self.events.extend(found.map(|(_, statement)| (line, Event::Statement(statement))));
     }
@@ -240,10 +260,16 @@ impl HeaderReader {
             _ => None,
         };
         let changes = self.events.iter().filter_map(|(line, event)| Some((*line, changed(event)?)));
-        let mut header =
-            Header { changes: changes.collect(), has_calls: self.has_calls, is_probing, ..Header::default() };
+        let first = self.first_tool().filter(|_| !has_insertions && !has_selections);
+        let mut header = Header {
+            changes: first.into_iter().chain(changes).collect(),
+            has_calls: self.has_calls,
+            is_probing,
+            ..Header::default()
+        };
         let mut collector =
             Collector { in_inches: starts_in_inches(&self.events, inch), ..Collector::default() };
+        collector.number = first.map(|(_, number)| number);
         collector.numbered(&self.events, inch);
         for (line, event) in &self.events {
             collector.event(*line, event, changed(event), inch);
@@ -259,6 +285,22 @@ impl HeaderReader {
         header.is_of_pathbuild = collector.is_of_pathbuild;
         header.problems = collector.problems.into_diagnostics();
         header
+    }
+
+    /// Returns line and number of the tool that is in the spindle at the beginning of a program of pathbuild without T words: the first of several
+    /// in its list, which has the order in which they cut. `None` if the program also stops where no tool is named.
+    fn first_tool(&self) -> Option<(u32, u32)> {
+        let number = |(line, event): &(u32, Event)| match event {
+            Event::Statement(Statement {
+                tool: Some(StatedTool { scope: Scope::Number(number), .. }),
+                ..
+            }) => Some((*line, *number)),
+            _ => None,
+        };
+        let mut listed = self.events.iter().filter_map(number);
+        let first =
+            listed.next().filter(|_| self.signatures.contains(&PATHBUILD) && !self.has_unnamed_stop)?;
+        listed.any(|(_, other)| other != first.1).then_some(first)
     }
 }
 
@@ -559,6 +601,10 @@ fn pathbuild_list_entry(comment: &str) -> Option<Statement> {
     let (number, text) = comment.strip_prefix('T')?.split_once(':')?;
     let scope = Scope::Number(number.trim().parse().ok()?);
     Some(tool(scope, positive(text.split_whitespace().next()?)?, Tip::Flat, StatedUnit::OfProgram))
+}
+
+fn pathbuild_change(comment: &str) -> Option<Statement> {
+    Some(Statement { change: Some(tool_to_insert(comment)?), ..Statement::default() })
 }
 
 fn fusion_tool(comment: &str) -> Option<Statement> {

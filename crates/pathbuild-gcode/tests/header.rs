@@ -271,4 +271,29 @@ fn the_list_of_tools_of_pathbuild_is_read() {
     // Without a header of pathbuild, the comments are free text.
     let foreign = joined(["T1", ""]).replace("(pathbuild ", "(");
     assert_eq!(problems(&foreign), [""; 0]);
+    // The posts for Haas and Fanuc write upper case only.
+    let upper = |changes| joined(changes).to_uppercase();
+    assert_eq!(tools(&upper(["T1", "T2"])), ["5: T1 2 flat 2", "10: T2 1 flat 1"]);
+    assert_eq!(problems(&upper(["T1", ""])), ["3 disagreement"]);
+}
+
+#[test]
+fn messages_of_the_post_for_marlin_name_the_tools_to_insert() {
+    let joined = |change: &str| {
+        format!(
+            "(pathbuild 0.1.0 0123456789abcdef-01234567 marlin T2)\n(T1: 2.0 2mm)\n(T2: 1.0)\nG21\n{CUT}(Insert T2: 1.0)\n{change}\n{CUT}"
+        )
+    };
+    let change = "M0 (Insert T2, set Z zero)";
+    assert_eq!(tools(&joined(change)), ["0: T1 2 flat 2", "10: T2 1 flat 1"]);
+    assert_eq!(problems(&joined(change)), [""; 0]);
+    assert_eq!(problems(&joined("")), ["3 disagreement"]);
+    assert_eq!(problems(&joined("M0 (Insert T3, set Z zero)")), ["3 disagreement"]);
+    // The tool may be changed at a stop that names none.
+    assert_eq!(
+        (tools(&joined("M0")), problems(&joined("M0"))),
+        (vec!["0: - unknown".to_owned()], Vec::new())
+    );
+    let foreign = joined(change).replace("(pathbuild ", "(");
+    assert_eq!((tools(&foreign), problems(&foreign)), (vec!["0: - unknown".to_owned()], Vec::new()));
 }

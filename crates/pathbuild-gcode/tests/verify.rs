@@ -395,11 +395,24 @@ fn the_spindle_stands_where_the_operator_changes_the_tool() {
     assert_eq!(program("M0\nT2\nM3 S1000"), ["8 spinning-at-change"]);
     assert_eq!(program("T2\nM0"), ["9 spinning-at-change"]);
     assert_eq!(program("T2\nM5 M0\nM3 S1000"), FINE);
+    // A message names the tool, as in programs for Marlin.
+    assert_eq!(program("M0 (Insert T2, set Z zero)"), ["8 spinning-at-change"]);
+    assert_eq!(program("M5\nM0 (Insert T2, set Z zero)"), FINE);
+    assert_eq!(program("M0 (Insert)"), FINE);
     // The program pauses without a tool change, or a changer stops the spindle itself.
     assert_eq!(program("M0"), FINE);
     let haas = "T1\nM3 S9000\nG0 Z9.\nM0\nT2\nM30\n";
     let read = interpret(haas.as_bytes(), Haas, &Options::default());
     assert_eq!(verify(&read.steps, None).iter().map(fault_text).collect::<Vec<_>>(), FINE);
+    // The operator changes the tool at M6 of Estlcam.
+    let change = |dialect, words: &str| -> Vec<String> {
+        let steps = run(&format!("M3 S9000\nG0 X0 Y0 Z9\nG1 Z1\nG0 Z9\n{words}\nT2 M6\nG0 Z9\nM5")).steps;
+        let found = pathbuild_gcode::verify::verify(&steps, dialect, None, &mut |_| {});
+        found.iter().map(fault_text).collect()
+    };
+    assert_eq!(change(Estlcam, ""), ["7 spinning-at-change"]);
+    assert_eq!(change(Estlcam, "M5"), FINE);
+    assert_eq!(change(LinuxCnc, ""), FINE);
 }
 
 #[test]

@@ -705,8 +705,8 @@ messages! {
     SPINNING_AT_CHANGE: SpinningAtChange {
         en: "the spindle still turns where the program stops for the tool change",
         de: "die Spindel dreht sich noch, wo das Programm zum Werkzeugwechsel anhält",
-        help_en: "switch it off with M5 before M0",
-        help_de: "sie vor M0 mit M5 ausschalten",
+        help_en: "switch it off with M5 before the tool change",
+        help_de: "sie vor dem Werkzeugwechsel mit M5 ausschalten",
     }
     /// A cut after M6 that still uses the length of the previous tool.
     LENGTH_BEFORE_CHANGE: WrongToolLength {

@@ -47,6 +47,7 @@ pub use machine::{Machine, MachineRules, Travel, text_beyond_machine};
 pub use material::{Cutter, Stock, StockSpan, rapid_hits};
 pub use rapids::{beyond_machine, rapids_into_joined_material, rapids_into_material};
 pub use rules::Rules;
+pub(crate) use rules::tool_to_insert;
 pub use stated_statistics::StatedStatistics;
 pub use tip_height::TipHeight;
 pub use tool_state::{LengthFit, ToolState};

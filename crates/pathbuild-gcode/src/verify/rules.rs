@@ -11,7 +11,7 @@ use pathbuild_motion::{
 use super::frames::Frames;
 use super::material::Stock;
 use super::tip_height::TipHeight;
-use crate::dialect::Dialect;
+use crate::dialect::{Dialect, ToolChanger};
 use crate::interpret::code_name;
 use crate::native::announces_probe;
 use crate::read::Problems;
@@ -50,6 +50,8 @@ pub struct Rules<'c> {
     /// Whether the last move in Z went to a machine position, whose height in the program's coordinates is unknown.
     is_height_homed: bool,
     directions: ArcDirections,
+    /// Whether the operator changes the tool at M6.
+    has_manual_change: bool,
     /// The words of a tool change by hand since the last move: T and a stop.
     by_hand: ChangeByHand,
     /// The line of the first stop since the last move, if the tool is in the material there.
@@ -88,6 +90,7 @@ impl<'c> Rules<'c> {
             position_said: false,
             is_height_homed: false,
             directions: ArcDirections::default(),
+            has_manual_change: false,
             by_hand: ChangeByHand::default(),
             stop_at_depth: None,
             frames: Frames::default(),
@@ -99,6 +102,7 @@ impl<'c> Rules<'c> {
     /// Adapts the rules to the dialect of the program.
     pub fn in_dialect(mut self, dialect: Dialect) -> Self {
         self.tip_height = TipHeight::new(dialect);
+        self.has_manual_change = dialect.rules().changer == ToolChanger::Operator;
         self
     }
 
@@ -122,11 +126,14 @@ impl<'c> Rules<'c> {
                 self.check_announced_probe(None);
                 self.announced_probe = Some(line);
             }
-            Action::ChangeTool(_) => self.check_tool_change(line),
-            Action::SelectTool(_) => {
-                self.by_hand.is_selected = true;
-                self.check_change_by_hand(line);
+            Action::Comment(text) if tool_to_insert(text).is_some() => self.select_tool(line),
+            Action::ChangeTool(_) => {
+                if self.has_manual_change && self.spindle.turning.is_on() {
+                    self.problems.add_at_line(&say::SPINNING_AT_CHANGE, line, |d| d);
+                }
+                self.check_tool_change(line);
             }
+            Action::SelectTool(_) => self.select_tool(line),
             Action::Stop { optional } => {
                 if self.at.known.has(Axes::Z) && self.surface_above(line, self.at.z()).is_some() {
                     self.stop_at_depth.get_or_insert(line);
@@ -309,7 +316,12 @@ impl<'c> Rules<'c> {
         };
     }
 
-    /// Checks a tool change by hand: T and a stop, in any order, without a move between them.
+    fn select_tool(&mut self, line: u32) {
+        self.by_hand.is_selected = true;
+        self.check_change_by_hand(line);
+    }
+
+    /// Checks a tool change by hand: T, or a message that names the tool, and a stop, in any order, without a move between them.
     fn check_change_by_hand(&mut self, line: u32) {
         if self.by_hand.is_selected && self.by_hand.is_stopped {
             let ChangeByHand { spinning, .. } = std::mem::take(&mut self.by_hand);
@@ -344,6 +356,11 @@ impl<'c> Rules<'c> {
         }
         self.report_if_below_surface(&say::END_NOT_RAISED, self.line, self.at);
     }
+}
+
+/// Returns the number of the tool that a message of the built-in post for Marlin, which has no T, tells the operator to insert.
+pub(crate) fn tool_to_insert(comment: &str) -> Option<u32> {
+    comment.trim().strip_prefix("Insert T")?.split_once(", ")?.0.parse().ok()
 }
 
 /// The words that tell the operator of a machine without M6 to change the tool.
