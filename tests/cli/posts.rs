@@ -1112,6 +1112,54 @@ fn a_joined_program_does_not_replace_that_of_a_path() {
 }
 
 #[test]
+fn programs_with_the_same_number_are_reported() {
+    let drawing = |name: &&str| {
+        let body = "start 0,0 \"T5 O2 I1 B4 MPlate\"\nmill 0,0 40,0\nend 40,0";
+        format!("== {name}.dxf ==\nlayer {name}\n{body}\n")
+    };
+    let (configuration, _) = LIBRARY.split_once("== 1234.dxf").unwrap();
+    let place = |head: &str, names: &[&str]| {
+        let drawings: String = names.iter().map(drawing).collect();
+        Place::of(&format!("{}{drawings}", configuration.replace("rapid = ", &format!("{head}\nrapid = "))))
+    };
+    let two = place("", &["1234.1P", "1234.2P"]);
+    let told = |[first, second]: [&str; 2]| {
+        format!("warning[PB530] 2 programs have the number O1234, such as {first} and {second}: on the")
+    };
+    for post in ["haas", "fanuc"] {
+        let run = two.run(&format!("emit . --post {post} --out-dir {post} --format concise"));
+        let drawn = told(["1234.1P (1234.1P.dxf)", "1234.2P (1234.2P.dxf)"]);
+        assert!(run.status == Some(0) && run.stderr.contains(&drawn), "{run}");
+        let run = two.run(&format!("verify {post} --format concise"));
+        assert!(run.stderr.contains(&told(["1234.1P_Milling.nc", "1234.2P_Milling.nc"])), "{run}");
+        let run = two.run(&format!("emit . --post {post} --out-dir {post} --join 1234 --format concise"));
+        assert!(!run.stderr.contains("PB530"), "{run}");
+    }
+    let by_haas = |place: Place| place.run("emit . --post haas --out-dir out --format concise");
+    let reserved = |name: &str| {
+        let place = place("", &[name]);
+        let run = place.run("emit . --post haas --out-dir out --format concise");
+        let verified = place.run("verify out --format concise");
+        let is_told = run.stderr.contains("warning[PB530]");
+        assert!(
+            run.status == Some(0) && verified.stderr.contains("warning[PB530]") == is_told,
+            "{run}{verified}"
+        );
+        is_told
+    };
+    assert_eq!(["8999.1P", "9000.1P", "9999.1P"].map(reserved), [false, true, true]);
+    let five_digits = place("post = { name = \"haas\", program-number = 10000 }", &["9999.1P"]);
+    assert!(!five_digits.run("emit . --out-dir out").stderr.contains("PB530"));
+    assert!(!two.run("emit . --post grbl --out-dir out").stderr.contains("PB530"), "GRBL has no numbers");
+    assert!(!by_haas(place("", &["1234.1P", "1235.1P"])).stderr.contains("PB530"));
+    let configured = place("post = { name = \"haas\", program-number = 77 }", &["1234.1P", "1235.1P"]);
+    let run = configured.run("emit . --format concise");
+    assert!(run.stderr.contains("warning[PB530] 2 programs have the number O77, "), "{run}");
+    let run = by_haas(place("", &["0000.1P"]));
+    assert!(run.status == Some(1) && run.stderr.contains("the name contains no number above 0"), "{run}");
+}
+
+#[test]
 fn tools_that_fit_equally_well_are_reported_once() {
     let place = |paths: &str| {
         let twin = format!("[tool.twin]\ndiameter = 2\nnumber = 9\nspindle = 9000\n{paths}\n[tool.3mm]");

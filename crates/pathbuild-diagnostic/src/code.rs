@@ -181,6 +181,7 @@ codes! {
     527 PatternWithoutLayer "pattern-without-layer" Warning "`keep-out` or `part` matches no layer of the whole library";
     528 NotCurrent "not-current" Error "a file is missing or is not what `emit` would write";
     529 GlobWithoutFile "glob-without-file" Warning "a glob of `[[severity-in]]` matches no file";
+    530 ProgramNumber "program-number" Warning "programs with the same number, or a number that controls reserve for macros";
     601 InvalidProbeLine "invalid-probe-line" Error "invalid probe line";
     602 CorrectionTooLarge "correction-too-large" Error "correction too large";
     603 UnknownProbe "unknown-probe" Error "unknown probe";

@@ -29,8 +29,10 @@ pub struct Job {
 }
 
 /// Returns the program number to use if none is configured: the first number in the program's name, such as 8001 in 8001.1P.
+/// No program has the number 0.
 pub fn program_number(name: &str) -> Option<u32> {
-    name.split(|c: char| !c.is_ascii_digit()).find_map(|digits| digits.parse().ok())
+    let first = name.split(|c: char| !c.is_ascii_digit()).find_map(|digits| digits.parse().ok());
+    first.filter(|number| *number > 0)
 }
 
 impl Job {

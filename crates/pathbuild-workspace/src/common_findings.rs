@@ -1,5 +1,8 @@
 //! Findings that belong to no single drawing. (book: reference/configuration, book: language/keep-outs)
 
+use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Db;
 use pathbuild_db::system::{FileKind, join};
@@ -34,6 +37,31 @@ pub(crate) fn unused_configurations(session: &Session<'_>, directories: &[Utf8Pa
         problem.in_file(&file)
     };
     files.filter(is_unused).map(warning).collect()
+}
+
+/// The numbers of macros on controls with program numbers.
+const MACRO_NUMBERS: RangeInclusive<u32> = 9000..=9999;
+
+/// Returns PB530 for programs with the same number, and for numbers of macros. Each program is given by its number, its name, and the file of its
+/// finding.
+pub(crate) fn number_warnings(programs: &[(u32, String, Utf8PathBuf)]) -> Vec<Diagnostic> {
+    let mut by_number: BTreeMap<u32, Vec<&(u32, String, Utf8PathBuf)>> = BTreeMap::new();
+    for program in programs {
+        by_number.entry(program.0).or_default().push(program);
+    }
+    let mut problems = Vec::new();
+    for (number, programs) in by_number {
+        let (_, name, file) = programs[0];
+        let number_of = |problem: Diagnostic| problem.with("number", u64::from(number)).in_file(file);
+        if MACRO_NUMBERS.contains(&number) {
+            problems.push(number_of(Diagnostic::new(&outputs::NUMBER_RESERVED).quoting("name", &**name)));
+        }
+        if let Some((_, second, _)) = programs.get(1) {
+            let problem = Diagnostic::new(&outputs::NUMBER_SHARED).with("count", programs.len());
+            problems.push(number_of(problem.quoting("first", &**name).quoting("second", &**second)));
+        }
+    }
+    problems
 }
 
 /// Returns PB527 for each of the patterns `keep-out` and `part` that matches no layer of the library, given the results of all its drawings. Returns

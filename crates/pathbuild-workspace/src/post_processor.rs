@@ -16,7 +16,7 @@ use pathbuild_motion::{Coolant, Turning};
 use pathbuild_path::name_regex;
 use pathbuild_post::{
     BUILT_IN, Job, Operation, Output, PostDefinition, PostFiles, PostOptions, Tool, ToolEntry, ToolTable,
-    TranslatedText, samples,
+    TranslatedText, program_number, samples,
 };
 use pathbuild_view::Tip;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -217,6 +217,14 @@ impl PostProcessor {
     pub fn selects_g54(&self) -> bool {
         let has_offsets = !matches!(self.reader(), Some(Dialect::Estlcam | Dialect::Xpertmill));
         has_offsets && self.definition.windows(3).any(|word| word == b"G54")
+    }
+
+    /// Returns the number by which the control identifies the program of this name; `None` if the definition writes none.
+    pub fn program_number(&self, name: &str) -> Option<u32> {
+        const MACRO: &[u8] = b"program.number";
+        self.reader().filter(|reader| reader.rules().program_numbers)?;
+        self.definition.windows(MACRO.len()).find(|word| *word == MACRO)?;
+        self.options.program_number.or_else(|| program_number(name))
     }
 
     /// Returns the configured feed in mm/min for cuts without a feed of their own.

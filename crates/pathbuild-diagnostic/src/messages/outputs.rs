@@ -129,6 +129,20 @@ messages! {
         help_en: "give one of them an R (a suffix of the output's name), or use --out-dir in separate runs",
         help_de: "einem davon ein R geben (Zusatz zum Namen der Ausgabe) oder --out-dir in getrennten Läufen verwenden",
     }
+    /// Several programs with one number, by which a control tells programs apart.
+    NUMBER_SHARED: ProgramNumber {
+        en: "{count} programs have the number O{number}, such as {first} and {second}: on the control, one replaces the other",
+        de: "{count} Programme haben die Nummer O{number}, etwa {first} und {second}: in der Steuerung ersetzt eines das andere",
+        help_en: "leave out `program-number` and give the paths names whose first numbers differ, or join the programs with --join",
+        help_de: "`program-number` weglassen und den Pfaden Namen mit verschiedener erster Zahl geben, oder die Programme mit --join verbinden",
+    }
+    /// A program with a number from 9000 to 9999.
+    NUMBER_RESERVED: ProgramNumber {
+        en: "{name} has the program number O{number}, but O9000 to O9999 are macros of the control, which are locked or would be overwritten",
+        de: "{name} hat die Programmnummer O{number}, aber O9000 bis O9999 sind Makros der Steuerung, die gesperrt sind oder überschrieben würden",
+        help_en: "give the path another name, or set `program-number` in `post` of pathbuild.toml",
+        help_de: "dem Pfad einen anderen Namen geben oder `program-number` in `post` von pathbuild.toml setzen",
+    }
     /// A joined program with the file name of a path's program.
     JOINED_LIKE_PATH: SameOutput {
         en: "{name} is the file of path {path}, so joined paths cannot be written into it",

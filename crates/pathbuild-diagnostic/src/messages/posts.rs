@@ -184,8 +184,8 @@ messages! {
     }
     /// A macro for the number of a program with a name from which no number can be derived.
     PROGRAM_NUMBER_MISSING: MissingPostValue {
-        en: "{macro} in {section} has no value in {operation}: the name contains no number",
-        de: "{macro} in {section} hat in {operation} keinen Wert: der Name enthält keine Zahl",
+        en: "{macro} in {section} has no value in {operation}: the name contains no number above 0",
+        de: "{macro} in {section} hat in {operation} keinen Wert: der Name enthält keine Zahl über 0",
         help_en: "set `program-number` in [post] of pathbuild.toml",
         help_de: "`program-number` in [post] von pathbuild.toml setzen",
     }

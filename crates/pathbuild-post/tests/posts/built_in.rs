@@ -8,7 +8,7 @@ use pathbuild_post::{
     native_remark,
 };
 
-use crate::support::{arc, feed, operation, rapid, texts};
+use crate::support::{arc, feed, operation, rapid, read, texts};
 
 /// Returns a job with two tools, a line, an arc, a helix, a circle and two holes.
 fn sample() -> Job {
@@ -191,6 +191,19 @@ fn a_tool_is_changed_where_the_owner_says() {
 }
 
 #[test]
+fn the_spindle_stands_at_m6_of_estlcam() {
+    let text = BUILT_IN.iter().find(|post| post.name == "estlcam").unwrap().text;
+    let errors = |text: &str| {
+        let written = read(text).unwrap().write(&sample(), &PostOptions::default());
+        texts(&written.err().unwrap_or_default())
+    };
+    assert_eq!(errors(text), [""; 0]);
+    // The first occurrence is that of the tool change.
+    let found = errors(&text.replacen("{$spindle(off)}\n", "", 1));
+    assert!(found.len() == 1 && found[0].contains("the spindle still turns"), "{found:?}");
+}
+
+#[test]
 fn programs_of_several_paths_have_the_number_of_the_first() {
     let head = |name: &str, number: Option<u32>| {
         let job = Job { name: name.into(), ..sample() };
@@ -201,5 +214,6 @@ fn programs_of_several_paths_have_the_number_of_the_first() {
     };
     assert_eq!(head("8001.1P", None), "O8001");
     assert_eq!(head("BOTH", None), "O1234");
+    assert_eq!(head("0000.1P", None), "O1234", "0 is no program number");
     assert_eq!(head("BOTH", Some(77)), "O0077");
 }

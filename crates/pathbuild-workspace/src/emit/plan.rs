@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use super::options;
 use super::outcome::{ProgramOutcome, Task, is_of_other_version, write_error};
+use crate::common_findings::number_warnings;
 use crate::config::types::SheetFormat;
 use crate::memo::{Answer, DrawingResult, Inputs, Memo, OutputState};
 use crate::post_processor::PostProcessor;
@@ -162,6 +163,8 @@ pub(super) fn plan(
         return Err(options::missing_values(workspace, ["rapid"]));
     }
     leave_out_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
+    let jobs: Vec<&Job> = plans.iter().filter_map(|answer| answer.value.job.as_ref()).collect();
+    diagnostics.extend(warn_of_numbers(session, builder.post_processor, &jobs));
     if let Some(join) = join {
         let jobs = plans.iter_mut().filter_map(|answer| answer.value.job.as_mut());
         diagnostics.extend(jobs.filter_map(|job| leave_out_if_named_like_path(builder, join, job)));
@@ -476,6 +479,23 @@ pub(super) fn clashes(session: &Session<'_>, jobs: &[&Job]) -> (BTreeSet<usize>,
         clashing.extend(owners);
     }
     (clashing, problems)
+}
+
+/// Returns PB530 for the numbers by which the control identifies the programs.
+pub(super) fn warn_of_numbers(
+    session: &Session<'_>,
+    post_processor: Option<&PostProcessor>,
+    jobs: &[&Job],
+) -> Vec<Diagnostic> {
+    let db = session.db();
+    let numbered = |job: &&Job| {
+        let names = [&*job.path, job.targets[0].name(db)];
+        let number = names.iter().find_map(|name| post_processor?.program_number(name))?;
+        Some((number, job.name(session), job.drawing(db).path(db).to_owned()))
+    };
+    let written = jobs.iter().filter(|job| !job.is_left_out);
+    let numbers: Vec<_> = written.filter_map(numbered).collect();
+    number_warnings(&numbers)
 }
 
 fn same_output_error(name: Option<&str>, first: String, second: String, drawing: &Utf8Path) -> Diagnostic {

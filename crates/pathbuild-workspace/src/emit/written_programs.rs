@@ -12,7 +12,7 @@ use pathbuild_diagnostic::Diagnostic;
 
 use super::options;
 use super::outcome::{ProgramOutcome, Task};
-use super::plan::{Job, JobBuilder, Plan, clashes, leave_out_clashes};
+use super::plan::{Job, JobBuilder, Plan, clashes, leave_out_clashes, warn_of_numbers};
 use super::select::TargetPatterns;
 use super::settle::build_and_settle;
 use super::stale_programs::EarlierPrograms;
@@ -190,6 +190,7 @@ impl WrittenPrograms {
         let programs = self.in_order();
         let targets: Vec<Target> = programs.iter().map(|(target, _)| *target).collect();
         let jobs: Vec<&Job> = programs.iter().filter_map(|(_, plan)| plan.job.as_ref()).collect();
+        problems.extend(warn_of_numbers(session, post_processor, &jobs));
         let drawings = LazyCell::new(|| {
             read_drawings(session, &Memo::default(), scope.drawings, |path| path.as_str().into())
         });

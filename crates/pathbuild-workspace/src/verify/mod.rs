@@ -89,6 +89,8 @@ pub struct VerifiedProgram {
     pub checks: Vec<CheckRecord>,
     /// The comparison with the drawing, if one was named.
     pub comparison: Option<MoveComparison>,
+    /// The number by which a control identifies a program that pathbuild wrote.
+    pub number: Option<u32>,
 }
 
 /// A comparison of a program's moves with a drawing.
@@ -198,9 +200,11 @@ impl<'w> Verifier<'w> {
 
     fn examine(&self, program: &Program, as_written: AsWrittenSteps<'_>) -> VerifiedProgram {
         let has_probed = as_written.has_probed;
+        let number = as_written.number.filter(|_| Provenance::of_head(&program.text).is_some());
         let (header, stated) = as_written.finish(program);
         let verified = Examination::new(self, program, &header, has_probed).run(stated);
-        verified.unwrap_or_else(|diagnostics| VerifiedProgram { diagnostics, ..VerifiedProgram::default() })
+        let failed = |diagnostics| VerifiedProgram { diagnostics, ..VerifiedProgram::default() };
+        VerifiedProgram { number, ..verified.unwrap_or_else(failed) }
     }
 
     /// Returns the material that a program cuts, if its cutters and its surface are known.
@@ -241,6 +245,7 @@ struct AsWrittenSteps<'m> {
     stated: StatedStatistics,
     limits: Option<MachineRules<'m>>,
     has_probed: bool,
+    number: Option<u32>,
 }
 
 /// Findings about the steps of a program at the heights in its file.
@@ -257,12 +262,16 @@ impl<'m> AsWrittenSteps<'m> {
             stated: StatedStatistics::default(),
             limits: machine.map(MachineRules::new),
             has_probed: false,
+            number: None,
         }
     }
 
     fn step(&mut self, step: &Step) {
         self.header.step(step);
         self.stated.step(step);
+        if let Action::ProgramNumber(number) = step.action {
+            self.number = self.number.or(Some(number));
+        }
         self.has_probed |=
             step.as_move().is_some_and(|(_, motion)| matches!(motion.pace, Pace::Probe { .. }));
         if let Some(limits) = &mut self.limits {
@@ -469,7 +478,7 @@ impl<'v> Examination<'v> {
         let mut diagnostics = self.doubts(rewritten.as_ref(), &mut found);
         diagnostics.append(&mut found);
         diagnostics.extend(self.verifier.against.iter().flat_map(ReferenceProgram::left_out).cloned());
-        Ok(VerifiedProgram { diagnostics, checks, comparison })
+        Ok(VerifiedProgram { diagnostics, checks, comparison, number: None })
     }
 
     /// Refuses to compare a program with a path if each difference would be reported as a fault of the program: a program that joins several paths,

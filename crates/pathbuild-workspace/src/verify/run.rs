@@ -1,13 +1,13 @@
 //! Verifies many programs in one run, and caches the results for later runs. (book: reference/commands, `verify`)
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::catch_bugs;
 use pathbuild_diagnostic::Diagnostic;
 
 use super::{VerifiedProgram, Verifier, VerifyOptions};
-use crate::common_findings::unused_configurations;
+use crate::common_findings::{number_warnings, unused_configurations};
 use crate::files::ExtraInput;
 use crate::memo::{Answer, Inputs, Memo, is_transient};
 use crate::program;
@@ -58,8 +58,20 @@ impl Request<'_> {
         for (_, verified) in &mut programs {
             diagnostics.append(&mut verified.diagnostics);
         }
+        diagnostics.extend(warn_of_numbers(&programs));
         Ok(Verification { programs, diagnostics: session.with_hints(diagnostics) })
     }
+}
+
+/// Returns PB530 for programs in one directory with the same number, and for numbers of macros.
+fn warn_of_numbers(programs: &[(Utf8PathBuf, VerifiedProgram)]) -> Vec<Diagnostic> {
+    let mut by_directory: BTreeMap<Option<&Utf8Path>, Vec<(u32, String, Utf8PathBuf)>> = BTreeMap::new();
+    for (file, verified) in programs {
+        let numbered = verified.number.zip(file.file_name());
+        let numbered = numbered.map(|(number, name)| (number, name.to_owned(), file.clone()));
+        by_directory.entry(file.parent()).or_default().extend(numbered);
+    }
+    by_directory.into_values().flat_map(|programs| number_warnings(&programs)).collect()
 }
 
 /// Returns PB526 as an error for each configuration beside or above programs that does not apply to them: the limits in it are those of the machine
