@@ -232,6 +232,16 @@ messages! {
         en: "{element} at {point} already has a text: write all letters into one text",
         de: "{element} bei {point} hat schon einen Text: alle Buchstaben in einen Text schreiben",
     }
+    /// Note: a nearby element that already has an equal text.
+    HAS_SAME_TEXT: TextWithoutElement {
+        en: "{element} at {point} already has an equal text: delete one of the two",
+        de: "{element} bei {point} hat schon einen gleichen Text: einen der beiden löschen",
+    }
+    /// Note: a nearby part of a polyline that already has a text.
+    POLYLINE_HAS_A_TEXT: TextWithoutElement {
+        en: "{element} at {point} is part of a polyline, which already has a text: explode the polyline if its parts need different texts",
+        de: "{element} bei {point} gehört zu einer Polylinie, die schon einen Text hat: die Polylinie auflösen, wenn ihre Teile verschiedene Texte brauchen",
+    }
     /// Note: a nearby element that already has a text of blanks.
     HAS_A_BLANK_TEXT: TextWithoutElement {
         en: "{element} at {point} already has an invisible text that consists only of blanks: delete that text",

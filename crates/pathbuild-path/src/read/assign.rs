@@ -329,9 +329,14 @@ impl<'d> LayerTexts<'d> {
         let budget = &budgets.candidates;
         let taken = find_taken(&circle, &self.candidates, &self.boxes, budget);
         if let Some(taken) = taken.map(|taken| &self.candidates[taken]) {
-            let is_blank = path.text_of(taken.owner).is_some_and(|text| text.pieces().is_empty());
+            let message = match path.text_of(taken.owner) {
+                Some(text) if text.pieces().is_empty() => &messages::HAS_A_BLANK_TEXT,
+                Some(text) if text.as_str().trim() == string.trim() => &messages::HAS_SAME_TEXT,
+                _ if taken.group.is_some() => &messages::POLYLINE_HAS_A_TEXT,
+                _ => &messages::HAS_A_TEXT,
+            };
             diagnostic = diagnostic.note(
-                if is_blank { &messages::HAS_A_BLANK_TEXT } else { &messages::HAS_A_TEXT },
+                message,
                 vec![
                     ("element", taken.word().into()),
                     ("point", diagnostic_point(taken.shape.point()).into()),

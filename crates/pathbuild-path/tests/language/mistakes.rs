@@ -550,6 +550,19 @@ fn a_second_text_on_an_element_says_so() {
     };
     assert_eq!(second("20,0.5"), ["a circle at (20, 0) already has a text: write all letters into one text"]);
     assert_eq!(second("20,9"), [""; 0], "it overlaps nothing");
+    let equal = "mill 0,0 20,0\ntext 10,-0.3 \"B1\" height 1\ntext 10,-0.3 \"B1\" height 1\nend 20,0";
+    assert_eq!(
+        noted(&path(P, equal)).1,
+        ["a line at (0, 0) already has an equal text: delete one of the two"]
+    );
+    let polyline =
+        "polyline 0,0 20,0 20,20\ntext 10,-0.3 \"B1\" height 1\ntext 19.7,10 \"B2\" height 1\nend 20,20";
+    let explode = "is part of a polyline, which already has a text: explode the polyline if its parts need different texts";
+    assert!(
+        noted(&path(P, polyline)).1.iter().any(|note| note.ends_with(explode)),
+        "{:?}",
+        noted(&path(P, polyline)).1
+    );
 }
 
 /// The gap is too small to be visible with three decimals.

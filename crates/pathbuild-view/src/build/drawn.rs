@@ -1,6 +1,6 @@
 //! Builds scenes from the elements drawn on the layers of a path.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::{ptr, sync};
 
 use pathbuild_diagnostic::{ElementId, EntityKind};
@@ -75,18 +75,19 @@ impl ScenePath {
             .iter()
             .map(|parameters| (parameters.origin.id, &*parameters.parameters))
             .collect();
-        let mut drawn =
-            ElementBuilder { source, placement, path, in_force, last: (&[], sync::Arc::default()) };
-        let shapes = drawn.add_elements(&mut self.elements);
+        let (last, shapes) = ((&[][..], sync::Arc::default()), ShapesByLine::new());
+        let mut drawn = ElementBuilder { source, placement, path, in_force, last, shapes };
+        drawn.add_elements(&mut self.elements);
         let own = |text: &&AssignedText| text.path == *source.raw.name;
         let texts = source.texts.iter().filter(own);
-        self.texts.extend(texts.map(|text| drawn.label(text, &shapes, first)));
+        self.texts.extend(texts.map(|text| drawn.label(text)));
         number(first)
     }
 }
 
-/// An element as texts refer to it: by its position in the file and its shape as drawn.
-type LocatedShape = (Option<Position>, DrawnShape);
+/// The shapes of elements as drawn, each with its index in [`ScenePath::elements`], by the lines at which their entities begin in the file. A
+/// polyline is one entity with several elements.
+type ShapesByLine = HashMap<u32, Vec<(u32, DrawnShape)>>;
 
 struct ElementBuilder<'a> {
     source: &'a DrawnSource<'a>,
@@ -95,19 +96,19 @@ struct ElementBuilder<'a> {
     in_force: BTreeMap<ElementId, &'a [InForceParameter]>,
     /// The parameters of the previous element, and their form in the scene, which the next element shares if it has the same ones.
     last: (&'a [InForceParameter], sync::Arc<[Parameter]>),
+    shapes: ShapesByLine,
 }
 
 impl ElementBuilder<'_> {
-    fn add_elements(&mut self, elements: &mut Vec<Element>) -> Vec<LocatedShape> {
+    fn add_elements(&mut self, elements: &mut Vec<Element>) {
         let raw = self.source.raw;
-        let mut known = Vec::new();
         for element in &raw.drawn.elements {
             let origin = raw.drawn.origin(element);
             let kind = element_kind(element.role);
-            known.push(self.add(elements, kind, &origin, element.shape));
+            self.add(elements, kind, &origin, element.shape);
         }
         for element in raw.unclear_curves() {
-            known.push(self.add(elements, ElementKind::Unclear, &raw.drawn.origin(element), element.shape));
+            self.add(elements, ElementKind::Unclear, &raw.drawn.origin(element), element.shape);
         }
         let circle = |marker: &Marker, radius| DrawnShape::Circle { centre: marker.at, radius };
         let groups: [(&[Marker], ElementKind, f64); 4] = [
@@ -118,10 +119,9 @@ impl ElementBuilder<'_> {
         ];
         for (markers, kind, radius) in groups {
             for marker in markers {
-                known.push(self.add(elements, kind, &marker.origin, circle(marker, radius)));
+                self.add(elements, kind, &marker.origin, circle(marker, radius));
             }
         }
-        known
     }
 
     fn add(
@@ -130,8 +130,11 @@ impl ElementBuilder<'_> {
         kind: ElementKind,
         origin: &pathbuild_path::Origin,
         shape: DrawnShape,
-    ) -> LocatedShape {
+    ) {
         let position = self.position(origin.id);
+        if let Some(Position { line, .. }) = position {
+            self.shapes.entry(line).or_default().push((number(elements.len()), shape));
+        }
         elements.push(Element {
             path: self.path,
             kind,
@@ -143,7 +146,6 @@ impl ElementBuilder<'_> {
             order: None,
             parameters: self.parameters(origin.id),
         });
-        (position, shape)
     }
 
     /// Returns the parameters of an element. Elements that share them in the path also share them in the scene.
@@ -159,22 +161,19 @@ impl ElementBuilder<'_> {
         self.source.positions.positions().get(id.0 as usize).copied()
     }
 
-    /// Returns the label for a text, with the elements among `shapes` that the text belongs to. `first` is the scene's index of the first
-    /// shape.
-    fn label(&self, text: &AssignedText, shapes: &[LocatedShape], first: usize) -> Label {
-        let is_owner = |(position, shape): &LocatedShape| {
-            text.elements
-                .iter()
-                .any(|owner| *position == Some(owner.position) && is_same(&owner.shape, shape))
-        };
-        let owners = shapes.iter().enumerate().filter(|(_, known)| is_owner(known));
+    /// Returns the label for a text, with the elements that the text belongs to.
+    fn label(&self, text: &AssignedText) -> Label {
+        let owners = text.elements.iter().flat_map(|owner| {
+            let shapes = self.shapes.get(&owner.position.line).into_iter().flatten();
+            shapes.filter(|(_, shape)| is_same(&owner.shape, shape)).map(|(index, _)| *index)
+        });
         Label {
             path: self.path,
             text: text.text.trim_end().to_owned(),
             at: pair(self.placement.place(text.circle.centre)),
             radius: text.circle.radius,
             height: line_height(text),
-            elements: owners.map(|(index, _)| number(first + index)).collect(),
+            elements: owners.collect::<BTreeSet<_>>().into_iter().collect(),
         }
     }
 }

@@ -471,6 +471,13 @@ pub(super) struct ValueType<T> {
     pub(super) schema: fn() -> Json,
 }
 
+/// Returns the first part of a path if a shell would replace it: `~`, `$HOME` or `%USERPROFILE%`.
+fn shell_abbreviation(path: &str) -> Option<&str> {
+    let first = path.split(['/', '\\']).next()?;
+    let is_of_windows = first.len() > 2 && first.starts_with('%') && first.ends_with('%');
+    (first == "~" || first.starts_with('$') || is_of_windows).then_some(first)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -498,11 +505,4 @@ mod tests {
         assert_eq!(key_index.find("rate"), None);
         assert_eq!(key_index.find("colour-of-the-bit"), None);
     }
-}
-
-/// Returns the first part of a path if a shell would replace it: `~`, `$HOME` or `%USERPROFILE%`.
-fn shell_abbreviation(path: &str) -> Option<&str> {
-    let first = path.split(['/', '\\']).next()?;
-    let is_of_windows = first.len() > 2 && first.starts_with('%') && first.ends_with('%');
-    (first == "~" || first.starts_with('$') || is_of_windows).then_some(first)
 }

@@ -213,7 +213,13 @@ fn is_drawn_by_user(session: &Session<'_>, output: &Utf8Path, bytes: &[u8]) -> b
     let system = session.db().system();
     let limit = session.workspace().settings.limits.file_size.value;
     let is_there = system.kind(output) == FileKind::File;
-    is_there && !system.read(output, limit).is_ok_and(|old| is_unedited(&old, bytes))
+    is_there && !system.read(output, limit).is_ok_and(|old| is_unedited(&with_written_line_ends(&old), bytes))
+}
+
+/// Returns a text with the line ends that q-project writes. Git and archive programs convert them.
+fn with_written_line_ends(text: &[u8]) -> Vec<u8> {
+    let lines = text.split(|byte| *byte == b'\n').map(|line| line.strip_suffix(b"\r").unwrap_or(line));
+    lines.collect::<Vec<_>>().join(LINE_END)
 }
 
 /// Whether `old` is unchanged since q-project wrote it. `new` is the drawing that q-project writes now.
