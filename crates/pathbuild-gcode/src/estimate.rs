@@ -57,7 +57,7 @@ struct TimedMove {
     /// Directions at the start and at the end, as unit vectors.
     begin: [f64; 3],
     end: [f64; 3],
-    /// Whether the tool stops after the move, as after a probing move, whose end is unknown.
+    /// Whether the tool stops after the move, as after a probing move, because its end is unknown.
     stops: bool,
 }
 

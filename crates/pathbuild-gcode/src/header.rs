@@ -682,7 +682,7 @@ fn vcarve_tool(comment: &str) -> Option<Statement> {
     let tip = match name.trim() {
         "End Mill" => Tip::Flat,
         "Ball Nose" | "Engrave" | "Form Tool" | "Drill" | "Tapered Ball Nose" => Tip::Unknown,
-        // This includes V-bits, whose size is an angle in degrees.
+        // This includes V-bits: their size is an angle in degrees.
         _ => return None,
     };
     Some(tool(Scope::Number(number.trim().parse().ok()?), positive(diameter)?, tip, unit_named(unit)?))

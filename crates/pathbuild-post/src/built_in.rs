@@ -119,7 +119,7 @@ fn job(operations: Vec<Operation>) -> Job {
     Job { name: "1.1P".into(), drawing: "1.dxf".into(), operations, ..Job::default() }
 }
 
-/// Creates a rapid move to the clearance plane: to the point whose X and Y are both `x`, or straight up if that is `None`.
+/// Creates a rapid move to the clearance plane: to the point with X and Y equal to `x`, or straight up if that is `None`.
 fn rapid(x: Option<f64>) -> JobStep {
     JobStep::rapid([x, x, Some(5.0)])
 }

@@ -27,7 +27,7 @@ use crate::{ambiguous, dwells, tools};
 /// How the words of a text are understood.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Wording<'a> {
-    /// As those of this control.
+    /// As words of this control.
     Control(&'a Target),
     /// No dialect defines them, or the definition has its own axes: the text that is checked is this translation to RS274.
     Translated(&'a TranslatedText),

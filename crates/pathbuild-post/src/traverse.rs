@@ -568,7 +568,7 @@ mod tests {
         assert!(!may_go("G0 Z12, G0 X30 Y0.1, G0 X50 Y0, G0 Z5"));
         assert!(may_go(&format!("G0 Z12, G0 X30 Y{:.4}, G0 X50 Y0, G0 Z5", 0.9 * DIGIT)));
         assert!(!may_go("G0 Z12, G0 X55, G0 X50, G0 Z5"));
-        // An arc whose ends are on a rapid of the job runs beside this rapid.
+        // An arc that begins and ends on a rapid of the job runs beside this rapid.
         assert!(may_go("G0 Z12, G1 X50 F100, G0 Z5"));
         assert!(!may_go("G0 Z12, G2 X50 I20 J0 F100, G0 Z5"));
         assert!(!may_go("G0 Z12, G0 X5, G0 X50, G0 Z5"));

@@ -52,7 +52,7 @@ messages! {
         help_en: "write the path in single quotes, or with `/`",
         help_de: "den Dateipfad in einfache Anführungszeichen setzen oder mit `/` schreiben",
     }
-    /// A file or directory whose name begins with an abbreviation of shells, such as `~/` or `$HOME/`.
+    /// A file or directory name that begins with an abbreviation of shells, such as `~/` or `$HOME/`.
     SHELL_ABBREVIATION: InvalidConfiguration {
         en: "the value of `{key}` begins with {found}, which only a shell replaces: here it would be the name of a directory",
         de: "der Wert von `{key}` beginnt mit {found}, was nur eine Shell ersetzt: hier wäre es der Name eines Verzeichnisses",

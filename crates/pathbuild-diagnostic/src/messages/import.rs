@@ -134,7 +134,7 @@ messages! {
         help_en: "give each tool a number of its own in the library, and export the library again",
         help_de: "jedem Werkzeug in der Bibliothek eine eigene Nummer geben und die Bibliothek noch einmal exportieren",
     }
-    /// A tool whose number the configuration gives to a tool with another name and diameter.
+    /// A tool with a number that the configuration gives to a tool with another name and diameter.
     TOOL_REPLACED: Disagreement {
         en: "T{number} of the machine is {name} with {new} mm, but [tool.{table}] with {old} mm has this number: its other keys, such as spindle and paths, remain those of the former tool",
         de: "T{number} der Maschine ist {name} mit {new} mm, diese Nummer hat aber [tool.{table}] mit {old} mm: die anderen Schlüssel, etwa spindle und paths, bleiben die des bisherigen Werkzeugs",

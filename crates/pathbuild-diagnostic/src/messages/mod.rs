@@ -1,8 +1,8 @@
 //! The catalogue of messages, with a module for each subject. The texts in both languages and the help of a message are next to each
 //! other, so that none is changed without the others.
 
-/// Declares the messages of a subject: a static for each, and a list of all of them. `CODE as Warning` or `CODE as Error` declares a message whose
-/// severity is not the default one of its code.
+/// Declares the messages of a subject: a static for each, and a list of all of them. `CODE as Warning` or `CODE as Error` declares a message with
+/// another severity than its code.
 macro_rules! messages {
     ($($(#[$doc:meta])* $key:ident: $code:ident $(as $severity:ident)? {
         en: $en:literal, de: $de:literal $(, help_en: $help_en:literal, help_de: $help_de:literal)? $(,)?

@@ -164,7 +164,7 @@ messages! {
         help_en: "check that it is no longer needed, and delete it yourself: emit --remove-stale keeps files that may be copies",
         help_de: "prüfen, ob es noch gebraucht wird, und es selbst löschen: emit --remove-stale lässt Dateien stehen, die Kopien sein können",
     }
-    /// A program whose drawing an ignore file or its hidden name excludes.
+    /// A program of a drawing that is excluded by an ignore file or by its hidden name.
     STALE_OF_IGNORED: StaleOutput {
         en: "{name} was written from {drawing}, which is ignored (.ignore, .gitignore, hidden name), so `emit` does not keep it up to date",
         de: "{name} wurde aus {drawing} geschrieben; diese Zeichnung wird ignoriert (.ignore, .gitignore, versteckter Name), `emit` hält das Programm also nicht aktuell",

@@ -143,7 +143,7 @@ messages! {
         help_en: "delete the shorter of the two",
         help_de: "das kürzere der beiden löschen",
     }
-    /// Arcs that form a circle whose centre the path reaches: probably a hole, as some programs export circles.
+    /// Arcs that form a circle, around a point that the path reaches: probably a hole. Some programs export circles so.
     UNREACHED_CIRCLE: UnreachedSegments {
         en: "segments not reached: {left}, among them arcs that form a circle of {diameter} mm around {point}",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}, darunter Bögen, die einen Kreis von {diameter} mm um {point} bilden",

@@ -390,7 +390,7 @@ messages! {
         help_en: "set the zero at the machine before the program starts, and remove the word from the post",
         help_de: "den Nullpunkt vor dem Start des Programms an der Maschine setzen und das Wort aus dem Postprozessor entfernen",
     }
-    /// G38.3 or G38.5 in an output whose target has G38.2.
+    /// G38.3 or G38.5 in an output for a target that has G38.2.
     PROBE_WITHOUT_ALARM: DoubtfulPost {
         en: "the output goes on if the probe touches nothing here; the program stops there with an error, as with G38.2",
         de: "die Ausgabe läuft weiter, wenn der Taster hier nichts berührt; das Programm hält dann mit einem Fehler an, wie bei G38.2",

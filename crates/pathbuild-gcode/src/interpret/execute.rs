@@ -396,7 +396,7 @@ pub(super) enum Jump {
     Pass(Box<str>, OWordKind),
     /// Continues with the next branch whose condition holds.
     Branch(Box<str>),
-    /// Begins a loop whose condition is tested before each pass, or ends a pass through the loop that began with `do`.
+    /// Begins a loop that tests its condition before each pass, or ends a pass through the loop that began with `do`.
     While(Box<str>),
     /// Begins a loop whose condition is tested after each pass.
     Do(Box<str>),

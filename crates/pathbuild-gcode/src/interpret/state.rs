@@ -283,7 +283,7 @@ impl Offsets {
         self.length.current = [length; 3];
     }
 
-    /// Sets the tool length along the axes whose entry is `Some`.
+    /// Sets the tool length along the axes for which the entry is `Some`.
     pub(super) fn set_length_along(&mut self, lengths: [Option<f64>; 3]) {
         for (current, new) in self.length.current.iter_mut().zip(lengths) {
             *current = new.or(*current);

@@ -326,7 +326,7 @@ impl Line<'_> {
         Ok(())
     }
 
-    /// Whether the words so far include a command whose line ends with a message.
+    /// Whether the words up to here include a command after which the rest of the line is a message.
     pub(super) fn has_message(&self) -> bool {
         let codes = self.spelling().message_codes;
         let [first, rest @ ..] = self.out.words.as_slice() else { return false };

@@ -25,7 +25,7 @@ pub struct BentRapidRules<'c> {
     stock: &'c Stock,
     /// Indices of the slanting rapid moves below the surface.
     found: BTreeSet<usize>,
-    /// Number of moves so far, which is the index of the next move.
+    /// Number of moves until now: the index of the next move.
     moves: usize,
     frames: Frames,
 }

@@ -1,4 +1,4 @@
-//! Finds arcs whose centres have too few decimals. (book: program/reading)
+//! Finds arcs with too few decimals in their centres. (book: program/reading)
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;

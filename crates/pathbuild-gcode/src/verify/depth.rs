@@ -20,7 +20,7 @@ use crate::read::Problems;
 #[derive(Debug, Default)]
 pub struct DepthRules {
     depths: Depths,
-    /// Number of moves so far, which is the index of the next move.
+    /// Number of moves until now: the index of the next move.
     moves: usize,
     /// Stops and tool changes at cutting depth.
     stops: Problems,

@@ -236,7 +236,7 @@ impl Walker<'_> {
         if is_told { problem } else { self.with_duplicate(problem) }
     }
 
-    /// Returns one of the arcs that were not reached, if they form a full circle whose centre the walk passed.
+    /// Returns one of the arcs that were not reached, if they form a full circle around a point that the walk passed.
     fn unreached_circle(&self) -> Option<Arc> {
         let arc = |segment: usize| match self.path.curve(&self.path.segments[segment]) {
             Some(Curve::Arc(arc)) => Some(arc),

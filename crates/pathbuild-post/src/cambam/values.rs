@@ -65,7 +65,7 @@ impl Writer<'_> {
         self.move_values.arc.as_ref().map(|arc| self.number_format().format(value(arc)))
     }
 
-    /// Handles a macro whose value is missing. A date may be omitted; any other missing value is an error, because it would leave a gap in
+    /// Handles a macro without a value. A date may be omitted; any other missing value is an error, because it would leave a gap in
     /// the program.
     pub(super) fn handle_missing_value(&mut self, value: Value, section: Section, line: u32) -> WriteResult {
         if value == Value::Date {

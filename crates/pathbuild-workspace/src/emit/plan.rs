@@ -387,7 +387,7 @@ fn leave_out_if_named_like_path(builder: &JobBuilder<'_>, name: &str, job: &mut 
     Some(problem)
 }
 
-/// Leaves out the jobs of paths that two of these drawings define (PB504): nobody could tell their programs apart.
+/// Leaves out the jobs of paths that two of these drawings define (PB504): their programs could not be told apart.
 pub(super) fn leave_out_second_definitions<'p>(
     session: &Session<'_>,
     drawings: &[Answer<DrawingResult>],

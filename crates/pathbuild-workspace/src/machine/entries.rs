@@ -103,7 +103,7 @@ impl Entries {
         None
     }
 
-    /// Reports an entry whose value is not of the kind that the key needs.
+    /// Reports an entry with a value that is not of the kind that the key needs.
     pub(super) fn report_invalid_value(&mut self, entry: &Entry, expected: &'static Text) {
         let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", entry.name.as_str());
         let problem = problem.quoting("value", entry.value.as_str()).with("expected", Shown::Prose(expected));

@@ -109,7 +109,7 @@ fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<FindingP
     Some(FindingPlace { at, related, circle, is_error: diagnostic.is_error() })
 }
 
-/// Returns the place in the drawing of a finding whose message has the program's coordinates: the damage, or else the element that does it. `file` is
+/// Returns the place in the drawing of a finding with the program's coordinates in its message: the damage, or else the element that does it. `file` is
 /// the drawing of the scene. A message about a drawing that is embedded in another one has the coordinates of the other's program, so only its
 /// element is marked.
 fn spot_in_program(diagnostic: &Diagnostic, scene: &Scene, file: &Utf8Path) -> Option<FindingPlace> {

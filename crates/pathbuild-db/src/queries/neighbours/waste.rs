@@ -28,7 +28,7 @@ impl<'db> PlacedProgram<'db> {
         (0..self.paths.len()).flat_map(|later| self.cuts_of_path_in_loose_waste(later)).collect()
     }
 
-    /// Returns PB222 for a path, once for each path in whose openings it cuts loose waste.
+    /// Returns PB222 for a path, once for each path with openings in which it cuts loose waste.
     fn cuts_of_path_in_loose_waste(&self, later: usize) -> Vec<Diagnostic> {
         let sections: Vec<Section<'_, 'db>> = self.sections(later).collect();
         let paths_before = sections.last().map_or(0, |section| section.paths_before);

@@ -19,11 +19,11 @@ pub(super) struct KnownTitles {
     /// Titles of paths in covered drawings for which the run generates nothing, because they have errors or are not selected. Existing files may
     /// still belong to them.
     idle: BTreeSet<Title>,
-    /// Drawings whose paths are all known to the run.
+    /// Drawings of which the run knows all paths.
     covered: BTreeSet<Title>,
     /// Drawings that cannot be read, with their file names.
     unread: BTreeMap<Title, String>,
-    /// Existing drawings whose paths the run does not know.
+    /// Existing drawings of which the run does not know the paths.
     others: BTreeSet<Title>,
     /// Names of the drawings in the search directories, which `emit` finds although they may not be in the library.
     searched: BTreeSet<String>,
@@ -39,7 +39,7 @@ pub(super) struct KnownTitles {
     place: OutputPlace,
 }
 
-/// Where programs are written.
+/// The directory to which programs are written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum OutputPlace {
     BesideDrawings,

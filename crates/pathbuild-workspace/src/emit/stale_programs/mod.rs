@@ -51,7 +51,7 @@ pub(super) struct EarlierPrograms<'a> {
     pub(super) arguments: &'a [Argument],
     /// Drawings that the arguments name, or that may define a named path.
     pub(super) named: &'a [Answer<DrawingResult>],
-    /// Returns the drawings whose paths were all considered.
+    /// Returns the drawings of which all paths were considered.
     pub(super) covered: &'a dyn Fn() -> &'a [Answer<DrawingResult>],
     /// Directories that were searched for drawings.
     pub(super) directories: &'a [Utf8PathBuf],
