@@ -685,6 +685,27 @@ fn programs_beside_drawings_are_stale_if_an_output_directory_is_configured() {
     );
 }
 
+/// A drawing takes its directory's program along only if the user moves that, too.
+#[test]
+fn the_former_program_of_a_drawing_that_was_moved_is_stale_once_the_path_is_changed() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit").status, Some(0));
+    fs::create_dir(place.path().join("projects/new")).unwrap();
+    let [from, to] =
+        ["projects/8001 a b.dxf", "projects/new/8001 a b.dxf"].map(|file| place.path().join(file));
+    fs::rename(from, to).unwrap();
+    let unchanged = place.run("emit");
+    assert!(unchanged.status == Some(0) && !unchanged.stderr.contains("PB520"), "{unchanged}");
+    let changed = library("1234.1P\nstart 0,0 \"T5 O2 I1 B4", "1234.1P\nstart 0,0 \"T5 O2 I1 B3");
+    let component = fs::read(changed.path().join("components/1234.dxf")).unwrap();
+    let place = place.file("components/1234.dxf", component);
+    assert_snapshot!(runs(&place, ["emit -q --format concise --remove-stale", "emit --check -q --lang de"]));
+    assert!(place.path().join("projects/8001 a b_Milling.gcode").exists());
+    // Beside a drawing of the same name it may be that drawing's program.
+    let place = place.file("projects/8001 a b.dxf", "cut off");
+    assert!(!place.run("emit --check").stderr.contains("older program"));
+}
+
 /// The output directory and the directory of the drawings may be the same under two names.
 #[cfg(unix)]
 #[test]

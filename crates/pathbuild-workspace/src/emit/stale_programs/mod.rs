@@ -103,11 +103,12 @@ impl<'a> EarlierPrograms<'a> {
     }
 
     /// Whether a program is never removed: one that may belong to another library, one of a drawing that can still be emitted by its name, one that
-    /// was copied or edited, because that work would be lost, one whose drawing may become readable again, and one without a successor in the output
+    /// was copied, edited or left in another directory, because that work would be lost, one whose drawing may become readable again, and one without a successor in the output
     /// directory.
     fn is_kept(&self, stale: &StaleProgram) -> bool {
         match &stale.reason {
             Reason::Copied
+            | Reason::Elsewhere { .. }
             | Reason::Ignored { .. }
             | Reason::OfOthers
             | Reason::Edited { .. }

@@ -25,6 +25,8 @@ pub(super) enum Reason {
     Unread { drawing: String },
     /// The program lies beside its drawing, but programs are written into `directory` now.
     Beside { directory: Utf8PathBuf },
+    /// The drawing is in another directory now, where its current `program` is.
+    Elsewhere { program: Utf8PathBuf },
     /// The program's drawing exists, but an ignore file or its hidden name excludes it from the search.
     Ignored { drawing: String },
     /// The program's drawing is not in this library, but may be in another library that shares the output directory.
@@ -57,6 +59,9 @@ impl StaleProgram {
             Reason::Beside { directory } => {
                 let directory = or_current_directory(directory).as_str();
                 Diagnostic::new(&messages::STALE_BESIDE).quoting("directory", directory)
+            }
+            Reason::Elsewhere { program } => {
+                Diagnostic::new(&messages::STALE_ELSEWHERE).quoting("program", program.as_str())
             }
             Reason::Ignored { drawing } => {
                 Diagnostic::new(&messages::STALE_OF_IGNORED).quoting("drawing", drawing.as_str())

@@ -123,7 +123,10 @@ impl<'a> StaleSearch<'a> {
                         beside?;
                         self.joined_reason(&path, &found, &names, &join)
                     }
-                    None => self.writers.removal_reason(directory, &title, beside?.iter()),
+                    None => {
+                        let gone = self.writers.removal_reason(directory, &title, beside?.iter());
+                        gone.or_else(|| self.reason_if_moved(&path, &found, &title, beside?))
+                    }
                 };
                 let reason = match reason? {
                     Reason::Left | Reason::OtherJoined { .. } if !has_name_of_title(&path, &title) => {
@@ -134,6 +137,27 @@ impl<'a> StaleSearch<'a> {
                 Some(StaleProgram { path, reason })
             }),
         }
+    }
+
+    /// Returns the reason why a program without its drawing beside it is stale: the run writes the program of this path, which has other moves now, into
+    /// another directory.
+    fn reason_if_moved(
+        &self,
+        path: &Utf8Path,
+        found: &Provenance,
+        title: &str,
+        beside: &Names,
+    ) -> Option<Reason> {
+        let plain = plain_title(title);
+        let drawing = native::drawing_of_title(&plain)?;
+        if beside.iter().any(|name| plain_title(name) == drawing) {
+            return None;
+        }
+        let job = self.run.jobs.iter().find(|job| is_of(job, self.run.session, title))?;
+        let now = job.outcome.as_ref()?.provenance.as_ref()?;
+        let program = job.files.first()?.1.clone();
+        let is_elsewhere = program.parent() != path.parent();
+        (is_elsewhere && now.moves != found.moves).then_some(Reason::Elsewhere { program })
     }
 
     /// Returns the program at `path` as stale if it was written for one of the run's paths, natively or through another post-processor, and that path
