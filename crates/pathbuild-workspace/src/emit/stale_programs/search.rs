@@ -117,18 +117,7 @@ impl<'a> StaleSearch<'a> {
             }
             _ if self.is_converted(&path, &found, &title) => self.if_other_heights(path),
             _ => self.of_other_post(&path, &found, &title).or_else(|| {
-                let directory = path.parent().unwrap_or(Utf8Path::new(""));
-                let reason = match native::joined_paths(&title) {
-                    Some((names, join)) => {
-                        beside?;
-                        self.joined_reason(&path, &found, &names, &join)
-                    }
-                    None => {
-                        let gone = self.writers.removal_reason(directory, &title, beside?.iter());
-                        gone.or_else(|| self.reason_if_moved(&path, &found, &title, beside?))
-                    }
-                };
-                let reason = match reason? {
+                let reason = match self.reason_without_job(&path, &found, &title, beside?)? {
                     Reason::Left | Reason::OtherJoined { .. } if !has_name_of_title(&path, &title) => {
                         Reason::Copied
                     }
@@ -137,6 +126,22 @@ impl<'a> StaleSearch<'a> {
                 Some(StaleProgram { path, reason })
             }),
         }
+    }
+
+    /// Returns the reason why a program that is none of the run's, and may join several paths, is stale.
+    fn reason_without_job(
+        &self,
+        path: &Utf8Path,
+        found: &Provenance,
+        title: &str,
+        beside: &Names,
+    ) -> Option<Reason> {
+        if let Some((names, join)) = native::joined_paths(title) {
+            return self.joined_reason(path, found, &names, &join);
+        }
+        let directory = path.parent().unwrap_or(Utf8Path::new(""));
+        let gone = self.writers.removal_reason(directory, title, beside.iter());
+        gone.or_else(|| self.reason_if_moved(path, found, title, beside))
     }
 
     /// Returns the reason why a program without its drawing beside it is stale: the run writes the program of this path, which has other moves now, into
