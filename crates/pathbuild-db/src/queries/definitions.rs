@@ -22,6 +22,11 @@ pub struct SecondDefinition<'a> {
 }
 
 impl SecondDefinition<'_> {
+    /// Whether this is about a path of a drawing.
+    pub fn is_of(&self, drawing: &Utf8Path, path: &PathName) -> bool {
+        self.name == path && self.files.contains(&drawing)
+    }
+
     /// Returns PB504 at the first drawing.
     pub fn diagnostic(&self) -> Diagnostic {
         let [first, second] = self.files;

@@ -390,16 +390,15 @@ fn leave_out_if_named_like_path(builder: &JobBuilder<'_>, name: &str, job: &mut 
 /// Leaves out the jobs of paths that two of these drawings define (PB504): their programs could not be told apart.
 pub(super) fn leave_out_second_definitions<'p>(
     session: &Session<'_>,
-    drawings: &[Answer<DrawingResult>],
+    drawings: impl Iterator<Item = &'p Answer<DrawingResult>>,
     jobs: impl Iterator<Item = &'p mut Job>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     let db = session.db();
-    let names = drawings.iter().map(|answer| (answer.drawing(), &*answer.value.names));
+    let names = drawings.map(|answer| (answer.drawing(), &*answer.value.names));
     let found = second_definitions(db, names);
     let is_of = |target: &Target, definition: &SecondDefinition<'_>| {
-        *definition.name == PathName::new(target.name(db))
-            && definition.files.contains(&target.file(db).path(db).as_path())
+        definition.is_of(target.file(db).path(db), &PathName::new(target.name(db)))
     };
     let mut reported = BTreeSet::new();
     for job in jobs {

@@ -7,8 +7,9 @@ use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Database, SourceFile, Target};
+use pathbuild_db::{Database, Db, SourceFile, Target};
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_path::PathName;
 
 use super::options;
 use super::outcome::{ProgramOutcome, Task};
@@ -26,6 +27,8 @@ pub struct WrittenPrograms {
     by_drawing: BTreeMap<Utf8PathBuf, Vec<(Target, Plan)>>,
     /// The targets that yield each file, by its path in lower case. A file with several targets is not written.
     owners: HashMap<String, Vec<Target>>,
+    /// The paths that two drawings define, with these drawings. They get no program.
+    second_definitions: BTreeSet<(Utf8PathBuf, PathName)>,
 }
 
 /// The drawings that a session covers.
@@ -90,8 +93,13 @@ impl WrittenPrograms {
         let mut plans: Vec<Plan> = checked.chunks(1).map(|checked| builder.plan(checked)).collect();
         // The clashes of all programs are reported together.
         leave_out_clashes(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), &mut Vec::new());
-        for plan in &mut plans {
+        let db = session.db();
+        for (plan, target) in plans.iter_mut().zip(targets) {
             plan.leave_out_if_raised(context);
+            let definition = (target.file(db).path(db).clone(), PathName::new(target.name(db)));
+            if let Some(job) = plan.job.as_mut().filter(|_| self.second_definitions.contains(&definition)) {
+                job.leave_out();
+            }
             // The errors of drawings are those that `check` reports.
             plan.diagnostics.clear();
             // A job that is left out claims its names, too. Otherwise, which target may write them would depend on the drawing that was saved last.
@@ -112,6 +120,19 @@ impl WrittenPrograms {
     fn is_claimed(&self, db: &Database, job: &Job, drawings: &[SourceFile]) -> bool {
         let owners = job.files.iter().filter_map(|(_, path)| self.owners.get(&path.as_str().to_lowercase()));
         owners.flatten().any(|owner| !drawings.contains(&owner.file(db)))
+    }
+
+    /// Sets the paths that two drawings define now, with these drawings. Returns the drawings for which that changed.
+    pub fn set_second_definitions(
+        &mut self,
+        db: &Database,
+        now: BTreeSet<(Utf8PathBuf, PathName)>,
+    ) -> Vec<SourceFile> {
+        let before = std::mem::replace(&mut self.second_definitions, now);
+        let changed = before.symmetric_difference(&self.second_definitions);
+        let drawings =
+            changed.map(|(drawing, _)| drawing).filter(|drawing| self.by_drawing.contains_key(*drawing));
+        drawings.map(|drawing| db.file(drawing)).collect()
     }
 
     /// Forgets the programs of removed drawings. Returns the other drawings whose programs may be written now.

@@ -357,6 +357,15 @@ impl<'a> Library<'a> {
         }
     }
 
+    /// Returns the paths that two drawings define, with these drawings.
+    pub(super) fn second_definitions(&self) -> BTreeSet<(Utf8PathBuf, PathName)> {
+        let drawings = self.drawings.iter().map(|(file, result)| (&**file, &*result.names));
+        let found = second_definitions(self.session.db(), drawings);
+        let both =
+            |found: &SecondDefinition<'_>| found.files.map(|file| (file.to_owned(), found.name.clone()));
+        found.iter().flat_map(both).collect()
+    }
+
     /// Determines the diagnostics that follow from all drawings together, once all are checked.
     pub(super) fn check_common(&mut self, update: &mut Update) {
         if self.has_backlog() || !std::mem::take(&mut self.has_other_content) {

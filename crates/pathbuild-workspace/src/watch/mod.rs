@@ -113,6 +113,7 @@ impl WatchLoop<'_> {
             self.report_checked(&portion);
         }
         self.library.check_common(&mut found);
+        self.writer.set_second_definitions(&self.library);
         self.writer.write(self.library.session_mut(), &found.checked_files);
         self.writer.update_problems(self.library.session(), Some(&self.library.scope()), &mut found);
         let programs = self.writer.target_drawings(self.library.session(), &found.checked_files);
@@ -158,12 +159,16 @@ impl WatchLoop<'_> {
         let begun = Instant::now();
         let rivals = self.writer.forget(self.library.session(), &found.removed);
         self.library.check_again(rivals);
+        let other = self.writer.set_second_definitions(&self.library);
+        self.library.check_again(other);
         self.follow_links();
         while self.library.has_backlog() {
             let portion = self.library.check_portion(DRAWINGS_PER_POLL, &mut found);
             self.follow_links();
-            let rivals = self.writer.write(self.library.session_mut(), &portion);
-            self.library.check_again(rivals);
+            let mut again = self.writer.set_second_definitions(&self.library);
+            again.retain(|drawing| !portion.contains(drawing));
+            again.extend(self.writer.write(self.library.session_mut(), &portion));
+            self.library.check_again(again);
             self.report_checked(&portion);
             // The remaining drawings may have changed in the meantime.
             if self.watcher.has_news(self.library.session()) {

@@ -7,6 +7,7 @@ use pathbuild_db::{Role, SourceFile, Target, path_names};
 use pathbuild_diagnostic::{Code, Diagnostic};
 
 use super::events::{Listener, Request, Update};
+use super::library::Library;
 use crate::emit::{Scope, TargetPatterns, WrittenPrograms};
 use crate::memo::is_transient;
 use crate::post_processor::{PostArguments, PostProcessor};
@@ -75,6 +76,14 @@ impl<'a> Writer<'a> {
     pub(super) fn with_transient_problems(&self, session: &Session<'_>) -> BTreeSet<Utf8PathBuf> {
         let may_pass = |found: &Diagnostic| is_transient(found) || found.code() == Code::CannotWrite;
         self.programs.drawings_with(session, may_pass)
+    }
+
+    /// Sets the paths that two drawings define now. Returns the drawings whose programs are to be written or left out because of it.
+    pub(super) fn set_second_definitions(&mut self, library: &Library<'_>) -> Vec<SourceFile> {
+        if !self.is_on {
+            return Vec::new();
+        }
+        self.programs.set_second_definitions(library.session().db(), library.second_definitions())
     }
 
     /// Forgets the programs of removed drawings. Returns the other drawings whose programs may be written now, because no removed drawing claims

@@ -185,7 +185,8 @@ fn compare(configuration: &str, seed: u64) {
     let edits = comparer.edits.borrow();
     assert!(done > steps(), "after {done} edits:\n{:#?}\n{}", edits, comparer.difference.borrow());
     let codes = comparer.codes.borrow();
-    let expected = [Code::SameOutput, Code::StaleOutput, Code::OlderOutput, Code::NoPath];
+    let expected =
+        [Code::SameOutput, Code::StaleOutput, Code::OlderOutput, Code::NoPath, Code::PathDefinedTwice];
     assert!(expected.iter().all(|code| codes.contains_key(code)), "{codes:?}");
 }
 
