@@ -33,7 +33,9 @@ use crate::workspace::{Failure, Workspace};
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
 pub use options::{Provenances, missing_values, write_settings};
 pub use outcome::{ProgramOutcome, State, Task};
-use plan::{Job, JobBuilder, Plan, leave_out_files_of_others, leave_out_second_definitions, plan};
+use plan::{
+    Job, JobBuilder, Plan, leave_out_files_of_others, leave_out_second_definitions, plan, warn_of_numbers,
+};
 pub use program_scenes::{SceneReport, SheetOutcome, ShownText, sheet_of};
 pub use select::TargetPatterns;
 use select::TargetSelection;
@@ -174,6 +176,8 @@ impl Emitter<'_> {
             let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
             leave_out_files_of_others(&builder, jobs, &mut diagnostics);
         }
+        let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.job.as_ref()).collect();
+        diagnostics.extend(warn_of_numbers(session, self.post_processor, &jobs));
         diagnostics.extend(plans.iter().flat_map(|plan| plan.value.problems()).cloned());
         if is_printed
             && plans.iter().filter_map(|plan| plan.value.remaining_job()).any(|job| job.files.len() > 1)

@@ -163,8 +163,6 @@ pub(super) fn plan(
         return Err(options::missing_values(workspace, ["rapid"]));
     }
     leave_out_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
-    let jobs: Vec<&Job> = plans.iter().filter_map(|answer| answer.value.job.as_ref()).collect();
-    diagnostics.extend(warn_of_numbers(session, builder.post_processor, &jobs));
     if let Some(join) = join {
         let jobs = plans.iter_mut().filter_map(|answer| answer.value.job.as_mut());
         diagnostics.extend(jobs.filter_map(|job| leave_out_if_named_like_path(builder, join, job)));
