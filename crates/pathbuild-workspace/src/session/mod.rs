@@ -25,7 +25,8 @@ use crate::workspace::{ProgressCounter, Workspace};
 pub use argument_matches::{Argument, ArgumentMatches};
 pub use graph::{Direction, Embedding, EmbeddingEnd, Graph, GraphOutcome, Node};
 #[cfg(not(target_family = "wasm"))]
-pub(crate) use library::{IGNORE_FILES, is_ignore_file};
+pub(crate) use library::IGNORE_FILES;
+pub(crate) use library::is_ignore_file;
 pub use library::{ProgramMatches, compare_names, compare_paths};
 pub use outputs::{OutputKind, WriteSettings, stem_fault, without_positions, without_values};
 pub(crate) use resolve::{MAX_READ_FOR_NAMES, no_drawing_error};
