@@ -75,18 +75,20 @@ impl ScenePath {
             .iter()
             .map(|parameters| (parameters.origin.id, &*parameters.parameters))
             .collect();
-        let (last, shapes) = ((&[][..], sync::Arc::default()), ShapesByLine::new());
-        let mut drawn = ElementBuilder { source, placement, path, in_force, last, shapes };
-        drawn.add_elements(&mut self.elements);
         let own = |text: &&AssignedText| text.path == *source.raw.name;
-        let texts = source.texts.iter().filter(own);
-        self.texts.extend(texts.map(|text| drawn.label(text)));
+        let texts = || source.texts.iter().filter(own);
+        let lines = texts().flat_map(|text| &text.elements).map(|element| element.position.line);
+        let with_text = lines.map(|line| (line, Vec::new())).collect();
+        let last = (&[][..], sync::Arc::default());
+        let mut drawn = ElementBuilder { source, placement, path, in_force, last, with_text };
+        drawn.add_elements(&mut self.elements);
+        self.texts.extend(texts().map(|text| drawn.label(text)));
         number(first)
     }
 }
 
-/// The shapes of elements as drawn, each with its index in [`ScenePath::elements`], by the lines at which their entities begin in the file. A
-/// polyline is one entity with several elements.
+/// The shapes of elements with texts as drawn, each with its index in [`ScenePath::elements`], by the lines at which their entities begin in the
+/// file. A polyline is one entity with several elements.
 type ShapesByLine = HashMap<u32, Vec<(u32, DrawnShape)>>;
 
 struct ElementBuilder<'a> {
@@ -96,7 +98,7 @@ struct ElementBuilder<'a> {
     in_force: BTreeMap<ElementId, &'a [InForceParameter]>,
     /// The parameters of the previous element, and their form in the scene, which the next element shares if it has the same ones.
     last: (&'a [InForceParameter], sync::Arc<[Parameter]>),
-    shapes: ShapesByLine,
+    with_text: ShapesByLine,
 }
 
 impl ElementBuilder<'_> {
@@ -132,8 +134,8 @@ impl ElementBuilder<'_> {
         shape: DrawnShape,
     ) {
         let position = self.position(origin.id);
-        if let Some(Position { line, .. }) = position {
-            self.shapes.entry(line).or_default().push((number(elements.len()), shape));
+        if let Some(shapes) = position.and_then(|position| self.with_text.get_mut(&position.line)) {
+            shapes.push((number(elements.len()), shape));
         }
         elements.push(Element {
             path: self.path,
@@ -164,7 +166,7 @@ impl ElementBuilder<'_> {
     /// Returns the label for a text, with the elements that the text belongs to.
     fn label(&self, text: &AssignedText) -> Label {
         let owners = text.elements.iter().flat_map(|owner| {
-            let shapes = self.shapes.get(&owner.position.line).into_iter().flatten();
+            let shapes = self.with_text.get(&owner.position.line).into_iter().flatten();
             shapes.filter(|(_, shape)| is_same(&owner.shape, shape)).map(|(index, _)| *index)
         });
         Label {
