@@ -143,12 +143,12 @@ messages! {
         help_en: "delete the shorter of the two",
         help_de: "das kürzere der beiden löschen",
     }
-    /// Arcs that form a circle, around a point that the path reaches: probably a hole. Some programs export circles so.
+    /// Arcs that form a circle around a point that the path reaches: probably a hole, because some programs export circles as arcs.
     UNREACHED_CIRCLE: UnreachedSegments {
         en: "segments not reached: {left}, among them arcs that form a circle of {diameter} mm around {point}",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}, darunter Bögen, die einen Kreis von {diameter} mm um {point} bilden",
-        help_en: "draw a hole as a CIRCLE: its diameter is that of the hole, but the middle of the cutter would run along these arcs, and the hole would be larger by O",
-        help_de: "ein Loch als CIRCLE (Kreis) zeichnen: dessen Durchmesser ist der des Lochs; auf diesen Bögen liefe dagegen die Mitte des Fräsers, und das Loch würde um O größer",
+        help_en: "draw a hole as a CIRCLE, with the diameter of the hole: along these arcs, the middle of the cutter would run, and the hole would be larger by O",
+        help_de: "ein Loch als CIRCLE (Kreis) mit dem Durchmesser des Lochs zeichnen: auf diesen Bögen liefe die Mitte des Fräsers, und das Loch würde um O größer",
     }
     /// A segment that is not reached because it touches another kind of segment between that segment's ends.
     NO_END_THERE: UnreachedSegments {

@@ -213,7 +213,7 @@ messages! {
     }
     /// A file that is to be overwritten and has lines that `emit` did not write. They may contain measured values.
     OTHER_LINES_PRESENT: ProbeValuesPresent {
-        en: "{name} has lines that are not those of probes, and may contain measured values",
+        en: "{name} has lines that are not valid probe lines, and may contain measured values",
         de: "{name} hat Zeilen, die keine gültigen Messzeilen sind, und enthält womöglich gemessene Werte",
         help_en: "correct these lines, which `adjust` names; or use --force if the file is not needed; nothing was written for this path",
         help_de: "diese Zeilen berichtigen, die `adjust` nennt, oder --force verwenden, wenn die Datei nicht gebraucht wird; für diesen Pfad wurde nichts geschrieben",

@@ -357,6 +357,11 @@ impl<'a> Library<'a> {
         }
     }
 
+    /// Whether drawings, paths or layers have come or gone since [`check_common`](Self::check_common).
+    pub(super) fn has_other_content(&self) -> bool {
+        self.has_other_content
+    }
+
     /// Returns the paths that two drawings define, with these drawings.
     pub(super) fn second_definitions(&self) -> BTreeSet<(Utf8PathBuf, PathName)> {
         let drawings = self.drawings.iter().map(|(file, result)| (&**file, &*result.names));

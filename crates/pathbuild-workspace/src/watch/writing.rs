@@ -80,7 +80,7 @@ impl<'a> Writer<'a> {
 
     /// Sets the paths that two drawings define now. Returns the drawings whose programs are to be written or left out because of it.
     pub(super) fn set_second_definitions(&mut self, library: &Library<'_>) -> Vec<SourceFile> {
-        if !self.is_on {
+        if !self.is_on || !library.has_other_content() {
             return Vec::new();
         }
         self.programs.set_second_definitions(library.session().db(), library.second_definitions())
