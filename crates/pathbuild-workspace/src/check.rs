@@ -291,7 +291,7 @@ fn second_definitions(
     }
     let shown = each.iter().filter(|answer| filter.contains(answer)).map(Answer::drawing);
     let shown: HashSet<&Utf8Path> = shown.collect();
-    let found = found.iter().filter(|found| found.files.iter().any(|file| shown.contains(file)));
+    let found = found.iter().filter(|found| found.files.iter().any(|file| shown.contains(&**file)));
     found.map(SecondDefinition::diagnostic).collect()
 }
 

@@ -3,7 +3,7 @@
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::paths as messages;
 use pathbuild_path::{PathKey, PathName};
@@ -14,22 +14,22 @@ use crate::inputs::Settings;
 
 /// A path that two drawings define.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct SecondDefinition<'a> {
+pub struct SecondDefinition {
     /// Name of the path, as the first drawing spells it.
-    pub name: &'a PathName,
+    pub name: PathName,
     /// File paths of the two drawings. PB504 is reported at the first.
-    pub files: [&'a Utf8Path; 2],
+    pub files: [Utf8PathBuf; 2],
 }
 
-impl SecondDefinition<'_> {
+impl SecondDefinition {
     /// Whether this is about a path of a drawing.
     pub fn is_of(&self, drawing: &Utf8Path, path: &PathName) -> bool {
-        self.name == path && self.files.contains(&drawing)
+        self.name == *path && self.files.iter().any(|file| file == drawing)
     }
 
     /// Returns PB504 at the first drawing.
     pub fn diagnostic(&self) -> Diagnostic {
-        let [first, second] = self.files;
+        let [first, second] = &self.files;
         Diagnostic::new(&messages::DEFINED_TWICE)
             .quoting("name", self.name.as_str())
             .quoting("first", first.as_str())
@@ -43,7 +43,7 @@ impl SecondDefinition<'_> {
 pub fn second_definitions<'a>(
     db: &dyn Db,
     drawings: impl IntoIterator<Item = (&'a Utf8Path, &'a [PathName])>,
-) -> Vec<SecondDefinition<'a>> {
+) -> BTreeSet<SecondDefinition> {
     let mut first: FxHashMap<&PathName, &Utf8Path> = FxHashMap::default();
     let mut repeated: BTreeMap<&PathName, BTreeMap<&str, &PathName>> = BTreeMap::new();
     for (file, names) in drawings {
@@ -58,15 +58,11 @@ pub fn second_definitions<'a>(
             }
         }
     }
-    let found: BTreeSet<_> = repeated.into_values().flat_map(|files| ambiguous(db, files)).collect();
-    found.into_iter().collect()
+    repeated.into_values().flat_map(|files| ambiguous(db, files)).collect()
 }
 
 /// Takes drawings that define the same path. Returns the pairs of drawings that a project beside one of the drawings would find.
-fn ambiguous<'a>(
-    db: &dyn Db,
-    mut files: BTreeMap<&'a str, &'a PathName>,
-) -> impl Iterator<Item = SecondDefinition<'a>> {
+fn ambiguous(db: &dyn Db, mut files: BTreeMap<&str, &PathName>) -> impl Iterator<Item = SecondDefinition> {
     files.retain(|file, name| may_define(db, Utf8Path::new(*file), name));
     let directories: BTreeSet<&Utf8Path> = files.keys().map(|file| directory(file)).collect();
     directories.into_iter().filter_map(move |from| {
@@ -79,7 +75,10 @@ fn ambiguous<'a>(
             .filter(|(file, _)| is_searched(directory(file)))
             .filter(|(file, _)| seen.insert(db.system().canonical(Utf8Path::new(*file))));
         let ((first, name), (second, _)) = (found.next()?, found.next()?);
-        Some(SecondDefinition { name, files: [first, second].map(|file| Utf8Path::new(*file)) })
+        Some(SecondDefinition {
+            name: (*name).clone(),
+            files: [first, second].map(|file| Utf8PathBuf::from(*file)),
+        })
     })
 }
 

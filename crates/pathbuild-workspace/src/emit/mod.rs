@@ -171,7 +171,7 @@ impl Emitter<'_> {
             plans.iter_mut().filter_map(|plan| plan.value.job.as_mut()).for_each(Job::leave_out);
         }
         let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
-        leave_out_second_definitions(session, selection.drawings(), jobs, &mut diagnostics);
+        diagnostics.extend(leave_out_second_definitions(session.db(), selection.drawings(), jobs));
         if !matches.is_library && !is_printed {
             let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
             leave_out_files_of_others(&builder, jobs, &mut diagnostics);

@@ -110,6 +110,24 @@ impl Job {
         self.outcome = None;
     }
 
+    /// Leaves out the job if two drawings define one of its paths. Returns these definitions.
+    pub(super) fn leave_out_if_defined_twice<'d>(
+        &mut self,
+        db: &Database,
+        definitions: &'d BTreeSet<SecondDefinition>,
+    ) -> Vec<&'d SecondDefinition> {
+        let is_of = |definition: &SecondDefinition, target: &Target| {
+            definition.is_of(target.file(db).path(db), &PathName::new(target.name(db)))
+        };
+        let is_own =
+            |definition: &&SecondDefinition| self.targets.iter().any(|target| is_of(definition, target));
+        let own: Vec<_> = definitions.iter().filter(is_own).collect();
+        if !own.is_empty() {
+            self.leave_out();
+        }
+        own
+    }
+
     fn name(&self, session: &Session<'_>) -> String {
         let db = session.db();
         format!("{} ({})", self.path, self.drawing(db).path(db))
@@ -387,28 +405,15 @@ fn leave_out_if_named_like_path(builder: &JobBuilder<'_>, name: &str, job: &mut 
 
 /// Leaves out the jobs of paths that two of these drawings define (PB504): their programs could not be told apart.
 pub(super) fn leave_out_second_definitions<'p>(
-    session: &Session<'_>,
+    db: &Database,
     drawings: impl Iterator<Item = &'p Answer<DrawingResult>>,
     jobs: impl Iterator<Item = &'p mut Job>,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
-    let db = session.db();
+) -> Vec<Diagnostic> {
     let names = drawings.map(|answer| (answer.drawing(), &*answer.value.names));
     let found = second_definitions(db, names);
-    let is_of = |target: &Target, definition: &SecondDefinition<'_>| {
-        definition.is_of(target.file(db).path(db), &PathName::new(target.name(db)))
-    };
-    let mut reported = BTreeSet::new();
-    for job in jobs {
-        let is_of_job =
-            |definition: &&SecondDefinition<'_>| job.targets.iter().any(|target| is_of(target, definition));
-        let own: Vec<_> = found.iter().filter(is_of_job).collect();
-        if !own.is_empty() {
-            job.leave_out();
-            reported.extend(own);
-        }
-    }
-    diagnostics.extend(reported.into_iter().map(SecondDefinition::diagnostic));
+    let of_jobs: BTreeSet<&SecondDefinition> =
+        jobs.flat_map(|job| job.leave_out_if_defined_twice(db, &found)).collect();
+    of_jobs.into_iter().map(SecondDefinition::diagnostic).collect()
 }
 
 /// Leaves out jobs whose file another drawing of the library, which has the same name, would write in another run (PB514). An output directory on the

@@ -7,9 +7,8 @@ use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Database, Db, SourceFile, Target};
+use pathbuild_db::{Database, Db, SecondDefinition, SourceFile, Target};
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_path::PathName;
 
 use super::options;
 use super::outcome::{ProgramOutcome, Task};
@@ -27,8 +26,8 @@ pub struct WrittenPrograms {
     by_drawing: BTreeMap<Utf8PathBuf, Vec<(Target, Plan)>>,
     /// The targets that yield each file, by its path in lower case. A file with several targets is not written.
     owners: HashMap<String, Vec<Target>>,
-    /// The paths that two drawings define, with these drawings. They get no program.
-    second_definitions: BTreeSet<(Utf8PathBuf, PathName)>,
+    /// The paths that two drawings define. They get no program.
+    second_definitions: BTreeSet<SecondDefinition>,
 }
 
 /// The drawings that a session covers.
@@ -93,12 +92,10 @@ impl WrittenPrograms {
         let mut plans: Vec<Plan> = checked.chunks(1).map(|checked| builder.plan(checked)).collect();
         // The clashes of all programs are reported together.
         leave_out_clashes(session, plans.iter_mut().filter_map(|plan| plan.job.as_mut()), &mut Vec::new());
-        let db = session.db();
-        for (plan, target) in plans.iter_mut().zip(targets) {
+        for plan in &mut plans {
             plan.leave_out_if_raised(context);
-            let definition = (target.file(db).path(db).clone(), PathName::new(target.name(db)));
-            if let Some(job) = plan.job.as_mut().filter(|_| self.second_definitions.contains(&definition)) {
-                job.leave_out();
+            if let Some(job) = &mut plan.job {
+                job.leave_out_if_defined_twice(session.db(), &self.second_definitions);
             }
             // The errors of drawings are those that `check` reports.
             plan.diagnostics.clear();
@@ -122,17 +119,17 @@ impl WrittenPrograms {
         owners.flatten().any(|owner| !drawings.contains(&owner.file(db)))
     }
 
-    /// Sets the paths that two drawings define now, with these drawings. Returns the drawings for which that changed.
+    /// Sets the paths that two drawings define now. Returns the drawings for which that changed.
     pub fn set_second_definitions(
         &mut self,
         db: &Database,
-        now: BTreeSet<(Utf8PathBuf, PathName)>,
+        now: BTreeSet<SecondDefinition>,
     ) -> Vec<SourceFile> {
         let before = std::mem::replace(&mut self.second_definitions, now);
         let changed = before.symmetric_difference(&self.second_definitions);
-        let drawings =
-            changed.map(|(drawing, _)| drawing).filter(|drawing| self.by_drawing.contains_key(*drawing));
-        drawings.map(|drawing| db.file(drawing)).collect()
+        let drawings = changed.flat_map(|definition| &definition.files);
+        let written = drawings.filter(|drawing| self.by_drawing.contains_key(*drawing));
+        written.map(|drawing| db.file(drawing)).collect()
     }
 
     /// Forgets the programs of removed drawings. Returns the other drawings whose programs may be written now.

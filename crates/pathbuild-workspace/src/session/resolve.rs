@@ -118,8 +118,9 @@ impl Session<'_> {
                         selection.paths.push(SelectedPath { file: *file, name: spelled.clone() });
                     }
                     ([first, second, ..], ..) => {
-                        let files = [first, second].map(|file| file.path(&self.db).as_path());
-                        selection.problems.push(SecondDefinition { name, files }.diagnostic());
+                        let files = [first, second].map(|file| file.path(&self.db).clone());
+                        let found = SecondDefinition { name: name.clone(), files };
+                        selection.problems.push(found.diagnostic());
                     }
                     ([], Some(drawing), _) => selection.name(*drawing),
                     // A directory in the working directory, as in `check components`, if neither a path nor a drawing has that name.

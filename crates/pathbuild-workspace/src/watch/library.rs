@@ -362,13 +362,9 @@ impl<'a> Library<'a> {
         self.has_other_content
     }
 
-    /// Returns the paths that two drawings define, with these drawings.
-    pub(super) fn second_definitions(&self) -> BTreeSet<(Utf8PathBuf, PathName)> {
+    pub(super) fn second_definitions(&self) -> BTreeSet<SecondDefinition> {
         let drawings = self.drawings.iter().map(|(file, result)| (&**file, &*result.names));
-        let found = second_definitions(self.session.db(), drawings);
-        let both =
-            |found: &SecondDefinition<'_>| found.files.map(|file| (file.to_owned(), found.name.clone()));
-        found.iter().flat_map(both).collect()
+        second_definitions(self.session.db(), drawings)
     }
 
     /// Determines the diagnostics that follow from all drawings together, once all are checked.
@@ -376,9 +372,8 @@ impl<'a> Library<'a> {
         if self.has_backlog() || !std::mem::take(&mut self.has_other_content) {
             return;
         }
-        let drawings = self.drawings.iter().map(|(file, result)| (&**file, &*result.names));
-        let found = second_definitions(self.session.db(), drawings);
-        let mut found: Vec<Diagnostic> = found.iter().map(SecondDefinition::diagnostic).collect();
+        let mut found: Vec<Diagnostic> =
+            self.second_definitions().iter().map(SecondDefinition::diagnostic).collect();
         if self.inputs.inputs.is_empty() {
             found.extend(patterns_without_layer(&self.session, self.drawings.values()));
             found.extend(globs_without_file(&self.session, self.drawings.keys().map(|file| &**file)));
