@@ -198,6 +198,10 @@ fn a_path_that_is_defined_twice_is_not_emitted() {
     assert!(problems > 0 && components == 0);
     let (problems, components, _) = emit("components/5678.dxf", "");
     assert_eq!((problems, components), (0, 2));
+    let three = format!("components/1234 old.dxf ==\n{SECOND}== components/1234 older.dxf");
+    let (problems, components, _) = emit(&three, "components");
+    let expected = (2, written("components/1234 old.dxf"));
+    assert_eq!((problems, components), expected, "each drawing but the first is named");
 }
 
 /// A second definition is reported only if both drawings are checked.

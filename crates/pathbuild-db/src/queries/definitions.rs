@@ -61,11 +61,11 @@ pub fn second_definitions<'a>(
     repeated.into_values().flat_map(|files| ambiguous(db, files)).collect()
 }
 
-/// Takes drawings that define the same path. Returns the pairs of drawings that a project beside one of the drawings would find.
+/// Takes drawings that define the same path. Of those that a project beside one of the drawings would find, returns the first with each other one.
 fn ambiguous(db: &dyn Db, mut files: BTreeMap<&str, &PathName>) -> impl Iterator<Item = SecondDefinition> {
     files.retain(|file, name| may_define(db, Utf8Path::new(*file), name));
     let directories: BTreeSet<&Utf8Path> = files.keys().map(|file| directory(file)).collect();
-    directories.into_iter().filter_map(move |from| {
+    directories.into_iter().flat_map(move |from| {
         let search = Settings::get(db).search(db);
         let is_searched = |at: &Utf8Path| at == from || search.iter().any(|searched| searched == at);
         // Keep a file that is reached under two names only once.
@@ -74,11 +74,13 @@ fn ambiguous(db: &dyn Db, mut files: BTreeMap<&str, &PathName>) -> impl Iterator
             .iter()
             .filter(|(file, _)| is_searched(directory(file)))
             .filter(|(file, _)| seen.insert(db.system().canonical(Utf8Path::new(*file))));
-        let ((first, name), (second, _)) = (found.next()?, found.next()?);
-        Some(SecondDefinition {
-            name: (*name).clone(),
-            files: [first, second].map(|file| Utf8PathBuf::from(*file)),
-        })
+        let first = found.next();
+        let definition = |(second, _): (&&str, _)| {
+            let (first, name) = first?;
+            let files = [first, second].map(|file| Utf8PathBuf::from(*file));
+            Some(SecondDefinition { name: (*name).clone(), files })
+        };
+        found.filter_map(definition).collect::<Vec<_>>()
     })
 }
 

@@ -92,7 +92,7 @@ impl Model {
     }
 
     /// Returns PB504 for each path that two of these drawings define, if a project beside one of them finds both. It is reported at the first of the
-    /// two.
+    /// drawings, once for each other one.
     fn second_definitions(&self, checked: &[usize]) -> Vec<Finding> {
         let paths = checked.iter().flat_map(|from| {
             self.drawings[*from].content.paths.iter().map(move |(raw, _)| (*from, &*raw.name))
@@ -101,12 +101,15 @@ impl Model {
             let mut defining = self.searched(from, name);
             defining.retain(|number| checked.contains(number) && self.defines(*number, name));
             defining.sort_by_key(|number| &self.drawings[*number].path);
-            let [first, second, ..] = defining[..] else { return None };
-            let [first, second] = [first, second].map(|number| self.drawings[number].path.as_str());
-            let words = [name.as_str(), first, second].map(str::to_owned).to_vec();
-            Some(Finding { code: "PB504".to_owned(), file: first.to_owned(), words, ..Finding::default() })
+            let mut files = defining.into_iter().map(|number| self.drawings[number].path.as_str());
+            let first = files.next().unwrap_or_default();
+            let finding = |second: &str| {
+                let words = [name.as_str(), first, second].map(str::to_owned).to_vec();
+                Finding { code: "PB504".to_owned(), file: first.to_owned(), words, ..Finding::default() }
+            };
+            files.map(finding).collect::<Vec<_>>()
         };
-        paths.filter_map(second_definition).collect()
+        paths.flat_map(second_definition).collect()
     }
 
     /// Returns the findings of checking a single path; none if the drawing does not exist.
