@@ -798,6 +798,26 @@ fn post_does_not_replace_the_program_of_another_path() {
     assert!(post("1500_Z.txt").stderr.contains("PB004"));
 }
 
+#[cfg(unix)]
+#[test]
+fn post_does_not_replace_the_program_that_it_reads() {
+    let place = library("");
+    assert_eq!(place.run("emit 1234.1P").status, Some(0));
+    std::os::unix::fs::symlink("1234_Milling.gcode", place.path().join("link.gcode")).unwrap();
+    let kept = place.read("1234_Milling.gcode");
+    let post = |from: &str, to: &str| place.run(&format!("post {from} --post linuxcnc -o {to}"));
+    for [from, to] in [
+        ["1234_Milling.gcode", "./1234_Milling.gcode"],
+        ["link.gcode", "1234_Milling.gcode"],
+        ["1234_Milling.gcode", "link.gcode"],
+    ] {
+        let run = post(from, to);
+        assert!(run.status == Some(1) && run.stderr.contains("program to rewrite"), "{run}");
+        assert_eq!(place.read("1234_Milling.gcode"), kept);
+    }
+    assert_eq!(post("link.gcode", "link.ngc").status, Some(0));
+}
+
 /// A program that could not be written must not be processed.
 #[cfg(unix)]
 #[test]

@@ -33,6 +33,8 @@ words! {
     SOURCE_OF_POST: "it belongs to the post-processor, and would be lost", "sie gehört zum Postprozessor und ginge verloren";
     /// A report or dependency file would overwrite the baseline.
     IS_BASELINE: "it is the baseline, which would be lost", "sie ist die Baseline, die verloren ginge";
+    /// `post --output` would overwrite the program that it reads.
+    PROGRAM_THAT_IS_READ: "it is the program to rewrite, which would be lost", "sie ist das Programm, das umgeschrieben wird, und ginge verloren";
     /// `post --output` would overwrite the program of another path.
     PROGRAM_OF_OTHER_PATH: "it is the program of another path, which would be lost", "sie ist das Programm eines anderen Pfades, das verloren ginge";
     /// `--update-baseline` would overwrite a file that is not a baseline.

@@ -1,10 +1,10 @@
 //! Files that reports and other outputs must not replace (PB004): what a user has drawn, written or measured, and programs.
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_diagnostic::reasons::{
     IS_BASELINE, NAME_OF_CONFIGURATION, NAME_OF_DEFINITION, NAME_OF_DRAWING, NAME_OF_IGNORE_FILE,
-    NAME_OF_PROGRAM, NAME_OF_VALUES, SOURCE_OF_POST,
+    NAME_OF_PROGRAM, NAME_OF_VALUES, PROGRAM_THAT_IS_READ, SOURCE_OF_POST,
 };
 use pathbuild_diagnostic::{Diagnostic, Text};
 
@@ -43,13 +43,12 @@ pub fn reason_to_keep_source(
     post: Option<&PostProcessor>,
     file: &Utf8Path,
 ) -> Option<&'static Text> {
-    let canonical = |file: &Utf8Path| context.system.canonical(&context.working_directory.join(file));
-    let target = canonical(file);
+    let target = canonical(context, file);
     let named = [file, &target].into_iter().find_map(name_of_source);
     if named.is_some() {
         return named;
     }
-    let is_target = |file: &Utf8Path| canonical(file) == target;
+    let is_target = |file: &Utf8Path| canonical(context, file) == target;
     if context.settings.file.as_deref().is_some_and(is_target) {
         return Some(&NAME_OF_CONFIGURATION);
     }
@@ -59,6 +58,16 @@ pub fn reason_to_keep_source(
     let configured = configured_post(context);
     let mut sources = post.into_iter().chain(&configured).flat_map(PostProcessor::sources);
     sources.any(|source| is_target(&source)).then_some(&SOURCE_OF_POST)
+}
+
+/// Returns the reason if a file is the program that `post` reads; a link counts as the file to which it leads.
+pub fn reason_to_keep_input(context: &Workspace, input: &Utf8Path, file: &Utf8Path) -> Option<&'static Text> {
+    (canonical(context, file) == canonical(context, input)).then_some(&PROGRAM_THAT_IS_READ)
+}
+
+/// Returns the path of a file without links.
+fn canonical(context: &Workspace, file: &Utf8Path) -> Utf8PathBuf {
+    context.system.canonical(&context.working_directory.join(file))
 }
 
 /// Returns the configured post; `None` if there is none, or if it is broken, which `emit` reports.

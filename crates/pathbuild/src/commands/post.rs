@@ -24,7 +24,7 @@ use pathbuild_workspace::emit::program_of_other_path;
 use pathbuild_workspace::files::write_error;
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor, complete_tools, run_post_build};
 use pathbuild_workspace::program::Program;
-use pathbuild_workspace::protected_files::{reason_to_keep_source, replace_error};
+use pathbuild_workspace::protected_files::{reason_to_keep_input, reason_to_keep_source, replace_error};
 use pathbuild_workspace::session::Session;
 use pathbuild_workspace::verify::{Verifier, VerifyOptions};
 
@@ -145,8 +145,10 @@ fn rewrite_and_report(
         context.printer.result_bytes(&output.text);
         return Ok(());
     };
-    let reason = reason_to_keep_source(context, Some(post_processor), to);
-    if let Some(reason) = reason.or_else(|| program_of_other_path(context, to, &program.text)) {
+    let reason = reason_to_keep_source(context, Some(post_processor), to)
+        .or_else(|| reason_to_keep_input(context, file, to))
+        .or_else(|| program_of_other_path(context, to, &program.text));
+    if let Some(reason) = reason {
         return Err(vec![replace_error(to, reason)]);
     }
     let written = context.system.write(to, &output.text).map_err(|reason| vec![write_error(to, reason)])?;
