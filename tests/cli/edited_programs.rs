@@ -207,3 +207,45 @@ fn writing_over_an_edited_program_is_told() {
         assert!(emit(&place, "").starts_with(&format!("{file}: written, ")), "{post}");
     }
 }
+
+/// Notepad's "Unicode" is UTF-16, and its "UTF-8 with BOM" has three bytes before the first line.
+#[test]
+fn the_encoding_of_an_editor_is_named() {
+    let place = library();
+    assert_eq!(place.run("emit 1234.1P --post linuxcnc").status, Some(0));
+    let program = place.read("1234.1P_Milling.ngc");
+    let little: Vec<u8> = program.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let big: Vec<u8> = program.encode_utf16().flat_map(u16::to_be_bytes).collect();
+    let place = place
+        .file("marked.ngc", [&[0xFF, 0xFE], &*little].concat())
+        .file("1234.1P_Clean.gcode", [&[0xFF, 0xFE], &*little].concat())
+        .file("1234.1P_Z.txt", "")
+        .file("little.ngc", little)
+        .file("big.ngc", big)
+        .file("bom.ngc", format!("\u{feff}{program}"));
+    for command in [
+        "verify marked.ngc",
+        "verify little.ngc --against 1234.1P",
+        "verify big.ngc --against 1234.1P",
+        "post marked.ngc --post grbl",
+        "diff marked.ngc 1234.1P_Milling.ngc",
+        "view little.ngc -o page.html",
+        "adjust 1234.1P --max-correction 1",
+    ] {
+        let run = place.run(command);
+        assert!(run.status != Some(0) && run.stderr.contains("this file is in UTF-16"), "{run}");
+        assert!(run.stderr.matches("PB").count() == 1 && !run.stderr.contains("checked:"), "{run}");
+    }
+    for (command, status) in [("verify bom.ngc", 0), ("verify bom.ngc --against 1234.1P", 1)] {
+        let run = place.run(command);
+        assert_eq!(run.status, Some(status), "{run}");
+        assert_eq!(
+            [run.stderr.matches("[PB").count(), run.stderr.matches("[PB707]").count()],
+            [1, 1],
+            "{run}"
+        );
+    }
+    let run = place.run("post bom.ngc --post linuxcnc -o again.ngc");
+    assert!(run.status == Some(0) && !run.stderr.contains("PB707"), "{run}");
+    assert_eq!(place.run("verify again.ngc --against 1234.1P").stderr.matches("[PB").count(), 0);
+}

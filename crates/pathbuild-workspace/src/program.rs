@@ -14,7 +14,7 @@ use pathbuild_gcode::interpret::{
     DisputedWords, Evidence, EvidenceKind, Guess, Heights, Interpretation, Options, Text, guess,
     interpret_until,
 };
-use pathbuild_gcode::read::quote;
+use pathbuild_gcode::read::{BYTE_ORDER_MARK, is_utf_16, quote};
 use pathbuild_motion::{Action, StatedWord, Step};
 use pathbuild_post::{Doubt, DoubtfulWord, TranslatedText};
 use pathbuild_toolpath::memory;
@@ -153,7 +153,7 @@ impl Program {
         each: &mut dyn FnMut(Step) -> ControlFlow<()>,
     ) -> Self {
         let guessed = reading.dialect.is_none().then(|| guess(&text));
-        let by_definition = definition(&text, guessed.as_ref());
+        let by_definition = (!is_utf_16(&text)).then(|| definition(&text, guessed.as_ref())).flatten();
         let shown = reading.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
         let dialect = if by_definition.is_some() { Dialect::LinuxCnc } else { shown };
         let options = reading.with_settings(settings);
@@ -178,6 +178,9 @@ impl Program {
         let is_weak = guessed.is_some_and(|guess| guess.evidence.kind == EvidenceKind::Words);
         if is_weak && by_definition.is_none() {
             problems.extend(unnamed_dialect_warning(&disputes, dialect));
+        }
+        if text.starts_with(BYTE_ORDER_MARK) {
+            problems.push(Diagnostic::new(&gcode::BYTE_ORDER_MARK).at_line(1, None));
         }
         place(&mut problems, file, &text);
         let evidence = guessed.map(|guess| guess.evidence);

@@ -105,6 +105,20 @@ messages! {
         help_en: "give the name of a program for the machine, a text file with words such as G01 X10",
         help_de: "den Namen eines Programms für die Maschine angeben, einer Textdatei mit Wörtern wie G01 X10",
     }
+    /// A program in UTF-16, as Notepad saves "Unicode".
+    PROGRAM_IN_UTF_16: NotGCode {
+        en: "this file is in UTF-16",
+        de: "diese Datei ist in UTF-16 gespeichert",
+        help_en: "open it in an editor and save it as ANSI (in Notepad: File, Save as, Encoding), or write the program again",
+        help_de: "sie in einem Editor öffnen und als ANSI speichern (im Windows-Editor: Datei, Speichern unter, Codierung) oder das Programm neu schreiben",
+    }
+    /// A program with the byte order mark that some editors write before UTF-8.
+    BYTE_ORDER_MARK: DoubtfulSpelling {
+        en: "the program begins with a byte order mark (UTF-8), which controls take for characters of its first line",
+        de: "das Programm beginnt mit einem Byte Order Mark (UTF-8), das Steuerungen für Zeichen seiner ersten Zeile halten",
+        help_en: "save it as ANSI or as UTF-8 without BOM (in Notepad: File, Save as, Encoding), or write the program again",
+        help_de: "es als ANSI oder UTF-8 ohne BOM speichern (im Windows-Editor: Datei, Speichern unter, Codierung) oder das Programm neu schreiben",
+    }
     /// A program without any text.
     EMPTY_PROGRAM: NotGCode {
         en: "the file is empty",

@@ -14,11 +14,13 @@ use std::ops::Range;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
+use pathbuild_diagnostic::messages::gcode::PROGRAM_IN_UTF_16;
 use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_toolpath::ZModel;
 
 use crate::native::{f3, push_exact};
 use crate::provenance::{is_same_program, without_comment_marks};
+use crate::read::is_utf_16;
 
 use check::{Check, MIN_DIFFERENCE, Values};
 use heights::HeightRules;
@@ -199,8 +201,11 @@ pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
 /// Puts measured heights into a program.
 ///
 /// # Errors
-/// All errors in the files, with line and column if they have a place: PB601 to PB604. Then no program is produced.
+/// All errors in the files, with line and column if they have a place: PB601 to PB604, or PB701 for a program in UTF-16. Then no program is produced.
 pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
+    if is_utf_16(inputs.program.bytes) {
+        return Err(vec![Diagnostic::new(&PROGRAM_IN_UTF_16).in_file(inputs.program.file)]);
+    }
     let mut problems = Vec::new();
     let table = ProbeTable::read(inputs.program);
     let survey = scan::ProbeSurvey::of(inputs.program, &mut problems);

@@ -8,6 +8,7 @@ use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
 
 use super::Source;
+use crate::read::BYTE_ORDER_MARK;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<'a> {
@@ -20,8 +21,7 @@ pub(super) struct Line<'a> {
 
 /// Returns the byte order mark that some editors write at the start of a file; empty if there is none.
 pub(super) fn byte_order_mark(bytes: &[u8]) -> &[u8] {
-    let mark = b"\xef\xbb\xbf";
-    if bytes.starts_with(mark) { &bytes[..mark.len()] } else { &[] }
+    if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK } else { &[] }
 }
 
 /// Returns the lines of a file, without the byte order mark.

@@ -20,7 +20,7 @@ mod words;
 use std::ops::ControlFlow;
 
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_diagnostic::messages::gcode::{EMPTY_PROGRAM, NOT_G_CODE};
+use pathbuild_diagnostic::messages::gcode::{EMPTY_PROGRAM, NOT_G_CODE, PROGRAM_IN_UTF_16};
 use pathbuild_motion::{Move, Step};
 
 pub use self::guess::{DisputedWords, UnionWord, union_word};
@@ -31,7 +31,7 @@ pub(crate) use motion::LOWEST_RETRACT;
 pub(crate) use state::INCH;
 
 use crate::dialect::Dialect;
-use crate::read::BlockReader;
+use crate::read::{BlockReader, is_utf_16};
 
 /// The result of interpreting a program.
 #[derive(Clone, Debug, Default)]
@@ -79,6 +79,9 @@ pub fn interpret_until(
 ) -> Vec<Diagnostic> {
     if text.trim_ascii().is_empty() {
         return vec![Diagnostic::new(&EMPTY_PROGRAM)];
+    }
+    if is_utf_16(text) {
+        return vec![Diagnostic::new(&PROGRAM_IN_UTF_16)];
     }
     let (problems, has_words) = interpret_parts_until([text], dialect, options, each);
     let is_other = !has_words && problems.iter().any(Diagnostic::is_error);

@@ -4,6 +4,7 @@
 //! reported and skipped.
 
 mod block;
+mod encoding;
 mod expression;
 mod line;
 mod number;
@@ -15,6 +16,7 @@ pub use block::{
     Assignment, Binary, Block, Code, Comment, CommentStyle, Formula, Function, LineParts, Number, OWord,
     OWordKind, Op, Span, Target, Value, Word, quote,
 };
+pub use encoding::{BYTE_ORDER_MARK, is_utf_16};
 pub use problems::{Problems, SourcePosition};
 pub(crate) use reader::Place;
 pub use reader::{BlockReader, LONGEST_LINE};

@@ -5,6 +5,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Text};
 
 use super::block::{Block, Comment, CommentStyle, LineParts, Span, end_of_line};
+use super::encoding::BYTE_ORDER_MARK;
 use super::line::{Line, plain_words};
 use super::problems::{Problems, SourcePosition};
 use super::word::plain_formula;
@@ -59,7 +60,7 @@ enum State {
 impl<'t> BlockReader<'t> {
     /// Creates a reader at the beginning of a file.
     pub fn new(text: &'t [u8], rules: &'static Rules) -> Self {
-        let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
+        let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         Self {
             text,
             rules,

@@ -451,6 +451,10 @@ impl<'v> Examination<'v> {
     /// # Errors
     /// The problem that prevents the verification.
     fn run(&self, written: AsWrittenFindings) -> Result<VerifiedProgram, Vec<Diagnostic>> {
+        let read = &self.program.read.problems;
+        if read.iter().any(|problem| problem.code() == Code::NotGCode) {
+            return Err(read.clone());
+        }
         self.refuse_incomparable()?;
         let rewritten = self.rewritten_program()?;
         let mut evidence = CheckEvidence {

@@ -175,7 +175,7 @@ fn findings(
     // Usage errors only concern the drawing to compare with, and there is none.
     let verifier = Verifier::new(&mut session, options).map_err(Failure::into_diagnostics)?;
     let mut found = verifier.findings(program);
-    found.retain(|problem| !is_judged_in_output(problem));
+    found.retain(|problem| !is_judged_in_output(problem) && problem.message != &gcode::BYTE_ORDER_MARK);
     found.iter_mut().for_each(report_as_left_out);
     let is_bent = |problem: &&mut Diagnostic| problem.message == &gcode::BENT_RAPID;
     for bent in found.iter_mut().filter(is_bent).filter(|_| target.is_some()) {
