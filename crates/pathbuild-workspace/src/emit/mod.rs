@@ -34,7 +34,8 @@ pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
 pub use options::{Provenances, missing_values, write_settings};
 pub use outcome::{ProgramOutcome, State, Task};
 use plan::{
-    Job, JobBuilder, Plan, leave_out_files_of_others, leave_out_second_definitions, plan, warn_of_numbers,
+    Job, JobBuilder, Plan, jobs_mut, leave_out_files_of_others, leave_out_second_definitions, plan,
+    warn_of_numbers,
 };
 pub use program_scenes::{SceneReport, SheetOutcome, ShownText, sheet_of};
 pub use select::TargetPatterns;
@@ -168,13 +169,12 @@ impl Emitter<'_> {
         let builder = JobBuilder { session, post_processor: self.post_processor, join, sheet };
         let mut plans = plan(&builder, task, memo, &selection.targets, &mut diagnostics)?;
         if lacks_paths {
-            plans.iter_mut().filter_map(|plan| plan.value.job.as_mut()).for_each(Job::leave_out);
+            jobs_mut(&mut plans).for_each(Job::leave_out);
         }
-        let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
-        diagnostics.extend(leave_out_second_definitions(session.db(), selection.drawings(), jobs));
+        let twice = leave_out_second_definitions(session.db(), selection.drawings(), jobs_mut(&mut plans));
+        diagnostics.extend(twice);
         if !matches.is_library && !is_printed {
-            let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
-            leave_out_files_of_others(&builder, jobs, &mut diagnostics);
+            leave_out_files_of_others(&builder, jobs_mut(&mut plans), &mut diagnostics);
         }
         let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.job.as_ref()).collect();
         diagnostics.extend(warn_of_numbers(session, self.post_processor, &jobs));
@@ -188,8 +188,7 @@ impl Emitter<'_> {
             );
             return Err(reason.to_owned());
         }
-        let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
-        build_and_settle(session, jobs, task, self.post_processor);
+        build_and_settle(session, jobs_mut(&mut plans), task, self.post_processor);
         for answer in &mut plans {
             complete_inputs(answer, task);
         }
@@ -211,8 +210,7 @@ impl Emitter<'_> {
                 let emission = request.run(&mut Session::new(workspace), self.inputs);
                 emission.map(|emission| emission.delivered).unwrap_or_default()
             };
-            let jobs = plans.iter_mut().filter_map(|plan| plan.value.job.as_mut());
-            comparison::name_compatible(workspace, jobs, emit);
+            comparison::name_compatible(workspace, jobs_mut(&mut plans), emit);
         }
         let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.job.as_ref()).collect();
         let earlier = EarlierPrograms {

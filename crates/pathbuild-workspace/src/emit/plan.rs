@@ -180,9 +180,9 @@ pub(super) fn plan(
     if !is_timed && plans.iter().any(is_cached) {
         return Err(options::missing_values(workspace, ["rapid"]));
     }
-    leave_out_clashes(session, plans.iter_mut().filter_map(|answer| answer.value.job.as_mut()), diagnostics);
+    leave_out_clashes(session, jobs_mut(&mut plans), diagnostics);
     if let Some(join) = join {
-        let jobs = plans.iter_mut().filter_map(|answer| answer.value.job.as_mut());
+        let jobs = jobs_mut(&mut plans);
         diagnostics.extend(jobs.filter_map(|job| leave_out_if_named_like_path(builder, join, job)));
     }
     // An earlier run may have left out jobs because their files clashed with those of jobs that do not exist any more.
@@ -199,6 +199,11 @@ pub(super) fn plan(
         answer.value.leave_out_if_raised(workspace);
     }
     refusal.map_or(Ok(plans), Err)
+}
+
+/// Returns the jobs of these plans.
+pub(super) fn jobs_mut(plans: &mut [Answer<Plan>]) -> impl Iterator<Item = &mut Job> {
+    plans.iter_mut().filter_map(|answer| answer.value.job.as_mut())
 }
 
 fn inputs(checked: &[CheckedTarget]) -> Inputs {
