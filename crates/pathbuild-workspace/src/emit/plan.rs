@@ -344,8 +344,8 @@ impl JobBuilder<'_> {
         kinds: &[OutputKind],
     ) -> Job {
         let name = |kind: &OutputKind| match self.post_processor {
-            Some(post_processor) if kind.is_program() => program_name(stem.as_str(), post_processor).into(),
-            _ => Utf8PathBuf::from(format!("{stem}{}", kind.suffix())),
+            Some(post_processor) if kind.is_program() => posted_program(&stem, post_processor),
+            _ => kind.file(&stem),
         };
         let kinds = kinds.iter().copied().chain(OutputKind::of_sheet(self.sheet));
         let db = self.session.db();
@@ -370,8 +370,8 @@ fn sources(db: &Database, checked: &[CheckedTarget]) -> Vec<SourceFile> {
     read.filter(|file| seen.insert(*file)).collect()
 }
 
-pub(super) fn program_name(stem: &str, post_processor: &PostProcessor) -> String {
-    format!("{stem}_Milling.{}", post_processor.extension())
+pub(super) fn posted_program(stem: &Utf8Path, post_processor: &PostProcessor) -> Utf8PathBuf {
+    OutputKind::Milling.file(stem).with_extension(post_processor.extension())
 }
 
 /// Returns the directory for the output files of a drawing's paths: the configured one, or else the drawing's own.

@@ -139,9 +139,8 @@ fn file_name(db: &Database, file: SourceFile) -> String {
 
 /// Returns the name of the program that the machine finally runs: the adjusted one if there are probes.
 fn adjusted_name(program: &str) -> String {
-    let clean = OutputKind::Clean.suffix();
-    match program.strip_suffix(clean) {
-        Some(stem) => format!("{stem}{}", OutputKind::Milling.suffix()),
+    match program.strip_suffix(OutputKind::Clean.suffix()) {
+        Some(stem) => OutputKind::Milling.file(stem).into_string(),
         None => program.to_owned(),
     }
 }

@@ -28,7 +28,7 @@ pub use graph::{Direction, Embedding, EmbeddingEnd, Graph, GraphOutcome, Node};
 pub(crate) use library::IGNORE_FILES;
 pub(crate) use library::is_ignore_file;
 pub use library::{ProgramMatches, compare_names, compare_paths};
-pub use outputs::{OutputKind, WriteSettings, stem_fault, without_positions, without_values};
+pub use outputs::{OutputKind, OutputName, WriteSettings, stem_fault, without_positions, without_values};
 pub(crate) use resolve::{MAX_READ_FOR_NAMES, no_drawing_error};
 pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, several_paths_error};
 pub use scene::HashedPath;

@@ -1,5 +1,8 @@
 //! Kinds of output files of a program. (book: program/gcode)
 
+use std::fmt::Display;
+
+use camino::Utf8PathBuf;
 use pathbuild_diagnostic::reasons::{DEVICE_NAME, NO_FILE_NAME};
 use pathbuild_diagnostic::{Diagnostic, Text};
 use pathbuild_gcode::native::{self, WriteOptions};
@@ -51,6 +54,9 @@ impl OutputKind {
         Self::SheetSvg,
     ];
 
+    /// The kinds that are G-code.
+    pub const GCODE: [Self; 3] = [Self::Milling, Self::Clean, Self::Probing];
+
     /// Returns the kind of setup sheets in this format.
     pub fn of_sheet(format: SheetFormat) -> Option<Self> {
         match format {
@@ -94,6 +100,16 @@ impl OutputKind {
         }
     }
 
+    /// Returns the ending of the file name without its extension, which a post may choose.
+    pub fn mark(self) -> &'static str {
+        self.suffix().split_once('.').map_or("", |(mark, _)| mark)
+    }
+
+    /// Returns the native file with this stem, which may include its directory.
+    pub fn file(self, stem: impl Display) -> Utf8PathBuf {
+        format!("{stem}{}", self.suffix()).into()
+    }
+
     /// Reads the text back and checks that the machine would do what the program says.
     ///
     /// # Errors
@@ -124,6 +140,30 @@ impl OutputKind {
             Self::Values => Ok(Some(native::values_file(program, &writing.options))),
             Self::SheetPdf | Self::SheetHtml | Self::SheetSvg => Ok(None),
         }
+    }
+}
+
+/// The name of an output file, taken apart.
+#[derive(Clone, Copy, Debug)]
+pub struct OutputName<'n> {
+    /// The part before the ending, which the files of a program have in common; with the directory if there is one.
+    pub stem: &'n str,
+    /// The kind of file that the ending names.
+    pub kind: OutputKind,
+    /// Whether the extension is that of native files. A program may have the extension of any post.
+    pub is_native: bool,
+}
+
+impl<'n> OutputName<'n> {
+    /// Takes a name or a path apart; `None` if it is not that of an output file.
+    pub fn parse(file: &'n str) -> Option<Self> {
+        let (name, _) = file.rsplit_once('.')?;
+        let of_kind = |kind: OutputKind| {
+            let stem = name.strip_suffix(kind.mark())?;
+            let is_native = file.ends_with(kind.suffix());
+            (is_native || OutputKind::GCODE.contains(&kind)).then_some(Self { stem, kind, is_native })
+        };
+        OutputKind::ALL.into_iter().find_map(of_kind)
     }
 }
 

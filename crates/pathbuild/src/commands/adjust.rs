@@ -143,9 +143,9 @@ impl Job {
         let is_drawing = without_suffix(name, ".dxf").is_some();
         Self {
             drawing: is_drawing.then(|| argument.to_owned()),
-            clean: join(from, format!("{stem}{CLEAN_SUFFIX}")),
-            values: join(from, format!("{stem}{VALUES_SUFFIX}")),
-            milling: join(written, format!("{stem}{}", OutputKind::Milling.suffix())),
+            clean: join(from, OutputKind::Clean.file(stem)),
+            values: join(from, OutputKind::Values.file(stem)),
+            milling: join(written, OutputKind::Milling.file(stem)),
         }
     }
 }

@@ -186,7 +186,7 @@ pub(super) fn has_stale_adjusted_program(
     let Some(now) = provenance_now.filter(|_| post_processor.is_none() && !is_generated) else {
         return false;
     };
-    let path = Utf8PathBuf::from(format!("{}{}", job.stem, OutputKind::Milling.suffix()));
+    let path = OutputKind::Milling.file(&job.stem);
     let Some((found, title)) = provenance(session, &path) else { return false };
     let former = FormerFile { job, kind: OutputKind::Milling, provenance: now };
     let stale = former.stale_program(session, path, &found).filter(|_| is_of(job, session, &title));

@@ -8,17 +8,8 @@ use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 
 use crate::files::{PROGRAM_EXTENSIONS, is_program};
 use crate::post_processor::PostProcessor;
-use crate::session::OutputKind;
+use crate::session::{OutputKind, OutputName};
 use crate::workspace::Workspace;
-
-pub(super) const SHEET_SUFFIX: &str = "_Sheet";
-
-pub(super) const NATIVE_EXTENSION: &str = "gcode";
-
-/// The kinds of native programs that are converted for the machine.
-pub(super) const CONVERTED: [OutputKind; 2] = [OutputKind::Milling, OutputKind::Probing];
-
-pub(super) const PROGRAM_SUFFIXES: [&str; 3] = ["_Milling", "_Clean", "_Probing"];
 
 /// Whether a program is named after the drawing or path in this title, as `emit` names the programs of paths without R.
 pub(super) fn has_name_of_title(program: &Utf8Path, title: &str) -> bool {
@@ -27,8 +18,8 @@ pub(super) fn has_name_of_title(program: &Utf8Path, title: &str) -> bool {
     let drawing = native::drawing_of_title(&title).and_then(|drawing| Utf8Path::new(drawing).file_stem());
     let path = title.split_once(' ').and_then(|(_, rest)| rest.split_once(',')).map(|(path, _)| path);
     let name = plain_title(program.file_stem().unwrap_or_default());
-    let suffixes = PROGRAM_SUFFIXES.into_iter().chain([SHEET_SUFFIX]).map(str::to_lowercase);
-    let stem = suffixes.into_iter().find_map(|suffix| name.strip_suffix(&*suffix));
+    let mut kinds = OutputKind::ALL.into_iter().filter(|kind| *kind != OutputKind::Values);
+    let stem = kinds.find_map(|kind| name.strip_suffix(&kind.mark().to_lowercase()));
     stem.is_some() && [drawing, path, joined.as_deref()].contains(&stem)
 }
 
@@ -55,13 +46,13 @@ pub(super) fn is_gcode(name: &str, post_processor: Option<&PostProcessor>) -> bo
 }
 
 pub(super) fn is_sheet(name: &str) -> bool {
-    OutputKind::ALL.iter().any(|kind| kind.sheet().is_some() && name.ends_with(kind.suffix()))
+    OutputName::parse(name).is_some_and(|name| name.kind.sheet().is_some())
 }
 
 /// Returns the files that a path with this stem may have, with every post that has a usual extension.
 pub(super) fn possible_files(stem: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
-    let stem = stem.to_owned();
-    let native = OutputKind::ALL.map(|kind| Utf8PathBuf::from(format!("{stem}{}", kind.suffix())));
-    let posted = PROGRAM_EXTENSIONS[1..].iter();
-    native.into_iter().chain(posted.map(move |extension| format!("{stem}_Milling.{extension}").into()))
+    let native = OutputKind::ALL.map(|kind| kind.file(stem));
+    let program = OutputKind::Milling.file(stem);
+    let posted = PROGRAM_EXTENSIONS[1..].iter().map(move |extension| program.with_extension(extension));
+    native.into_iter().chain(posted)
 }

@@ -12,7 +12,7 @@ use pathbuild_gcode::native;
 use super::names::is_gcode;
 use super::{EarlierPrograms, file_name, provenance};
 use crate::emit::outcome::{ProgramOutcome, State, Task};
-use crate::emit::plan::{Job, output_directory, program_name};
+use crate::emit::plan::{Job, output_directory, posted_program};
 use crate::memo::find;
 use crate::post_processor::PostProcessor;
 use crate::session::Argument;
@@ -128,7 +128,7 @@ impl<'a> EarlierPrograms<'a> {
     fn of_joined(&self, first: Target, name: &str, post_processor: &PostProcessor) -> Option<Utf8PathBuf> {
         let db = self.session.db();
         let directory = output_directory(self.session.out_dir().as_deref(), first.file(db).path(db));
-        let program = join(&directory, program_name(name, post_processor));
+        let program = posted_program(&join(&directory, name), post_processor);
         let (_, title) = provenance(self.session, &program)?;
         native::joined_paths(&title).map(|_| program)
     }

@@ -5,7 +5,7 @@ use pathbuild_db::system::or_current_directory;
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 
-use super::names::{PROGRAM_SUFFIXES, SHEET_SUFFIX};
+use crate::session::OutputName;
 
 /// A program on disk that must not be run on the machine.
 #[derive(Debug)]
@@ -83,9 +83,8 @@ impl StaleProgram {
                 Diagnostic::new(&messages::STALE_CONVERTED).quoting("program", name(program))
             }
             Reason::OtherJoined { paths } => {
-                let stem = self.path.file_stem().unwrap_or_default();
-                let mut suffixes = PROGRAM_SUFFIXES.into_iter().chain([SHEET_SUFFIX]);
-                let join = suffixes.find_map(|suffix| stem.strip_suffix(suffix)).unwrap_or(stem);
+                let own = OutputName::parse(self.path.file_name().unwrap_or_default());
+                let join = own.map_or(self.path.file_stem().unwrap_or_default(), |name| name.stem);
                 let command = format!("emit {} --join {join}", paths.join(" "));
                 let problem = Diagnostic::new(&messages::STALE_JOINED).quoting("command", command);
                 problem.with("paths", paths.iter().map(String::as_str).collect::<Value>())

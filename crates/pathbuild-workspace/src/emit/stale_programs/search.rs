@@ -12,15 +12,13 @@ use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::Provenance;
 
 use super::known_titles::KnownTitles;
-use super::names::{
-    CONVERTED, NATIVE_EXTENSION, PROGRAM_SUFFIXES, has_name_of_title, is_gcode, is_sheet, possible_files,
-};
+use super::names::{has_name_of_title, is_gcode, is_sheet, possible_files};
 use super::reason::{Reason, StaleProgram};
 use super::{EarlierPrograms, file_name, is_of, provenance};
 use crate::emit::options::Provenances;
 use crate::emit::outcome::Task;
 use crate::emit::plan::Job;
-use crate::session::{OutputKind, Session};
+use crate::session::{OutputKind, OutputName, Session};
 
 type Lazy<'a, T> = LazyCell<T, Box<dyn FnOnce() -> T + 'a>>;
 
@@ -168,10 +166,8 @@ impl<'a> StaleSearch<'a> {
     /// Returns the program at `path` as stale if it was written for one of the run's paths, natively or through another post-processor, and that path
     /// has other moves now.
     fn of_other_post(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Option<StaleProgram> {
-        let name = path.with_extension("");
-        let stem = PROGRAM_SUFFIXES.iter().find_map(|kind| name.as_str().strip_suffix(kind))?;
-        let number = *self.by_stem.get(Utf8Path::new(stem))?;
-        let job = self.run.jobs[number];
+        let name = OutputName::parse(path.as_str())?;
+        let job = self.job(name).filter(|_| OutputKind::GCODE.contains(&name.kind))?;
         let now = job.outcome.as_ref()?.provenance.as_ref()?;
         let is_meant = is_of(job, self.run.session, title) && now.moves != found.moves;
         let program = job.files.first()?.1.clone();
@@ -180,23 +176,23 @@ impl<'a> StaleSearch<'a> {
 
     /// Whether the program at `path` may have been converted from the current probing program or the adjusted program beside it, which `post` is for.
     fn is_converted(&self, path: &Utf8Path, found: &Provenance, title: &str) -> bool {
-        let native = path.with_extension(NATIVE_EXTENSION);
-        let stem = CONVERTED.iter().find_map(|kind| native.as_str().strip_suffix(kind.suffix()));
-        let number = stem.and_then(|stem| self.by_stem.get(Utf8Path::new(stem)));
-        let Some(job) = number.map(|number| self.run.jobs[*number]) else { return false };
+        let posted = OutputName::parse(path.as_str()).filter(|name| !name.is_native);
+        let Some((name, job)) = posted.and_then(|name| Some((name, self.job(name)?))) else { return false };
         let now = job.outcome.as_ref().and_then(|outcome| outcome.provenance.as_ref());
         self.run.post_processor.is_none()
-            && native != path
+            && name.kind != OutputKind::Clean
             && job.files.iter().any(|(kind, _)| *kind == OutputKind::Clean)
             && is_of(job, self.run.session, title)
             && now.is_some_and(|now| now.moves == found.moves)
-            && provenance(self.run.session, &native).is_some_and(|(beside, _)| beside.is_same(found))
+            && provenance(self.run.session, &name.kind.file(name.stem))
+                .is_some_and(|(beside, _)| beside.is_same(found))
     }
 
     /// Returns a converted program as stale if it states other measured heights than the native one beside it.
     fn if_other_heights(&self, path: Utf8PathBuf) -> Option<StaleProgram> {
         let session = self.run.session;
-        let program = path.with_extension(NATIVE_EXTENSION);
+        let name = OutputName::parse(path.as_str())?;
+        let program = name.kind.file(name.stem);
         let limit = session.workspace().settings.limits.file_size.value;
         let heights = |file: &Utf8Path| Some(listed_heights(&session.db().system().read(file, limit).ok()?));
         let (converted, now) = (heights(&path)?, heights(&program)?);
@@ -246,12 +242,15 @@ impl<'a> StaleSearch<'a> {
         if self.run.post_processor.is_some() {
             return None;
         }
-        let of_kind = |kind: OutputKind| Some((kind, path.as_str().strip_suffix(kind.suffix())?));
-        let (kind, stem) = OutputKind::ALL.into_iter().find_map(of_kind)?;
-        let number = *self.by_stem.get(Utf8Path::new(stem))?;
-        let job = self.run.jobs[number];
+        let name = OutputName::parse(path.as_str()).filter(|name| name.is_native)?;
+        let (job, kind) = (self.job(name)?, name.kind);
         let provenance = job.outcome.as_ref()?.provenance.as_ref()?;
         job.files.iter().all(|(present, _)| *present != kind).then_some(FormerFile { job, kind, provenance })
+    }
+
+    /// Returns the job whose files have this stem.
+    fn job(&self, name: OutputName<'_>) -> Option<&'a Job> {
+        Some(self.run.jobs[*self.by_stem.get(Utf8Path::new(name.stem))?])
     }
 }
 
