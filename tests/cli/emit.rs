@@ -580,6 +580,48 @@ fn copies_of_programs_are_never_removed() {
     assert!(run.stderr.contains("8001.1P_Milling.gcode: stale, removed"), "{run}");
 }
 
+/// An operator who is told that a copy is outdated may throw the good program away.
+#[test]
+fn a_copy_of_the_current_program_is_not_called_outdated() {
+    let place = Place::of(LIBRARY);
+    place.run("emit");
+    let text = place.read("projects/8001 a b_Milling.gcode");
+    let place = place
+        .file("projects/copy.gcode", &*text)
+        .file("projects/edited.gcode", text.replace("F150", "F120"))
+        .file("projects/8001 a b_old_Milling.gcode", &*text);
+    let run = place.run("emit --check --format concise");
+    assert_eq!(run.status, Some(1), "{run}");
+    for name in ["copy.gcode", "8001 a b_old_Milling.gcode"] {
+        let told = format!("{name}: error[PB520] {name} contains the current program of path 8001.1P");
+        assert!(run.stderr.contains(&told), "{run}");
+    }
+    assert!(run.stderr.contains("edited.gcode: error[PB520] edited.gcode contains an outdated"), "{run}");
+}
+
+/// The operator finds the program in the directory of the current ones.
+#[test]
+fn the_old_program_of_a_path_that_is_no_target_is_named() {
+    let place = Place::of(LIBRARY);
+    assert_eq!(place.run("emit 1234.1P --out-dir all").status, Some(0));
+    let findings = |place: &Place, command: &str| {
+        let run = place.run(&format!("emit --out-dir all {command} --format concise"));
+        assert!(place.path().join("all/1234_Milling.gcode").exists(), "{run}");
+        let told = "1234_Milling.gcode: warning[PB520] 1234_Milling.gcode is out of date: path 1234.1P";
+        (run.stderr.matches(told).count(), run.stderr.matches("1234_Milling").count())
+    };
+    for command in ["", "--check"] {
+        assert_eq!(findings(&place, command), (0, 0), "{command}");
+    }
+    let drawing = fs::read_to_string(place.path().join("components/1234.dxf")).unwrap();
+    let place = place.file("components/1234.dxf", drawing.replace("I1 B4", "I1 B3"));
+    for command in ["", "--check", "--remove-stale"] {
+        assert_eq!(findings(&place, command), (1, 2), "{command}");
+    }
+    assert_eq!(place.run("emit 1234.1P --out-dir all").status, Some(0));
+    assert_eq!(findings(&place, "--check"), (0, 0));
+}
+
 /// A drawing in a search directory is found by its name, so its program is not stale although the drawing is not in the library.
 #[test]
 fn programs_of_drawings_that_the_search_finds_are_not_stale() {

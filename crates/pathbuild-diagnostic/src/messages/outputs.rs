@@ -164,6 +164,20 @@ messages! {
         help_en: "check that it is no longer needed, and delete it yourself: emit --remove-stale keeps files that may be copies",
         help_de: "prüfen, ob es noch gebraucht wird, und es selbst löschen: emit --remove-stale lässt Dateien stehen, die Kopien sein können",
     }
+    /// The current program of a path, in a file with a name that `emit` does not give to it.
+    CURRENT_COPY: StaleOutput {
+        en: "{name} contains the current program of path {path}; emit would not give it this name, so it may be a copy, which is not kept up to date",
+        de: "{name} enthält das aktuelle Programm von Pfad {path}; emit gäbe ihm nicht diesen Namen, es kann also eine Kopie sein, die nicht aktuell gehalten wird",
+        help_en: "mill with the file that emit writes, and delete this one yourself: emit --remove-stale keeps files that may be copies",
+        help_de: "mit der Datei fräsen, die emit schreibt, und diese selbst löschen: emit --remove-stale lässt Dateien stehen, die Kopien sein können",
+    }
+    /// A program of a path that is not selected and yields another program now.
+    STALE_UNSELECTED: StaleOutput {
+        en: "{name} is out of date: path {path} yields another program now, which emit does not write because no pattern in `[emit] targets` matches the path",
+        de: "{name} ist veraltet: Pfad {path} ergibt jetzt ein anderes Programm, das emit nicht schreibt, weil kein Muster in `[emit] targets` auf den Pfad passt",
+        help_en: "do not mill with it: write it again with emit {path}, or delete it",
+        help_de: "nicht damit fräsen: es mit emit {path} neu schreiben oder löschen",
+    }
     /// A program of a drawing that is excluded by an ignore file or by its hidden name.
     STALE_OF_IGNORED: StaleOutput {
         en: "{name} was written from {drawing}, which is ignored (.ignore, .gitignore, hidden name), so `emit` does not keep it up to date",

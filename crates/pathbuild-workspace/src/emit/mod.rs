@@ -43,7 +43,7 @@ use select::TargetSelection;
 use settle::build_and_settle;
 pub use sheet::sheet_bytes;
 pub use stale_programs::program_of_other_path;
-use stale_programs::{EarlierPrograms, StaleOutcome, has_stale_adjusted_program};
+use stale_programs::{EarlierPrograms, StaleOutcome, has_stale_adjusted_program, report_unselected};
 pub use written_programs::{Scope, WrittenPrograms};
 
 /// A request to emit programs.
@@ -196,7 +196,13 @@ impl Emitter<'_> {
     }
 
     /// Settles the stale programs of earlier runs, writes the dependency file, and caches the results of this run.
-    fn conclude(&self, session: &Session<'_>, memo: &Memo, matches: &ArgumentMatches, run: Run) -> Emission {
+    fn conclude(
+        &self,
+        session: &mut Session<'_>,
+        memo: &Memo,
+        matches: &ArgumentMatches,
+        run: Run,
+    ) -> Emission {
         let Run { selection, mut plans, mut diagnostics } = run;
         let Request { task, join, deps, .. } = self.request;
         let workspace = session.workspace();
@@ -225,8 +231,12 @@ impl Emitter<'_> {
             directories: &selection.directories,
             jobs: &jobs,
         };
-        let StaleOutcome { older, removed, outdated } =
+        let StaleOutcome { older, removed, mut outdated, unselected } =
             earlier.find_and_settle(self.request.removes_stale, &mut diagnostics);
+        let unselected = report_unselected(session, &unselected);
+        let errors = unselected.iter().filter(|finding| workspace.has_error([*finding]));
+        outdated.extend(errors.filter_map(|finding| finding.file.clone()));
+        diagnostics.extend(unselected);
         diagnostics.extend(plans.iter().filter_map(|plan| plan.value.lowered_error(workspace)));
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());

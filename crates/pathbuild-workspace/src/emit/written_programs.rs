@@ -15,7 +15,7 @@ use super::outcome::{ProgramOutcome, Task};
 use super::plan::{Job, JobBuilder, Plan, clashes, leave_out_clashes, warn_of_numbers};
 use super::select::TargetPatterns;
 use super::settle::build_and_settle;
-use super::stale_programs::EarlierPrograms;
+use super::stale_programs::{EarlierPrograms, StaleProgram, report_unselected};
 use crate::memo::{Memo, read_drawings};
 use crate::post_processor::PostProcessor;
 use crate::session::{Session, compare_paths};
@@ -200,11 +200,25 @@ impl WrittenPrograms {
     /// configured targets that match no path.
     pub fn common_problems(
         &mut self,
-        session: &Session<'_>,
+        session: &mut Session<'_>,
         post_processor: Option<&PostProcessor>,
         scope: &Scope<'_>,
     ) -> Vec<Diagnostic> {
-        let mut problems = self.leave_out_clashes(session);
+        let mut problems = Vec::new();
+        let unselected = self.find_common_problems(session, post_processor, scope, &mut problems);
+        problems.extend(report_unselected(session, &unselected));
+        problems
+    }
+
+    /// Adds the findings except those about programs of paths that are no targets, and returns these programs.
+    fn find_common_problems(
+        &mut self,
+        session: &Session<'_>,
+        post_processor: Option<&PostProcessor>,
+        scope: &Scope<'_>,
+        problems: &mut Vec<Diagnostic>,
+    ) -> Vec<StaleProgram> {
+        problems.extend(self.leave_out_clashes(session));
         let programs = self.in_order();
         let targets: Vec<Target> = programs.iter().map(|(target, _)| *target).collect();
         let jobs: Vec<&Job> = programs.iter().filter_map(|(_, plan)| plan.job.as_ref()).collect();
@@ -224,7 +238,7 @@ impl WrittenPrograms {
             directories: scope.directories,
             jobs: &jobs,
         };
-        let outcome = earlier.find_and_settle(false, &mut problems);
+        let outcome = earlier.find_and_settle(false, problems);
         problems.extend(outcome.older.into_iter().flat_map(|older| older.problems));
         if scope.is_library {
             let mut configured = TargetPatterns::new(&session.workspace().settings);
@@ -233,7 +247,7 @@ impl WrittenPrograms {
             }
             problems.extend(configured.unmatched());
         }
-        problems
+        outcome.unselected
     }
 
     /// Leaves out the jobs that share a file with another job, and returns PB514 for each clash.

@@ -110,13 +110,14 @@ impl<'a> Library<'a> {
         request.coverage(self.session.workspace(), self.drawings.keys().cloned().collect())
     }
 
-    /// Returns the drawings and directories that are watched.
-    pub(super) fn scope(&self) -> Scope<'_> {
-        Scope {
+    /// Returns the session, and the drawings and directories that are watched.
+    pub(super) fn session_and_scope(&mut self) -> (&mut Session<'a>, Scope<'_>) {
+        let scope = Scope {
             is_library: self.inputs.inputs.is_empty(),
             drawings: &self.found_drawings,
             directories: &self.directories,
-        }
+        };
+        (&mut self.session, scope)
     }
 
     /// Returns the diagnostics that belong to no single drawing.

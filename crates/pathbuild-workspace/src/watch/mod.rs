@@ -115,7 +115,8 @@ impl WatchLoop<'_> {
         self.library.check_common(&mut found);
         self.writer.set_second_definitions(&self.library);
         self.writer.write(self.library.session_mut(), &found.checked_files);
-        self.writer.update_problems(self.library.session(), Some(&self.library.scope()), &mut found);
+        let (session, scope) = self.library.session_and_scope();
+        self.writer.update_problems(session, Some(&scope), &mut found);
         let programs = self.writer.target_drawings(self.library.session(), &found.checked_files);
         if !programs.is_empty() {
             self.report_checked(&programs);
@@ -177,8 +178,9 @@ impl WatchLoop<'_> {
         }
         self.library.check_common(&mut found);
         self.library.postpone_rest(&mut found);
-        let scope = (!self.library.has_backlog()).then(|| self.library.scope());
-        self.writer.update_problems(self.library.session(), scope.as_ref(), &mut found);
+        let is_complete = !self.library.has_backlog();
+        let (session, scope) = self.library.session_and_scope();
+        self.writer.update_problems(session, is_complete.then_some(&scope), &mut found);
         found.time = begun.elapsed();
         if found.has_other_problems {
             found.problems = self.common_problems();

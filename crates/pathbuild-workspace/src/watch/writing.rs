@@ -125,7 +125,7 @@ impl<'a> Writer<'a> {
     /// Updates the diagnostics of programs in a batch. While drawings are still to be checked, `scope` is `None` and the common ones are left as is.
     pub(super) fn update_problems(
         &mut self,
-        session: &Session<'_>,
+        session: &mut Session<'_>,
         scope: Option<&Scope<'_>>,
         update: &mut Update,
     ) {

@@ -8,6 +8,7 @@ use std::time::Duration;
 use std::{fs, thread};
 
 use pathbuild_db::system::OsSystem;
+use pathbuild_diagnostic::messages::outputs::STALE_UNSELECTED;
 use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_workspace::emit::{self, State, Task};
 use pathbuild_workspace::session::Session;
@@ -42,6 +43,7 @@ struct Comparer {
     /// Description of the difference at the last comparison.
     difference: RefCell<String>,
     codes: RefCell<BTreeMap<Code, usize>>,
+    has_unselected: Cell<bool>,
     steps: Cell<usize>,
 }
 
@@ -57,9 +59,19 @@ impl Comparer {
         for directory in ["deep", "search"] {
             fs::create_dir(place.path().join("lib").join(directory)).unwrap();
         }
+        // No configured target matches this path.
+        for directory in ["lib", "gcode"] {
+            let directory = place.path().join(directory);
+            fs::create_dir_all(&directory).unwrap();
+            let head = "(pathbuild 0.2.0 3f2a9c0d41b7e685-09c1d2e3 native O2 T5)";
+            for drawing in ["1001", "8001.1P", "8001-8003 x"] {
+                let program = format!("%\n{head}\n(Path 1001.1P, drawing {drawing}.dxf)\nM30\n%\n");
+                fs::write(directory.join(format!("old {drawing}.gcode")), program).unwrap();
+            }
+        }
         let chance = RefCell::new(Chance(0x9e37_79b9_7f4a_7c15 ^ seed));
-        let (bell, state, edits, difference, codes, steps) = Default::default();
-        Self { place, bell, chance, state, edits, difference, codes, steps }
+        let (bell, state, edits, difference, codes, has_unselected, steps) = Default::default();
+        Self { place, bell, chance, state, edits, difference, codes, has_unselected, steps }
     }
 
     /// Returns the findings of `check` and `emit --check`, and the programs that differ from what `emit` would write.
@@ -132,6 +144,7 @@ impl Comparer {
         for found in now {
             *state.entry(key(found)).or_default() += 1;
             *self.codes.borrow_mut().entry(found.code()).or_default() += 1;
+            self.has_unselected.set(self.has_unselected.get() || found.message == &STALE_UNSELECTED);
         }
         for found in before.iter().map(key) {
             let count = state.get_mut(&found).expect("the finding was not reported");
@@ -188,6 +201,7 @@ fn compare(configuration: &str, seed: u64) {
     let expected =
         [Code::SameOutput, Code::StaleOutput, Code::OlderOutput, Code::NoPath, Code::PathDefinedTwice];
     assert!(expected.iter().all(|code| codes.contains_key(code)), "{codes:?}");
+    assert!(comparer.has_unselected.get());
 }
 
 #[test]

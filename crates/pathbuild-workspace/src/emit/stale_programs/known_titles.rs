@@ -17,8 +17,8 @@ use crate::session::Session;
 /// The drawings and paths that may have produced a program.
 pub(super) struct KnownTitles {
     /// Titles of paths in covered drawings for which the run generates nothing, because they have errors or are not selected. Existing files may
-    /// still belong to them.
-    idle: BTreeSet<Title>,
+    /// still belong to them. The number is that of the path in `paths`; `None` if several drawings define it.
+    idle: BTreeMap<Title, Option<usize>>,
     /// Drawings of which the run knows all paths.
     covered: BTreeSet<Title>,
     /// Drawings that cannot be read, with their file names.
@@ -83,7 +83,13 @@ impl KnownTitles {
             drawing.value.names.iter().map(named).collect::<Vec<_>>()
         };
         let paths: Vec<_> = all_covered.iter().flat_map(names).collect();
-        let of_covered = paths.iter().map(|(_, drawing, name)| path(drawing, name.as_str()));
+        let mut idle = BTreeMap::new();
+        for (number, (_, drawing, name)) in paths.iter().enumerate() {
+            let title = path(drawing, name.as_str());
+            if !generated.contains(&title) {
+                idle.entry(title).and_modify(|known| *known = None).or_insert(Some(number));
+            }
+        }
         let is_broken =
             |drawing: &&Answer<DrawingResult>| drawing.value.diagnostics.iter().any(Diagnostic::is_error);
         let (broken, sound): (Vec<_>, Vec<_>) = all_covered.iter().partition(is_broken);
@@ -97,7 +103,7 @@ impl KnownTitles {
         let others = library.iter().filter(|drawing| !covered.contains(&***drawing));
         let others = others.map(|drawing| &**drawing).chain(broken.iter().map(|drawing| drawing.drawing()));
         Self {
-            idle: of_covered.filter(|title| !generated.contains(title)).collect(),
+            idle,
             covered: covered.iter().map(|drawing| written(drawing)).collect(),
             unread: unread.collect(),
             others: others.map(written).collect(),
@@ -129,7 +135,7 @@ impl KnownTitles {
             return Some(Reason::Unread { drawing: drawing.clone() });
         }
         let beside = beside.find(|name| plain_title(name) == drawing.1);
-        if self.idle.contains(&named(&title)) || self.others.contains(&drawing) {
+        if self.idle.contains_key(&named(&title)) || self.others.contains(&drawing) {
             return None;
         }
         if self.covered.contains(&drawing) {
@@ -147,6 +153,13 @@ impl KnownTitles {
         }
         let is_there = beside.is_some() || in_library.is_some() || self.searched.contains(&drawing.1);
         if is_there { None } else { self.reason_if_gone() }
+    }
+
+    /// Returns the drawing and the path in the title of a program, if the run generates nothing for this path.
+    pub(super) fn idle_path(&self, directory: &Utf8Path, title: &str) -> Option<(&Utf8Path, &PathName)> {
+        let number = *self.idle.get(&(directory.to_owned(), plain_title(title)))?;
+        let (_, drawing, name) = &self.paths[number?];
+        Some((drawing, name))
     }
 
     /// Returns the reason why a program is stale if its drawing was not found.

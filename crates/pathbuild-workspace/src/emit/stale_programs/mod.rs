@@ -13,12 +13,13 @@ mod search;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, Names, join};
-use pathbuild_db::{Db, Target};
+use pathbuild_db::{Database, Db, Target, program};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 
+use super::options::Provenances;
 use super::outcome::{ProgramOutcome, Task};
 use super::plan::Job;
 use crate::memo::{Answer, DrawingResult};
@@ -26,7 +27,8 @@ use crate::post_processor::PostProcessor;
 use crate::session::{Argument, OutputKind, Session};
 
 pub use names::program_of_other_path;
-use reason::{Reason, StaleProgram};
+use reason::Reason;
+pub(super) use reason::StaleProgram;
 use search::{FormerFile, StaleSearch};
 
 /// The outcome of searching for stale programs of earlier runs.
@@ -37,6 +39,8 @@ pub(super) struct StaleOutcome {
     pub(super) removed: Vec<Utf8PathBuf>,
     /// Stale programs that are reported as errors.
     pub(super) outdated: Vec<Utf8PathBuf>,
+    /// Programs of paths that the run did not select, for [`report_unselected`].
+    pub(super) unselected: Vec<StaleProgram>,
 }
 
 /// The search for programs of earlier runs in the directories of this run's programs.
@@ -71,7 +75,9 @@ impl<'a> EarlierPrograms<'a> {
         }
         let older = self.earlier_outcomes(diagnostics);
         let stale = self.find_stale_programs(diagnostics);
-        StaleOutcome { older, ..self.settle(stale, is_removed, diagnostics) }
+        let (unselected, stale) =
+            stale.into_iter().partition(|stale| matches!(stale.reason, Reason::Unselected { .. }));
+        StaleOutcome { older, unselected, ..self.settle(stale, is_removed, diagnostics) }
     }
 
     fn settle(
@@ -108,6 +114,8 @@ impl<'a> EarlierPrograms<'a> {
     fn is_kept(&self, stale: &StaleProgram) -> bool {
         match &stale.reason {
             Reason::Copied
+            | Reason::CurrentCopy { .. }
+            | Reason::Unselected { .. }
             | Reason::Elsewhere { .. }
             | Reason::Ignored { .. }
             | Reason::OfOthers
@@ -172,6 +180,25 @@ impl<'a> EarlierPrograms<'a> {
             Names::default()
         })
     }
+}
+
+/// Returns warnings about programs of paths that the run did not select, if these paths have other moves now. Only for these programs, paths that are
+/// not selected are built.
+pub(super) fn report_unselected(session: &mut Session<'_>, programs: &[StaleProgram]) -> Vec<Diagnostic> {
+    if programs.is_empty() {
+        return Vec::new();
+    }
+    let provenances = Provenances::new(&session.workspace().settings, None);
+    let is_stale = |db: &Database, earlier: &StaleProgram| match &earlier.reason {
+        Reason::Unselected { target, moves, .. } => {
+            program(db, *target).as_ref().is_some_and(|now| provenances.of(&[&**now]).moves != *moves)
+        }
+        _ => true,
+    };
+    let size = session.programs_per_batch(programs.len());
+    let compared = session.in_batches(programs, size, |session, batch| session.map_guarded(batch, is_stale));
+    let stale = programs.iter().zip(compared).filter(|(_, is_stale)| matches!(is_stale, Ok(true)));
+    stale.map(|(earlier, _)| earlier.diagnostic()).collect()
 }
 
 /// Whether a program on disk was adjusted from an earlier state of the job's program or with heights other than those measured now, or was edited

@@ -1,6 +1,7 @@
 //! The reasons why a program on disk is stale, with their diagnostics.
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::Target;
 use pathbuild_db::system::or_current_directory;
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
@@ -9,7 +10,7 @@ use crate::session::OutputName;
 
 /// A program on disk that must not be run on the machine.
 #[derive(Debug)]
-pub(super) struct StaleProgram {
+pub(in crate::emit) struct StaleProgram {
     pub(super) path: Utf8PathBuf,
     pub(super) reason: Reason,
 }
@@ -21,6 +22,10 @@ pub(super) enum Reason {
     Left,
     /// No path yields the program any more, and `emit` would give it another name, so a person may have copied it.
     Copied,
+    /// The file contains the current program of `path` under a name that `emit` does not give it.
+    CurrentCopy { path: String },
+    /// The run does not write the program of `path`. The program is stale only if its moves differ from those that the target has now.
+    Unselected { path: String, target: Target, moves: Box<str> },
     /// The program's drawing cannot be read, so it is unknown whether its path still yields the program.
     Unread { drawing: String },
     /// The program lies beside its drawing, but programs are written into `directory` now.
@@ -53,6 +58,12 @@ impl StaleProgram {
         let problem = match &self.reason {
             Reason::Left => Diagnostic::new(&messages::STALE),
             Reason::Copied => Diagnostic::new(&messages::STALE_COPY),
+            Reason::CurrentCopy { path } => {
+                Diagnostic::new(&messages::CURRENT_COPY).quoting("path", path.as_str())
+            }
+            Reason::Unselected { path, .. } => {
+                Diagnostic::new(&messages::STALE_UNSELECTED).quoting("path", path.as_str())
+            }
             Reason::Unread { drawing } => {
                 Diagnostic::new(&messages::OUTPUT_OF_UNREAD).quoting("drawing", drawing.as_str())
             }

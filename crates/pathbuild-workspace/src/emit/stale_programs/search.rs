@@ -117,7 +117,7 @@ impl<'a> StaleSearch<'a> {
             _ => self.of_other_post(&path, &found, &title).or_else(|| {
                 let reason = match self.reason_without_job(&path, &found, &title, beside?)? {
                     Reason::Left | Reason::OtherJoined { .. } if !has_name_of_title(&path, &title) => {
-                        Reason::Copied
+                        self.reason_of_copy(&path, &found, &title)
                     }
                     reason => reason,
                 };
@@ -140,6 +140,32 @@ impl<'a> StaleSearch<'a> {
         let directory = path.parent().unwrap_or(Utf8Path::new(""));
         let gone = self.writers.removal_reason(directory, title, beside.iter());
         gone.or_else(|| self.reason_if_moved(path, found, title, beside))
+            .or_else(|| self.reason_if_unselected(directory, found, title))
+    }
+
+    /// Returns the reason why a program with a name that `emit` does not give it is stale.
+    fn reason_of_copy(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Reason {
+        let session = self.run.session;
+        let limit = session.workspace().settings.limits.file_size.value;
+        let read = |file: &Utf8Path| session.db().system().read(file, limit).ok();
+        let is_current = |job: &Job| {
+            let now = job.outcome.as_ref().and_then(|outcome| outcome.provenance.as_ref());
+            let text = read(path).filter(|_| now.is_some_and(|now| now.is_same(found)));
+            text.is_some_and(|text| job.files.iter().any(|(_, file)| read(file).as_ref() == Some(&text)))
+        };
+        let job = self.run.jobs.iter().find(|job| is_of(job, session, title));
+        let current = job.filter(|job| is_current(job));
+        current.map_or(Reason::Copied, |job| Reason::CurrentCopy { path: job.path.to_string() })
+    }
+
+    /// Returns the reason why a program may be stale whose path the run did not select.
+    fn reason_if_unselected(&self, directory: &Utf8Path, found: &Provenance, title: &str) -> Option<Reason> {
+        let session = self.run.session;
+        let (drawing, name) = self.writers.idle_path(directory, title)?;
+        let target = session.db().target(session.file(drawing), name.as_str(), Role::Emitted);
+        let is_selected = self.run.targets.contains(&target);
+        let path = name.to_string();
+        (!is_selected).then(|| Reason::Unselected { path, target, moves: found.moves.clone() })
     }
 
     /// Returns the reason why a program without its drawing beside it is stale: the run writes the program of this path, which has other moves now, into
