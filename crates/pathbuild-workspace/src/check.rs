@@ -18,8 +18,7 @@ use pathbuild_path::{Bindings, PathName};
 use crate::common_findings::{globs_without_file, patterns_without_layer, unused_configurations};
 use crate::config::ResultKind;
 use crate::memo::{
-    Answer, Coverage, Dependencies, DrawingResult, Memo, NamedLayers, check_query, find, read_drawings,
-    subject,
+    Answer, Coverage, Dependencies, DrawingResult, Memo, NamedLayers, check_query, find, read_named, subject,
 };
 use crate::session::timings::{FINDING_DRAWINGS, STORING_RESULTS, VERIFYING_CACHE};
 use crate::session::{
@@ -178,14 +177,10 @@ impl Request<'_> {
         matches: &ArgumentMatches,
         memo: &Memo,
     ) -> Results {
-        let mut named: Vec<Utf8PathBuf> =
-            matches.candidates().map(|file| file.path(session.db()).clone()).collect();
-        named.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
-        named.dedup();
         let known = |path: &Utf8PathBuf| {
             if memo.holds(path.as_str()) { path.as_str().into() } else { subject(path, Some(&[])) }
         };
-        let named = read_drawings(session, memo, &named, known);
+        let named = read_named(session, memo, matches.candidates(), known);
         let names = |file: SourceFile| {
             find(&named, file.path(session.db())).map_or(&[][..], |answer| &answer.value.names)
         };
@@ -193,7 +188,8 @@ impl Request<'_> {
         let targets = targets(session, &selection);
         let check = |open: &[&CheckTarget]| {
             if memo.is_some() {
-                report_known(session.workspace(), targets.len() - open.len(), targets.len());
+                let known = targets.len() - open.len();
+                session.workspace().report_cached(["drawings", "Zeichnungen"], known, targets.len());
             }
             let paths = open.iter().map(|target| (session.file(&target.drawing), target.names.as_deref()));
             let paths: Vec<(SourceFile, Option<&[PathName]>)> = paths.collect();
@@ -227,12 +223,6 @@ struct Results {
     named: Vec<Answer<DrawingResult>>,
     /// Results of the drawings and paths that the arguments select.
     each: Vec<Answer<DrawingResult>>,
-}
-
-fn report_known(context: &Workspace, known: usize, all: usize) {
-    let phrase = context
-        .choose("drawings with valid cached results", "Zeichnungen mit gültigen gespeicherten Ergebnissen");
-    context.reporter.detail(&format!("{phrase}: {known} / {all}"));
 }
 
 /// Returns the targets to check: each drawing as a whole, and the drawings that define individually named paths, unless these are checked as a

@@ -93,6 +93,13 @@ impl Workspace {
     pub fn phrase(&self, en: &str, de: &str, value: &str) -> String {
         self.choose(en, de).replace("{}", value)
     }
+
+    /// Reports for how many subjects, which are named in English and German, results of earlier runs are used.
+    pub(crate) fn report_cached(&self, [en, de]: [&str; 2], known: usize, all: usize) {
+        let subjects = self.choose(en, de);
+        let phrase = self.choose("with valid cached results", "mit gültigen gespeicherten Ergebnissen");
+        self.reporter.detail(&format!("{subjects} {phrase}: {known} / {all}"));
+    }
 }
 
 /// A receiver of progress messages of a run, which may come from any thread.

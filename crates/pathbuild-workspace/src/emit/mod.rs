@@ -302,14 +302,10 @@ fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answ
     let open = paths * plans.iter().filter(|plan| plan.inputs.is_some()).count();
     let drawings = selection.drawings().count();
     let read = selection.drawings().filter(|drawing| drawing.inputs.is_some()).count();
-    let known = [(selection.targets.len() - open, selection.targets.len()), (drawings - read, drawings)];
-    let phrases = [
-        context.choose("paths with valid cached results", "Pfade mit gültigen gespeicherten Ergebnissen"),
-        context.choose("drawings known from the cache", "Zeichnungen, die aus dem Cache bekannt sind"),
-    ];
-    for (phrase, (known, all)) in phrases.iter().zip(known) {
-        context.reporter.detail(&format!("{phrase}: {known} / {all}"));
-    }
+    context.report_cached(["paths", "Pfade"], selection.targets.len() - open, selection.targets.len());
+    let phrase =
+        context.choose("drawings known from the cache", "Zeichnungen, die aus dem Cache bekannt sind");
+    context.reporter.detail(&format!("{phrase}: {} / {drawings}", drawings - read));
 }
 
 /// For each target with a program on disk, returns whether that program is up to date, or the errors that keep it from being generated.

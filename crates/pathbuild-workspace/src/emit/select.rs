@@ -10,7 +10,7 @@ use pathbuild_path::PathName;
 
 use crate::common_findings::unused_configurations;
 use crate::config::Settings;
-use crate::memo::{Answer, DrawingResult, Memo, find, read_drawings};
+use crate::memo::{Answer, DrawingResult, Memo, find, read_drawings, read_named};
 use crate::session::{Argument, ArgumentMatches, Selection, Session, several_paths_error};
 
 /// The paths to emit, and the drawings that were considered.
@@ -40,12 +40,8 @@ impl TargetSelection {
         if matches.is_library && (!has_targets || !session.has_library()) {
             return None;
         }
-        let read = |paths: &[Utf8PathBuf]| read_drawings(session, memo, paths, |path| path.as_str().into());
-        let mut named: Vec<Utf8PathBuf> =
-            matches.named_drawings().map(|file| file.path(session.db()).clone()).collect();
-        named.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
-        named.dedup();
-        let named = read(&named);
+        let subject = |path: &Utf8PathBuf| path.as_str().into();
+        let named = read_named(session, memo, matches.named_drawings(), subject);
         let names = |file: SourceFile| {
             find(&named, file.path(session.db())).map_or(&[][..], |drawing| &drawing.value.names)
         };
@@ -57,7 +53,7 @@ impl TargetSelection {
             let resolved = session.select_arguments(matches, group, &names);
             diagnostics.extend_from_slice(&resolved.problems);
             diagnostics.extend(unused_configurations(session, &resolved.below));
-            let covered = read(&resolved.drawings);
+            let covered = read_drawings(session, memo, &resolved.drawings, subject);
             let mut collector = TargetCollector {
                 session,
                 diagnostics: &mut *diagnostics,

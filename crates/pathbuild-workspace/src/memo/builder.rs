@@ -401,6 +401,19 @@ pub(crate) fn read_drawings(
     memo.get_or(paths, subject, |_, result| Some(result), read)
 }
 
+/// Like [`read_drawings`], for drawings that arguments name, in the order in which [`find`] finds them.
+pub(crate) fn read_named(
+    session: &Session<'_>,
+    memo: &Memo,
+    files: impl Iterator<Item = SourceFile>,
+    subject: impl Fn(&Utf8PathBuf) -> Box<str>,
+) -> Vec<Answer<DrawingResult>> {
+    let mut paths: Vec<Utf8PathBuf> = files.map(|file| file.path(session.db()).clone()).collect();
+    paths.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
+    paths.dedup();
+    read_drawings(session, memo, &paths, subject)
+}
+
 impl Session<'_> {
     /// Returns the names of the paths in the library, or below the working directory if there is no library; sorted, without duplicates. At most
     /// `MAX_READ_FOR_NAMES` drawings without a cached result are read.

@@ -16,7 +16,7 @@ use crate::workspace::Workspace;
 
 use crate::memo::store::Scope;
 pub use builder::{DrawingResult, NamedLayers, is_transient};
-pub(crate) use builder::{find, read_drawings, subject};
+pub(crate) use builder::{find, read_drawings, read_named, subject};
 use store::Store;
 pub use store::{Answer, Dependencies, FreshResult, GeneratedFile, Inputs, OutputState, hash_output};
 pub use store::{BUILD, Coverage, CoveredPaths};

@@ -12,7 +12,7 @@ use crate::files::ExtraInput;
 use crate::memo::{Answer, Inputs, Memo, is_transient};
 use crate::program;
 use crate::session::Session;
-use crate::workspace::{Failure, Workspace};
+use crate::workspace::Failure;
 
 /// A request to verify programs.
 #[derive(Debug)]
@@ -99,7 +99,8 @@ impl Verifier<'_> {
         let traces: Vec<_> = self.against.iter().filter_map(|against| against.trace()).cloned().collect();
         let verify = |open: &[&Utf8PathBuf]| {
             if memo.is_some() {
-                report_known(session.workspace(), files.len() - open.len(), files.len());
+                let known = files.len() - open.len();
+                session.workspace().report_cached(["programs", "Programme"], known, files.len());
             }
             let verified = session.map_programs(open, |file| self.verify_file(file));
             let with_inputs = |(file, (program, hash)): (&&Utf8PathBuf, (VerifiedProgram, _))| {
@@ -139,9 +140,4 @@ impl Verifier<'_> {
         let parts = (&self.options, self.required(), self.lang, limits, &self.machine, identities, drawing);
         format!("verify {parts:?}")
     }
-}
-
-fn report_known(workspace: &Workspace, known: usize, all: usize) {
-    let [en, de] = ["programs with valid cached results", "Programme mit gültigen gespeicherten Ergebnissen"];
-    workspace.reporter.detail(&format!("{}: {known} / {all}", workspace.choose(en, de)));
 }
