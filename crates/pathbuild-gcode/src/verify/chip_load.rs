@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::{Action, ChipLoad, Pace, Step, Turning};
 
+use super::{ByTool, tool_at};
 use crate::read::Problems;
 
 /// Rule that finds chip loads outside the limits of the tools: pass every step of a program, then call [`finish`](Self::finish). A feed is
 /// reported at its first cut, once for each tool and each speed.
 #[derive(Debug)]
 pub struct ChipLoadRules {
-    /// The limits of the tools, each with the line from which it cuts, in the order of the lines.
-    tools: Vec<(u32, Option<ChipLoad>)>,
+    tools: ByTool<Option<ChipLoad>>,
     /// The spindle speed in 1/min that the program has set: 0 if it has stopped the spindle, `None` if it has set no speed.
     speed: Option<f64>,
     /// The tool, the feed and the speed of the last cut, which need not be checked again.
@@ -25,8 +25,8 @@ pub struct ChipLoadRules {
 type Cut = (usize, u64, Option<u64>);
 
 impl ChipLoadRules {
-    /// Creates the rule for tools, each with the line from which it cuts, in the order of the lines.
-    pub fn new(tools: Vec<(u32, Option<ChipLoad>)>) -> Self {
+    /// Creates the rule for the limits of the tools.
+    pub fn new(tools: ByTool<Option<ChipLoad>>) -> Self {
         Self { tools, speed: None, last: None, reported: BTreeSet::new(), problems: Problems::default() }
     }
 
@@ -51,7 +51,7 @@ impl ChipLoadRules {
     }
 
     fn check(&mut self, line: u32, feed: f64) {
-        let Some(tool) = self.tools.partition_point(|(from, _)| *from <= line).checked_sub(1) else { return };
+        let Some(tool) = tool_at(&self.tools, line) else { return };
         let cut = (tool, feed.to_bits(), self.speed.map(f64::to_bits));
         if self.last.replace(cut) == Some(cut) {
             return;

@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::{Action, Step, check_cutting_length};
 
-use super::Stock;
+use super::{ByTool, Stock, tool_at};
 
 /// Rule that finds cuts deeper than the cutting edges of their tools are long: pass every step of a program, then call [`finish`](Self::finish). The
 /// deepest cut of each tool is reported.
@@ -11,8 +11,8 @@ use super::Stock;
 pub struct CuttingLengthRules<'s> {
     /// The material; `None` if its height is unknown, so that nothing is checked.
     stock: Option<&'s Stock>,
-    /// The lengths in mm of the tools' cutting edges, if known, each with the line from which the tool cuts, in the order of the lines.
-    tools: Vec<(u32, Option<f64>)>,
+    /// The lengths in mm of the tools' cutting edges, if known.
+    tools: ByTool<Option<f64>>,
     /// For each tool, the deepest cut.
     deepest: Vec<Option<DeepestCut>>,
 }
@@ -25,8 +25,8 @@ struct DeepestCut {
 }
 
 impl<'s> CuttingLengthRules<'s> {
-    /// Creates the rule for the lengths in mm of the tools' cutting edges, each with the line from which the tool cuts, in the order of the lines.
-    pub fn new(tools: Vec<(u32, Option<f64>)>, stock: Option<&'s Stock>) -> Self {
+    /// Creates the rule for the lengths in mm of the tools' cutting edges, if known.
+    pub fn new(tools: ByTool<Option<f64>>, stock: Option<&'s Stock>) -> Self {
         Self { stock, deepest: vec![None; tools.len()], tools }
     }
 
@@ -36,7 +36,7 @@ impl<'s> CuttingLengthRules<'s> {
         let (true, [.., Some((bottom, _))]) = (movement.pace.feed().is_some(), movement.extent()) else {
             return;
         };
-        let tool = self.tools.partition_point(|(from, _)| *from <= step.line).checked_sub(1);
+        let tool = tool_at(&self.tools, step.line);
         let surface = self.stock.and_then(|stock| stock.at(step.line)).map(|span| span.surface);
         let (Some(tool), Some(surface)) = (tool, surface) else { return };
         let deepest = &mut self.deepest[tool];

@@ -4,12 +4,13 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Step, Turning};
 
+use super::{ByTool, tool_at};
+
 /// Rule that finds cuts during which the spindle turns against the direction of the tool, and programs that cut without ever starting the spindle:
 /// pass every step of a program, then call [`finish`](Self::finish). Each tool is reported at most once.
 #[derive(Debug)]
 pub struct DirectionRules {
-    /// The directions of the tools, each with the line from which it cuts, in the order of the lines.
-    tools: Vec<(u32, Option<Turning>)>,
+    tools: ByTool<Option<Turning>>,
     turning: Turning,
     has_speed: bool,
     /// The lines of the first cut, and of the first cut of a tool with a direction, before the program switches the spindle.
@@ -18,8 +19,8 @@ pub struct DirectionRules {
 }
 
 impl DirectionRules {
-    /// Creates the rule for tools, each with the line from which it cuts, in the order of the lines.
-    pub fn new(tools: Vec<(u32, Option<Turning>)>) -> Self {
+    /// Creates the rule for the directions of the tools.
+    pub fn new(tools: ByTool<Option<Turning>>) -> Self {
         Self { tools, turning: Turning::Unstated, has_speed: false, unstarted: [None; 2], found: Vec::new() }
     }
 
@@ -41,7 +42,7 @@ impl DirectionRules {
         if self.turning == Turning::Unstated {
             self.unstarted[0].get_or_insert(line);
         }
-        let Some(tool) = self.tools.partition_point(|(from, _)| *from <= line).checked_sub(1) else { return };
+        let Some(tool) = tool_at(&self.tools, line) else { return };
         let Some(wanted) = self.tools[tool].1 else { return };
         if self.turning == Turning::Unstated {
             self.unstarted[1].get_or_insert(line);

@@ -58,6 +58,14 @@ use crate::dialect::Dialect;
 use crate::interpret::Program;
 use crate::read::Problems;
 
+/// A property of the tools of a program, each with the line from which the tool cuts, in the order of the lines.
+pub type ByTool<T> = Vec<(u32, T)>;
+
+/// Returns the index of the tool that cuts in a line; `None` before the first one.
+fn tool_at<T>(tools: &[(u32, T)], line: u32) -> Option<usize> {
+    tools.partition_point(|(from, _)| *from <= line).checked_sub(1)
+}
+
 /// Reports problems in the effects of a program, ordered by line. If the material is known, this includes rapid moves and tool changes in it. Each
 /// step is also passed to `each`, so that the program need not be processed again for another purpose; only the map of the material requires further
 /// passes.

@@ -7,7 +7,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, Header, StatedCutter};
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::verify::{BlindRapids, Cutter, DepthRules, Stock, StockSpan};
+use pathbuild_gcode::verify::{BlindRapids, ByTool, Cutter, DepthRules, Stock, StockSpan};
 use pathbuild_motion::Turning;
 
 use super::against::ReferenceProgram;
@@ -350,9 +350,9 @@ impl<'s> Sources<'s> {
         self.tools().get(entry)
     }
 
-    /// Returns the configured tools that cut, each with the line from which it cuts. Empty for XpertMILL, whose layers are not tools, and for a
+    /// Returns the configured tools that cut. Empty for XpertMILL, whose layers are not tools, and for a
     /// program with subprograms and several tools, in which the tool of a line depends on the caller.
-    pub(super) fn cutting_tools(&self) -> Vec<(u32, Option<&'s Tool>)> {
+    pub(super) fn cutting_tools(&self) -> ByTool<Option<&'s Tool>> {
         if self.program.dialect == Dialect::Xpertmill || self.header.has_calls && self.header.tools.len() > 1
         {
             return Vec::new();
@@ -363,9 +363,9 @@ impl<'s> Sources<'s> {
         self.header.tools.iter().map(entry).collect()
     }
 
-    /// Returns the directions of rotation of the tools, each with the line from which the tool cuts. Where the tool is not known, as in programs
-    /// without T, this is the direction that all configured tools have in common.
-    pub(super) fn directions(&self) -> Vec<(u32, Option<Turning>)> {
+    /// Returns the directions of rotation of the tools. Where the tool is not known, as in programs without T, this is the direction that all
+    /// configured tools have in common.
+    pub(super) fn directions(&self) -> ByTool<Option<Turning>> {
         let all: Vec<Option<Turning>> = self.tools().iter().map(Tool::turning).collect();
         let common =
             all.first().copied().flatten().filter(|first| all.iter().all(|turning| *turning == Some(*first)));
