@@ -48,9 +48,8 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
         let ended = match faults.is_empty() {
             // An editor may remove the configuration before it writes the new one.
             true if is_lost => {
-                if let Some(server) = &server {
-                    server.halt(&[], context.choose("pathbuild.toml is missing", "pathbuild.toml fehlt"));
-                }
+                let reason = context.choose("pathbuild.toml is missing", "pathbuild.toml fehlt");
+                watch::halt(server.as_ref(), &[], reason);
                 Ok(ExitStatus::Usage)
             }
             true => {
@@ -58,9 +57,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                 watch::run(&context, args, server.as_ref(), &is_current)
             }
             false => {
-                if let Some(server) = &server {
-                    server.halt(&faults, "");
-                }
+                watch::halt(server.as_ref(), &faults, "");
                 Ok(context.refuse(faults))
             }
         };
@@ -69,21 +66,9 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                 return context.printer.finish(status);
             }
             Ok(_) => {
-                context.printer.status(context.choose(
-                    "the configuration, its post-processor or its baseline is missing or invalid: nothing is checked until this is fixed",
-                    "die Konfiguration, ihr Postprozessor oder ihre Liste bekannter Befunde fehlt oder ist fehlerhaft: es wird erst weiter geprüft, wenn das behoben ist",
-                ));
-                while Sources::of(&Context::of(cli).0) == sources {
-                    if server.as_ref().is_some_and(Server::is_over) {
-                        return context.printer.finish(ExitStatus::Success);
-                    }
-                    thread::sleep(CONFIGURATION_INTERVAL);
-                    change_directory(&home);
+                if !wait_for_fix(cli, &context, &sources, &home, server.as_ref()) {
+                    return context.printer.finish(ExitStatus::Success);
                 }
-                tell_restart(
-                    &context,
-                    context.choose("the configuration was corrected", "die Konfiguration wurde berichtigt"),
-                );
             }
             Err(because) => {
                 has_begun = true;
@@ -93,6 +78,30 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
             }
         }
     }
+}
+
+/// Waits until the configuration changes. Returns false if the user has ended watching meanwhile.
+fn wait_for_fix(
+    cli: &Cli,
+    context: &Context,
+    sources: &Sources,
+    home: &Utf8Path,
+    server: Option<&Server>,
+) -> bool {
+    context.printer.status(context.choose(
+        "the configuration, its post-processor or its baseline is missing or invalid: nothing is checked until this is fixed",
+        "die Konfiguration, ihr Postprozessor oder ihre Liste bekannter Befunde fehlt oder ist fehlerhaft: es wird erst weiter geprüft, wenn das behoben ist",
+    ));
+    while Sources::of(&Context::of(cli).0) == *sources {
+        if server.is_some_and(Server::is_over) {
+            return false;
+        }
+        thread::sleep(CONFIGURATION_INTERVAL);
+        change_directory(home);
+    }
+    let reason = context.choose("the configuration was corrected", "die Konfiguration wurde berichtigt");
+    tell_restart(context, reason);
+    true
 }
 
 /// Tells readers of JSON that all findings so far are void, because watching starts again.
@@ -115,9 +124,7 @@ fn return_to_working_directory(cli: &Cli, home: &Utf8Path, server: Option<&Serve
         "das Arbeitsverzeichnis {} fehlt: nichts wird geprüft, bis es wieder da ist",
         &shown::line(home.as_str()),
     );
-    if let Some(server) = server {
-        server.halt(&[], &line);
-    }
+    watch::halt(server, &[], &line);
     context.printer.status(line);
     while !change_directory(home) {
         if server.is_some_and(Server::is_over) {

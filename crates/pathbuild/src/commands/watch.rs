@@ -36,11 +36,6 @@ pub(crate) fn run(
     is_configuration_current: &dyn Fn() -> bool,
 ) -> Result<ExitStatus, &'static str> {
     let page = server.map(|server| server.page(context));
-    let halt = |problems: &[Diagnostic], reason: &str| {
-        if let Some(server) = server {
-            server.halt(problems, reason);
-        }
-    };
     // Without a library, show all drawings that `list` would list.
     let is_everything = page.is_some() && args.inputs.inputs.is_empty() && !context.has_library();
     let here = Inputs { inputs: vec![".".to_owned()] };
@@ -70,15 +65,15 @@ pub(crate) fn run(
                 "nothing to emit: set `[emit] targets` in pathbuild.toml",
                 "nichts zu schreiben: `[emit] targets` in pathbuild.toml setzen",
             );
-            halt(&[], reason);
+            halt(server, &[], reason);
             context.usage(reason)
         }
         WatchEnd::BadPost(problems) => {
-            halt(&problems, "");
+            halt(server, &problems, "");
             context.fail(problems)
         }
         WatchEnd::BadBaseline(problems) => {
-            halt(&problems, "");
+            halt(server, &problems, "");
             context.refuse(problems)
         }
         WatchEnd::CannotWatch(reason) => {
@@ -86,11 +81,18 @@ pub(crate) fn run(
                 "--poll checks for changes at intervals instead",
                 "--poll sucht stattdessen in festen Abständen nach Änderungen",
             );
-            halt(&[], &reason);
+            halt(server, &[], &reason);
             let cannot = context.choose("cannot watch", "kann nicht beobachten");
             context.usage(&format!("{cannot}: {reason}; {advice}"))
         }
     })
+}
+
+/// Shows on the page, if there is one, the reason why nothing is checked.
+pub(crate) fn halt(server: Option<&Server>, problems: &[Diagnostic], reason: &str) {
+    if let Some(server) = server {
+        server.halt(problems, reason);
+    }
 }
 
 /// Listener that prints the first check as `check` does, and for each later batch the new and the fixed findings and one line per changed file.
