@@ -748,6 +748,49 @@ fn the_former_program_of_a_drawing_that_was_moved_is_stale_once_the_path_is_chan
     assert!(!place.run("emit --check").stderr.contains("older program"));
 }
 
+/// Programs remain in the former output directory if `out-dir` is changed.
+#[test]
+fn programs_in_a_former_output_directory_are_stale_once_the_path_is_changed() {
+    let place = Place::of(LIBRARY);
+    let configuration = place.read("pathbuild.toml");
+    let changed = library("1234.1P\nstart 0,0 \"T5 O2 I1 B4", "1234.1P\nstart 0,0 \"T5 O2 I1 B3");
+    let component = fs::read(changed.path().join("components/1234.dxf")).unwrap();
+    let unchanged = fs::read(place.path().join("components/1234.dxf")).unwrap();
+    for (former, now, reported) in [
+        ("nc", Some("gcode"), true),
+        ("nc", None, true),
+        ("nc", Some("nc"), false),
+        ("projects/a/nc", Some("nc"), true),
+        // Only the library is searched recursively.
+        ("other/nc", Some("nc"), false),
+        (".nc", Some("nc"), false),
+        ("../nc", Some("nc"), false),
+    ] {
+        let place = Place::of(LIBRARY).file("components/1234.dxf", &unchanged);
+        let with = |directory: Option<&str>| match directory {
+            Some(directory) => format!("out-dir = \"{directory}\"\n{configuration}"),
+            None => configuration.clone(),
+        };
+        let place = place.file("pathbuild.toml", with(Some(former)));
+        assert_eq!(place.run("emit").status, Some(0));
+        let place = place.file("pathbuild.toml", with(now));
+        let same = place.run("emit");
+        assert!(same.status == Some(0) && !same.stderr.contains("PB520"), "{former} {now:?}: {same}");
+        let place = place.file("components/1234.dxf", &component);
+        let other = place.run("emit --remove-stale");
+        assert_eq!(
+            other.stderr.contains("is an older program of its path"),
+            reported,
+            "{former} {now:?}: {other}"
+        );
+        assert!(place.path().join(former).join("8001 a b_Milling.gcode").exists(), "{former} {now:?}");
+        let checked = place.run("emit --check");
+        assert_eq!(checked.status, Some(i32::from(reported)), "{former} {now:?}: {checked}");
+        let place = place.file(".ignore", "nc/\n");
+        assert_eq!(place.run("emit --check").status, Some(0), "{former} {now:?}");
+    }
+}
+
 /// The output directory and the directory of the drawings may be the same under two names.
 #[cfg(unix)]
 #[test]

@@ -192,12 +192,13 @@ messages! {
         help_en: "do not mill with it, as it no longer follows its drawing; emit --remove-stale removes it if {directory} has its successor",
         help_de: "nicht damit fräsen, denn es folgt seiner Zeichnung nicht mehr; emit --remove-stale entfernt es, wenn {directory} seinen Nachfolger enthält",
     }
-    /// A program with other moves than the current one of its path, which is in another directory: the drawing was moved, or `--out-dir` was used once.
+    /// A program with other moves than the current one of its path, which is in another directory: the drawing was moved, `out-dir` was changed, or
+    /// `--out-dir` was used once.
     STALE_ELSEWHERE: StaleOutput {
         en: "{name} is an older program of its path: the current one is {program}",
         de: "{name} ist ein älteres Programm seines Pfads: das aktuelle ist {program}",
-        help_en: "do not mill with it, and remove it: its drawing is in another directory",
-        help_de: "nicht damit fräsen und es entfernen: seine Zeichnung liegt in einem anderen Verzeichnis",
+        help_en: "do not mill with it, and remove it: emit no longer writes into its directory",
+        help_de: "nicht damit fräsen und es entfernen: emit schreibt nicht mehr in sein Verzeichnis",
     }
     /// An output file from an earlier run that no path of this library would write. Another library may have written it.
     STALE_OR_OF_OTHERS: StaleOutput {

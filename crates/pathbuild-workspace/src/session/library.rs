@@ -360,6 +360,18 @@ impl Session<'_> {
         Walk { obeys_git: false, ..self.walk(&is_wanted) }.search(directory).drawings
     }
 
+    /// Returns the directory of the configuration and those directly in it, except hidden ones and those that .ignore excludes; none if they cannot be
+    /// listed.
+    pub(crate) fn top_directories(&self) -> Vec<Utf8PathBuf> {
+        let Some(top) = self.context.settings.directory().map(|top| self.normal(top)) else {
+            return Vec::new();
+        };
+        let walk = Walk { obeys_git: false, ..self.walk(&|_| false) };
+        let listed = catch_bugs(|| Directory::list(&top, None, walk, &Budget::new(walk.rules_limit)));
+        let Ok(Ok(Some(listed))) = listed else { return Vec::new() };
+        std::iter::once(top).chain(listed.directories).collect()
+    }
+
     /// Queries the database about a directory.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 //!
 //! Each program names its drawing and path, and has a hash of its moves. Programs of removed paths are searched for only where the run knows every
 //! drawing that could have produced them: beside the drawings of named directories, or in the output directory. Former files of the run's own paths
-//! are always searched for, and so are programs that remain beside their drawings although `out-dir` is configured now.
+//! are always searched for, and so are programs that remain beside their drawings or in a former output directory after `out-dir` was changed.
 
 mod known_titles;
 mod names;
@@ -109,8 +109,8 @@ impl<'a> EarlierPrograms<'a> {
     }
 
     /// Whether a program is never removed: one that may belong to another library, one of a drawing that can still be emitted by its name, one that
-    /// was copied, edited or left in another directory, because that work would be lost, one whose drawing may become readable again, and one without a successor in the output
-    /// directory.
+    /// was copied, edited or left in another directory, because that work would be lost, one whose drawing may become readable again, and one without
+    /// a successor in the output directory.
     fn is_kept(&self, stale: &StaleProgram) -> bool {
         match &stale.reason {
             Reason::Copied
@@ -163,12 +163,8 @@ impl<'a> EarlierPrograms<'a> {
         stale.extend(former.filter_map(|path| finding.program_if_stale(path, None)));
         // An output directory on the command line is for this run only.
         let is_configured = self.session.workspace().settings.general.out_dir.origin.line().is_some();
-        if let Some(out_dir) = out_dir.filter(|_| is_configured) {
-            let beside = finding.programs_beside_drawings(&out_dir, diagnostics).into_iter();
-            stale.extend(
-                beside
-                    .map(|path| StaleProgram { path, reason: Reason::Beside { directory: out_dir.clone() } }),
-            );
+        if out_dir.is_none() || is_configured {
+            stale.extend(finding.programs_elsewhere(out_dir.as_deref(), directories, diagnostics));
         }
         stale
     }

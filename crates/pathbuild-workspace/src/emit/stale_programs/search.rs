@@ -27,6 +27,8 @@ pub(super) struct StaleSearch<'a> {
     outputs: HashSet<&'a Utf8Path>,
     /// Index of each job by the stem of its file names.
     by_stem: Lazy<'a, HashMap<&'a Utf8Path, usize>>,
+    /// Indices of the jobs by the titles of their programs, normalised for comparison.
+    by_title: Lazy<'a, HashMap<String, Vec<usize>>>,
     writers: Lazy<'a, KnownTitles>,
 }
 
@@ -38,6 +40,15 @@ impl<'a> StaleSearch<'a> {
             outputs: jobs.iter().flat_map(|job| job.files.iter().map(|(_, path)| path.as_path())).collect(),
             by_stem: LazyCell::new(Box::new(move || {
                 jobs.iter().enumerate().map(|(number, job)| (&*job.stem, number)).collect()
+            })),
+            by_title: LazyCell::new(Box::new(move || {
+                let mut by_title: HashMap<String, Vec<usize>> = HashMap::new();
+                for (number, job) in jobs.iter().enumerate() {
+                    let drawing = file_name(job.drawing(run.session.db()).path(run.session.db()));
+                    let title = plain_title(&native::title(drawing, &job.path));
+                    by_title.entry(title).or_default().push(number);
+                }
+                by_title
             })),
             writers: LazyCell::new(Box::new(move || KnownTitles::new(run))),
         }
@@ -66,43 +77,70 @@ impl<'a> StaleSearch<'a> {
         paths.filter(|path| !self.outputs.contains(&**path))
     }
 
-    /// Returns the programs and setup sheets that lie beside their drawings although programs are written into `out_dir`: all in the searched
-    /// directories, and those of the jobs in other directories.
-    pub(super) fn programs_beside_drawings(
+    /// Returns the stale programs and setup sheets outside the directories in which the run searches for programs of removed paths: those beside their
+    /// drawings if programs are written into `out_dir`, and older ones of the jobs, which remain if `out-dir` is changed. `searched` names the former
+    /// directories.
+    pub(super) fn programs_elsewhere(
         &self,
-        out_dir: &Utf8Path,
+        out_dir: Option<&Utf8Path>,
+        searched: &[Utf8PathBuf],
         diagnostics: &mut Vec<Diagnostic>,
-    ) -> Vec<Utf8PathBuf> {
-        let EarlierPrograms { session, directories, jobs, .. } = *self.run;
-        let title = |path: &Utf8PathBuf| provenance(session, path).map(|(_, title)| title);
-        let mut programs = Vec::new();
-        for directory in directories.iter().filter(|directory| *directory != out_dir) {
+    ) -> Vec<StaleProgram> {
+        let EarlierPrograms { session, directories, .. } = *self.run;
+        let mut seen: HashSet<&Utf8Path> = searched.iter().map(|directory| &**directory).collect();
+        let mut stale = Vec::new();
+        for directory in directories.iter().filter(|directory| seen.insert(directory)) {
             let names = self.run.file_names_in(directory, diagnostics);
-            let drawings = names.iter().filter(|name| is_drawing(Utf8Path::new(name)));
-            let drawings: HashSet<String> = drawings.map(plain_title).collect();
-            let is_beside = |title: Box<str>| {
-                native::drawing_of_title(&plain_title(&title))
-                    .is_some_and(|drawing| drawings.contains(drawing))
-            };
-            programs
-                .extend(self.candidates(directory, &names).filter(|path| title(path).is_some_and(is_beside)));
+            stale.extend(self.stale_in(directory, &names, out_dir));
         }
+        let top = if directories.is_empty() { Vec::new() } else { session.top_directories() };
+        for directory in top.iter().filter(|directory| seen.insert(directory)) {
+            // Nothing is expected there, so nothing is reported if it cannot be listed.
+            let names = session.file_names_in(directory).unwrap_or_default();
+            stale.extend(self.stale_in(directory, &names, None));
+        }
+        let Some(out_dir) = out_dir else { return stale };
+        stale.extend(self.beside_drawings_of_jobs(out_dir));
+        // The output directory may have several names, and a link beside the drawing may lead to the program in it.
+        let canonical = |path: &Utf8Path| session.db().system().canonical(path);
+        stale.retain(|stale| canonical(&stale.path).parent() != Some(&canonical(out_dir)));
+        stale
+    }
+
+    /// Returns the stale programs in a directory to which the run writes nothing. `names` lists its files.
+    fn stale_in(&self, directory: &Utf8Path, names: &Names, out_dir: Option<&Utf8Path>) -> Vec<StaleProgram> {
+        let drawings = names.iter().filter(|name| is_drawing(Utf8Path::new(name)));
+        let drawings: HashSet<String> = drawings.map(plain_title).collect();
+        let stale = |path: Utf8PathBuf| {
+            let (found, title) = provenance(self.run.session, &path)?;
+            let is_beside = native::drawing_of_title(&plain_title(&title))
+                .is_some_and(|drawing| drawings.contains(drawing));
+            let reason = match out_dir {
+                Some(out_dir) if is_beside => Reason::Beside { directory: out_dir.to_owned() },
+                _ => self.reason_if_moved(&path, &found, &title, names)?,
+            };
+            Some(StaleProgram { path, reason })
+        };
+        self.candidates(directory, names).filter_map(stale).collect()
+    }
+
+    /// Returns the programs of the jobs that lie beside their drawings outside the searched directories, although programs are written into `out_dir`.
+    fn beside_drawings_of_jobs(&self, out_dir: &Utf8Path) -> Vec<StaleProgram> {
+        let EarlierPrograms { session, directories, jobs, .. } = *self.run;
         let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
+        let title = |path: &Utf8PathBuf| provenance(session, path).map(|(_, title)| title);
+        let mut stale = Vec::new();
         for job in jobs {
             let drawing = job.drawing(session.db()).path(session.db());
             let directory = drawing.parent().unwrap_or(Utf8Path::new(""));
             if directory != out_dir && !searched.contains(directory) {
                 let files = possible_files(&join(directory, file_name(&job.stem)));
-                programs.extend(
-                    files.filter(|path| title(path).is_some_and(|title| is_of(job, session, &title))),
-                );
+                let own = files.filter(|path| title(path).is_some_and(|title| is_of(job, session, &title)));
+                let reason = || Reason::Beside { directory: out_dir.to_owned() };
+                stale.extend(own.map(|path| StaleProgram { path, reason: reason() }));
             }
         }
-        // The output directory may have several names, and a link beside the drawing may lead to the program in it.
-        let canonical = |path: &Utf8Path| session.db().system().canonical(path);
-        let is_current = |path: &Utf8PathBuf| canonical(path).parent() == Some(&canonical(out_dir));
-        programs.retain(|path| !is_current(path));
-        programs
+        stale
     }
 
     /// Returns the program at `path` if it is stale. `beside` lists the files in its directory; `None` if programs of removed paths are not searched
@@ -182,11 +220,14 @@ impl<'a> StaleSearch<'a> {
         if beside.iter().any(|name| plain_title(name) == drawing) {
             return None;
         }
-        let job = self.run.jobs.iter().find(|job| is_of(job, self.run.session, title))?;
-        let now = job.outcome.as_ref()?.provenance.as_ref()?;
-        let program = job.files.first()?.1.clone();
+        let jobs = self.by_title.get(&plain)?.iter().map(|number| self.run.jobs[*number]);
+        let written: Vec<(&Provenance, &Utf8PathBuf)> = jobs
+            .filter_map(|job| Some((job.outcome.as_ref()?.provenance.as_ref()?, &job.files.first()?.1)))
+            .collect();
+        let is_current = written.iter().any(|(now, _)| now.moves == found.moves);
+        let (_, program) = written.first()?;
         let is_elsewhere = program.parent() != path.parent();
-        (is_elsewhere && now.moves != found.moves).then_some(Reason::Elsewhere { program })
+        (is_elsewhere && !is_current).then(|| Reason::Elsewhere { program: (*program).clone() })
     }
 
     /// Returns the program at `path` as stale if it was written for one of the run's paths, natively or through another post-processor, and that path
