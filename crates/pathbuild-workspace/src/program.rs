@@ -84,34 +84,24 @@ pub struct DefinitionTranslation {
     pub translated: TranslatedText,
 }
 
-impl Program {
-    /// Reads a file and stores its steps.
-    ///
-    /// # Errors
-    /// If the file cannot be read at all, or has more steps than may be stored. Diagnostics of its lines are in [`read`](Self::read).
-    pub fn open(
-        workspace: &Workspace,
-        file: &Utf8Path,
-        reading: ReadingOptions,
-    ) -> Result<Self, Box<Diagnostic>> {
-        let text = read(&workspace.settings, &*workspace.system, file)?;
-        Self::of_text(&workspace.settings, file, text, reading, &|_, _| None)
-    }
+/// A reader of programs, with everything that decides how their texts are understood.
+#[derive(Clone, Copy)]
+pub(crate) struct ProgramReader<'a> {
+    pub(crate) settings: &'a Settings,
+    pub(crate) options: ReadingOptions,
+    /// Translates texts in words that only a post definition defines.
+    pub(crate) definition: &'a Translate<'a>,
+}
 
-    /// Interprets the text of a file and stores its steps. `definition` translates a text in words that only a post definition defines.
+impl ProgramReader<'_> {
+    /// Interprets the text of a file and stores its steps.
     ///
     /// # Errors
     /// If the program has more steps than may be stored.
-    pub fn of_text(
-        settings: &Settings,
-        file: &Utf8Path,
-        text: Vec<u8>,
-        reading: ReadingOptions,
-        definition: &Translate<'_>,
-    ) -> Result<Self, Box<Diagnostic>> {
-        let (mut steps, limit) = (Vec::new(), settings.limits.program_memory.value);
+    pub(crate) fn store(self, file: &Utf8Path, text: Vec<u8>) -> Result<Program, Box<Diagnostic>> {
+        let (mut steps, limit) = (Vec::new(), self.settings.limits.program_memory.value);
         let mut stopped = None;
-        let mut program = Self::read_until(settings, file, text, reading, definition, &mut |step| {
+        let mut program = self.interpret(file, text, &mut |step| {
             if memory(steps.len() as u64 + 1) > limit {
                 stopped = Some(step.line);
                 return ControlFlow::Break(());
@@ -129,34 +119,27 @@ impl Program {
     }
 
     /// Interprets the text of a file and passes each step to `each` without storing it. A caller that needs the steps of a large program twice
-    /// interprets it again. `definition` is as in [`of_text`](Self::of_text).
-    pub fn read_each(
-        settings: &Settings,
-        file: &Utf8Path,
-        text: Vec<u8>,
-        reading: ReadingOptions,
-        definition: &Translate<'_>,
-        each: &mut dyn FnMut(Step),
-    ) -> Self {
-        Self::read_until(settings, file, text, reading, definition, &mut |step| {
+    /// interprets it again.
+    pub(crate) fn each(self, file: &Utf8Path, text: Vec<u8>, each: &mut dyn FnMut(Step)) -> Program {
+        self.interpret(file, text, &mut |step| {
             each(step);
             ControlFlow::Continue(())
         })
     }
 
-    fn read_until(
-        settings: &Settings,
+    fn interpret(
+        self,
         file: &Utf8Path,
         text: Vec<u8>,
-        reading: ReadingOptions,
-        definition: &Translate<'_>,
         each: &mut dyn FnMut(Step) -> ControlFlow<()>,
-    ) -> Self {
-        let guessed = reading.dialect.is_none().then(|| guess(&text));
-        let by_definition = (!is_utf_16(&text)).then(|| definition(&text, guessed.as_ref())).flatten();
-        let shown = reading.dialect.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
+    ) -> Program {
+        let named = self.options.dialect;
+        let guessed = named.is_none().then(|| guess(&text));
+        let translate = || (self.definition)(&text, guessed.as_ref());
+        let by_definition = if is_utf_16(&text) { None } else { translate() };
+        let shown = named.or(guessed.map(|guess| guess.dialect)).unwrap_or(Dialect::Rs274);
         let dialect = if by_definition.is_some() { Dialect::LinuxCnc } else { shown };
-        let options = reading.with_settings(settings);
+        let options = self.options.with_settings(self.settings);
         let mut disputes = DisputedWords::default();
         let code = by_definition.as_ref().map_or(&*text, |by| by.translated.text.as_bytes());
         let mut problems = interpret_until(code, dialect, &options, &mut |step| {
@@ -165,19 +148,11 @@ impl Program {
             }
             each(step)
         });
-        if let Some(by) = &by_definition {
-            problems.extend(by.translated.problems.iter().cloned());
-            // The definition does not say when M5 takes effect, which this problem depends on.
-            problems.retain(|problem| problem.message.key != gcode::STOP_BEFORE_MOTION.key);
-            // The columns and the quoted lines are those of the translation, which the user does not see.
-            for problem in &mut problems {
-                problem.text = None;
-                problem.place.column = None;
-            }
-        }
         let is_weak = guessed.is_some_and(|guess| guess.evidence.kind == EvidenceKind::Words);
-        if is_weak && by_definition.is_none() {
-            problems.extend(unnamed_dialect_warning(&disputes, dialect));
+        match &by_definition {
+            Some(by) => by.complete_problems(&mut problems),
+            None if is_weak => problems.extend(unnamed_dialect_warning(&disputes, dialect)),
+            None => {}
         }
         if text.starts_with(BYTE_ORDER_MARK) {
             problems.push(Diagnostic::new(&gcode::BYTE_ORDER_MARK).at_line(1, None));
@@ -185,7 +160,38 @@ impl Program {
         place(&mut problems, file, &text);
         let evidence = guessed.map(|guess| guess.evidence);
         let read = Interpretation { steps: Vec::new(), problems };
-        Self { file: file.to_owned(), text, dialect, evidence, shown, read, by_definition, options }
+        Program { file: file.to_owned(), text, dialect, evidence, shown, read, by_definition, options }
+    }
+}
+
+impl DefinitionTranslation {
+    /// Makes the problems of the translated text those of the program.
+    fn complete_problems(&self, problems: &mut Vec<Diagnostic>) {
+        problems.extend(self.translated.problems.iter().cloned());
+        // The definition does not say when M5 takes effect, which this problem depends on.
+        problems.retain(|problem| problem.message.key != gcode::STOP_BEFORE_MOTION.key);
+        // The columns and the quoted lines are those of the translation, which the user does not see.
+        for problem in problems {
+            problem.text = None;
+            problem.place.column = None;
+        }
+    }
+}
+
+impl Program {
+    /// Reads a file and stores its steps.
+    ///
+    /// # Errors
+    /// If the file cannot be read at all, or has more steps than may be stored. Diagnostics of its lines are in [`read`](Self::read).
+    pub fn open(
+        workspace: &Workspace,
+        file: &Utf8Path,
+        reading: ReadingOptions,
+    ) -> Result<Self, Box<Diagnostic>> {
+        let text = read(&workspace.settings, &*workspace.system, file)?;
+        let reader =
+            ProgramReader { settings: &workspace.settings, options: reading, definition: &|_, _| None };
+        reader.store(file, text)
     }
 
     /// Returns the tools and the stock that the program states.

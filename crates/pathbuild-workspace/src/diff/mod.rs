@@ -18,7 +18,7 @@ use pathbuild_view::{
 use crate::emit::ShownText;
 use crate::inputs::Inputs;
 use crate::post_processor::{PostArguments, PostProcessor, machine};
-use crate::program::{DefinitionTranslation, Program, ReadingOptions};
+use crate::program::{DefinitionTranslation, ProgramReader, ReadingOptions};
 use crate::session::{HashedPath, Session, compare_names};
 
 pub use reasons::{Reason, ValueChange};
@@ -447,8 +447,8 @@ impl CompiledSide<'_> {
                     let (name, translated) = (post_processor.name(), post_processor.translate(text)?);
                     Some(DefinitionTranslation { name, translated })
                 };
-                let file = (&*path.file).into();
-                let program = Program::of_text(settings, file, text.to_vec(), reading, &translate)?;
+                let reader = ProgramReader { settings, options: reading, definition: &translate };
+                let program = reader.store((&*path.file).into(), text.to_vec())?;
                 MachineStates::of(&program).with_drawn_cutter(path.tool)
             }
         };

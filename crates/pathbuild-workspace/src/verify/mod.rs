@@ -32,7 +32,7 @@ use crate::config::types::{Requirement, SpindleControl, Tool};
 use crate::config::{Settings, number, positive};
 use crate::files;
 use crate::post_processor::{PostArguments, PostProcessor, known_words, machine, tool_table};
-use crate::program::{DefinitionTranslation, Program, ReadingOptions};
+use crate::program::{DefinitionTranslation, Program, ProgramReader, ReadingOptions, Translate};
 use crate::session::Session;
 use crate::workspace::{Failure, Workspace};
 
@@ -155,10 +155,8 @@ impl<'w> Verifier<'w> {
     /// The text is interpreted twice instead of keeping its steps, because the rules need to know the material first.
     pub fn verify(&self, file: &Utf8Path, text: Vec<u8>) -> VerifiedProgram {
         let mut as_written = AsWrittenSteps::new(self.machine.as_ref());
-        let by_definition = |text: &[u8], guess: Option<&Guess>| self.writers.translate(text, guess);
-        let each = &mut |step| as_written.step(&step);
-        let program =
-            Program::read_each(self.settings, file, text, self.options.reading, &by_definition, each);
+        let definition = |text: &[u8], guess: Option<&Guess>| self.writers.translate(text, guess);
+        let program = self.reader(&definition).each(file, text, &mut |step| as_written.step(&step));
         self.examine_with_required(&program, as_written)
     }
 
@@ -167,8 +165,12 @@ impl<'w> Verifier<'w> {
     /// # Errors
     /// If the program has more steps than may be stored.
     pub fn read(&self, file: &Utf8Path, text: Vec<u8>) -> Result<Program, Box<Diagnostic>> {
-        let by_definition = |text: &[u8], guess: Option<&Guess>| self.writers.translate(text, guess);
-        Program::of_text(self.settings, file, text, self.options.reading, &by_definition)
+        let definition = |text: &[u8], guess: Option<&Guess>| self.writers.translate(text, guess);
+        self.reader(&definition).store(file, text)
+    }
+
+    fn reader<'a>(&'a self, definition: &'a Translate<'a>) -> ProgramReader<'a> {
+        ProgramReader { settings: self.settings, options: self.options.reading, definition }
     }
 
     /// Verifies a program with stored steps.
