@@ -320,20 +320,28 @@ fn travel_doubt(limits: &MachineRules<'_>) -> Option<Reason> {
     }
 }
 
-/// The rules that examine the steps of a program at their nominal heights.
-struct NominalSteps<'w, I: Iterator<Item = (u32, Move)>> {
+/// The rules that examine the steps of a program at their nominal heights. Each is `None` if it does not apply.
+struct NominalRules<'w, I: Iterator<Item = (u32, Move)>> {
     comparison: Option<DrawingComparison<'w, I>>,
     words: Option<WordRules<'w>>,
+    chip_loads: ChipLoadRules,
+    cutting_lengths: CuttingLengthRules<'w>,
+    directions: Option<DirectionRules>,
+    lengths: Option<LengthRules<'w>>,
+    depths: DepthRules,
+    bent_rapids: Option<BentRapidRules<'w>>,
 }
 
-impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
+impl<I: Iterator<Item = (u32, Move)>> NominalRules<'_, I> {
     fn step(&mut self, step: &Step) {
-        if let Some(comparison) = &mut self.comparison {
-            comparison.step(step);
-        }
-        if let Some(words) = &mut self.words {
-            words.step(step);
-        }
+        self.comparison.iter_mut().for_each(|rules| rules.step(step));
+        self.words.iter_mut().for_each(|rules| rules.step(step));
+        self.chip_loads.step(step);
+        self.cutting_lengths.step(step);
+        self.directions.iter_mut().for_each(|rules| rules.step(step));
+        self.lengths.iter_mut().for_each(|rules| rules.step(step));
+        self.depths.step(step);
+        self.bent_rapids.iter_mut().for_each(|rules| rules.step(step));
     }
 
     /// Handles a word that the translation by means of a definition leaves out.
@@ -345,6 +353,15 @@ impl<I: Iterator<Item = (u32, Move)>> NominalSteps<'_, I> {
             comparison.check_omitted_word(line, word);
         }
     }
+}
+
+/// Returns the findings about bent rapid moves in lines without another finding about a rapid move.
+fn new_bent_rapids(bent: impl Iterator<Item = Diagnostic>, found: &[Diagnostic]) -> Vec<Diagnostic> {
+    let is_of_rapid = |problem: &&Diagnostic| {
+        matches!(problem.code(), Code::RapidInMaterial | Code::RapidPlunge | Code::DiagonalRapid)
+    };
+    let lines: Vec<_> = found.iter().filter(is_of_rapid).map(|problem| problem.place.line).collect();
+    bent.filter(|bent| !lines.contains(&bent.place.line)).collect()
 }
 
 /// Facts about the steps seen so far: whether any of them cuts, and whether any starts the spindle with a speed.
@@ -518,6 +535,35 @@ impl<'v> Examination<'v> {
         rewritten.transpose()
     }
 
+    /// Returns the rules that apply to the program. `rewritten` is the drawing's program as the post-processor's definition writes it.
+    fn rules(
+        &self,
+        rewritten: Option<&RewrittenProgram>,
+    ) -> NominalRules<'_, impl Iterator<Item = (u32, Move)>> {
+        let Self { verifier, program, .. } = self;
+        let compared = |milled: &'v ReferenceProgram| {
+            let (settings, table) = (verifier.settings, &verifier.table);
+            let expected = milled.expected(settings, table, program.dialect, self.is_probing, rewritten);
+            DrawingComparison::new(expected, program.dialect, &self.words)
+        };
+        let tools = self.sources.cutting_tools();
+        let loads = tools.iter().map(|(line, tool)| (*line, tool.and_then(Tool::chip_load)));
+        let edges = tools.iter().map(|(line, tool)| (*line, tool.and_then(Tool::cutting_length)));
+        let stock = self.sources.stock();
+        let control = verifier.options.target.unwrap_or(program.dialect);
+        // The comparison with a drawing reports wrong words, wrong directions and wrong tool lengths itself.
+        NominalRules {
+            comparison: self.milled.map(compared),
+            words: verifier.against.is_none().then(|| WordRules::new(&self.words, program.dialect)),
+            chip_loads: ChipLoadRules::new(loads.collect()),
+            cutting_lengths: CuttingLengthRules::new(edges.collect(), stock),
+            directions: self.milled.is_none().then(|| DirectionRules::new(self.sources.directions())),
+            lengths: self.milled.is_none().then(|| LengthRules::new(program.dialect, stock)),
+            depths: DepthRules::default(),
+            bent_rapids: stock.and_then(|stock| BentRapidRules::new(control, stock)),
+        }
+    }
+
     /// Applies the rules and returns their findings, with the comparison if a drawing was named.
     fn findings(
         &self,
@@ -526,68 +572,28 @@ impl<'v> Examination<'v> {
         evidence: &mut CheckEvidence,
     ) -> (Vec<Diagnostic>, Option<MoveComparison>) {
         let Self { verifier, program, .. } = self;
-        let against = verifier.against.as_ref();
-        let compared = |milled: &'v ReferenceProgram| {
-            let (settings, table) = (verifier.settings, &verifier.table);
-            let expected = milled.expected(settings, table, program.dialect, self.is_probing, rewritten);
-            DrawingComparison::new(expected, program.dialect, &self.words)
-        };
-        let mut nominal = NominalSteps {
-            comparison: self.milled.map(compared),
-            words: against.is_none().then(|| WordRules::new(&self.words, program.dialect)),
-        };
-        let tools = self.sources.cutting_tools();
-        let loads = tools.iter().map(|(line, tool)| (*line, tool.and_then(Tool::chip_load)));
-        let mut chip_loads = ChipLoadRules::new(loads.collect());
-        let edges = tools.iter().map(|(line, tool)| (*line, tool.and_then(Tool::cutting_length)));
-        let mut cutting_lengths = CuttingLengthRules::new(edges.collect(), self.sources.stock());
-        // The comparison with a drawing reports wrong directions and wrong tool lengths itself.
-        let mut directions = self.milled.is_none().then(|| DirectionRules::new(self.sources.directions()));
-        let mut lengths =
-            self.milled.is_none().then(|| LengthRules::new(program.dialect, self.sources.stock()));
-        let mut depths = DepthRules::default();
-        let stock = self.sources.stock();
-        let control = verifier.options.target.unwrap_or(program.dialect);
-        let mut bent_rapids = stock.and_then(|stock| BentRapidRules::new(control, stock));
-        let mut found =
-            verify(&program.at_nominal_heights(), program.dialect, self.sources.stock(), &mut |step| {
-                nominal.step(step);
-                evidence.step(step);
-                chip_loads.step(step);
-                cutting_lengths.step(step);
-                if let Some(directions) = &mut directions {
-                    directions.step(step);
-                }
-                if let Some(lengths) = &mut lengths {
-                    lengths.step(step);
-                }
-                depths.step(step);
-                if let Some(bent_rapids) = &mut bent_rapids {
-                    bent_rapids.step(step);
-                }
-            });
-        found.extend(lengths.into_iter().flat_map(LengthRules::finish));
-        found.extend(self.sources.doubtful_rapids(depths, &found));
-        let bent = bent_rapids.map_or_else(Vec::new, |rules| rules.finish(&program.at_nominal_heights()));
-        let is_of_rapid = |problem: &Diagnostic| {
-            matches!(problem.code(), Code::RapidInMaterial | Code::RapidPlunge | Code::DiagonalRapid)
-        };
-        let is_new = |bent: &Diagnostic| {
-            found.iter().all(|problem| problem.place.line != bent.place.line || !is_of_rapid(problem))
-        };
-        let bent: Vec<Diagnostic> = bent.into_iter().filter(is_new).collect();
-        found.extend(bent);
+        let mut rules = self.rules(rewritten);
+        let nominal = program.at_nominal_heights();
+        let mut found = verify(&nominal, program.dialect, self.sources.stock(), &mut |step| {
+            rules.step(step);
+            evidence.step(step);
+        });
         for word in program.words_left_out() {
-            nominal.check_omitted_word(word.line, &word.word);
+            rules.check_omitted_word(word.line, &word.word);
         }
-        found.extend(nominal.words.into_iter().flat_map(WordRules::finish));
-        found.extend(against.into_iter().flat_map(|against| against.moves_into_clamps(program)));
+        found.extend(rules.lengths.into_iter().flat_map(LengthRules::finish));
+        found.extend(self.sources.doubtful_rapids(rules.depths, &found));
+        let bent_rapids = rules.bent_rapids.into_iter().flat_map(|rules| rules.finish(&nominal));
+        found.extend(new_bent_rapids(bent_rapids, &found));
+        found.extend(rules.words.into_iter().flat_map(WordRules::finish));
+        found.extend(verifier.against.iter().flat_map(|against| against.moves_into_clamps(program)));
         found.extend(coarse_arc_finding(program.code(), program.dialect));
         found.extend(written.limits);
-        found.extend(chip_loads.finish());
-        found.extend(cutting_lengths.finish());
+        found.extend(rules.chip_loads.finish());
+        found.extend(rules.cutting_lengths.finish());
         let is_switched = verifier.settings.general.spindle.value != SpindleControl::Manual
             && !matches!(program.dialect, Dialect::Xpertmill | Dialect::Native);
+        let directions = rules.directions;
         found.extend(
             directions.iter().filter(|_| is_switched).find_map(DirectionRules::never_started_finding),
         );
@@ -604,7 +610,7 @@ impl<'v> Examination<'v> {
         found.extend(written.statistics);
         found.extend(self.sources.disagreements());
         found.extend(self.header.problems.iter().cloned());
-        let Some((milled, comparison)) = self.milled.zip(nominal.comparison) else { return (found, None) };
+        let Some((milled, comparison)) = self.milled.zip(rules.comparison) else { return (found, None) };
         let agreement = comparison.finish();
         evidence.has_uncompared_coolant =
             agreement.has_uncompared_coolant && !rewritten.is_some_and(RewrittenProgram::is_same);
