@@ -1,5 +1,5 @@
 //! Configuration, discovery of drawings, database sessions, results cached between runs, and the requests of `check`, `emit`, `list`, `diff`,
-//! `verify` and `watch`. This crate neither parses arguments nor prints: progress is reported to a [`Reporter`] or a `watch::Listener`. (book:
+//! `verify`, `post` and `watch`. This crate neither parses arguments nor prints: progress is reported to a [`Reporter`] or a `watch::Listener`. (book:
 //! reference/configuration)
 
 pub mod baseline;
@@ -23,6 +23,7 @@ pub mod program_view;
 pub mod protected_files;
 #[cfg(not(target_family = "wasm"))]
 pub mod revision;
+pub mod rewrite;
 pub mod session;
 pub mod settle;
 pub mod verify;

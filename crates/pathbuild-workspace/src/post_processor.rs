@@ -477,7 +477,7 @@ fn entry(tool: &types::Tool) -> ToolEntry {
 /// Adds the table's data about tools to the operations of a job. The job's own spindle, speed and coolant take precedence; without them, the spindle
 /// is stopped while probing and in a program that cuts nothing. A tool that is not in the table has the diameter that the program states. Warns about
 /// unknown tools.
-pub fn complete_tools(job: &mut Job, table: &ToolTable, stated: &[CuttingTool]) -> Vec<Diagnostic> {
+pub(crate) fn complete_tools(job: &mut Job, table: &ToolTable, stated: &[CuttingTool]) -> Vec<Diagnostic> {
     let (mut unknown, mut reported) = (Vec::new(), FxHashSet::default());
     let mut entries: FxHashMap<u32, &ToolEntry> = FxHashMap::default();
     for entry in &table.entries {

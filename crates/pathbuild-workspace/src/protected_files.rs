@@ -38,7 +38,7 @@ pub(crate) fn reason_to_keep(
 
 /// Returns the reason if a file is a drawing, a configuration, an ignore file, measured values or the baseline, or belongs to the definition of `post`
 /// or of the configured post. For most of them the name decides, whether or not the file exists; a link counts as the file to which it leads.
-pub fn reason_to_keep_source(
+pub(crate) fn reason_to_keep_source(
     context: &Workspace,
     post: Option<&PostProcessor>,
     file: &Utf8Path,
@@ -61,7 +61,11 @@ pub fn reason_to_keep_source(
 }
 
 /// Returns the reason if a file is the program that `post` reads; a link counts as the file to which it leads.
-pub fn reason_to_keep_input(context: &Workspace, input: &Utf8Path, file: &Utf8Path) -> Option<&'static Text> {
+pub(crate) fn reason_to_keep_input(
+    context: &Workspace,
+    input: &Utf8Path,
+    file: &Utf8Path,
+) -> Option<&'static Text> {
     (canonical(context, file) == canonical(context, input)).then_some(&PROGRAM_THAT_IS_READ)
 }
 

@@ -42,7 +42,7 @@ pub use select::TargetPatterns;
 use select::TargetSelection;
 use settle::build_and_settle;
 pub use sheet::sheet_bytes;
-pub use stale_programs::program_of_other_path;
+pub(crate) use stale_programs::program_of_other_path;
 use stale_programs::{EarlierPrograms, StaleOutcome, has_stale_adjusted_program, report_unselected};
 pub use written_programs::{Scope, WrittenPrograms};
 

@@ -26,7 +26,7 @@ use crate::memo::{Answer, DrawingResult};
 use crate::post_processor::PostProcessor;
 use crate::session::{Argument, OutputKind, Session};
 
-pub use names::program_of_other_path;
+pub(crate) use names::program_of_other_path;
 use reason::Reason;
 pub(super) use reason::StaleProgram;
 use search::{FormerFile, StaleSearch};

@@ -25,7 +25,7 @@ pub(super) fn has_name_of_title(program: &Utf8Path, title: &str) -> bool {
 
 /// Returns the reason if a file is named after another path than that of `program` and contains the program of that path: `program` must not
 /// replace it.
-pub fn program_of_other_path(
+pub(crate) fn program_of_other_path(
     workspace: &Workspace,
     file: &Utf8Path,
     program: &[u8],
