@@ -1,7 +1,5 @@
 //! Collects the cuts of a single path, for the check of its part. (book: language/part)
 
-use std::collections::BTreeMap;
-
 use pathbuild_path::{
     Bars, Curve, Cut, CutElement, EmbeddedPlace, Helix, Item, Line, MAX_WEAK_BRIDGE, PartCut, PartSweep,
     Path, PathCuts, PlacedSubpath, Placement, Role, SegmentKind, Shape, StandingBar, TipMove, WalkedPath, Xy,
@@ -14,7 +12,9 @@ use crate::mill::{BarPlan, Section, axis_circle, last_turns};
 /// Returns the cuts of a path without those of embedded paths, in the coordinates of its drawing. `is_slot` states whether a slot cutter mills the
 /// path.
 pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible: bool) -> PathCuts {
-    let mut found = CutCollector { path, numbers: BTreeMap::new(), elements: Vec::new(), cuts: Vec::new() };
+    let drawn = path.drawn.elements.len();
+    let (elements, cuts) = (Vec::with_capacity(drawn), Vec::with_capacity(drawn));
+    let mut found = CutCollector { path, numbers: vec![None; drawn], elements, cuts };
     let mut embedded = Vec::new();
     for item in &walked.items {
         match item {
@@ -43,8 +43,9 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
         }
     }
     let sweeps = found.sweeps();
-    // The cuts are stored as long as the drawing's index, so free the spare capacity.
+    // They are stored as long as the drawing's index, so free the spare capacity.
     found.cuts.shrink_to_fit();
+    found.elements.shrink_to_fit();
     PathCuts {
         name: path.name.clone(),
         radius: path.tool / 2.0,
@@ -61,8 +62,8 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
 
 struct CutCollector<'p> {
     path: &'p Path,
-    /// The indices into `elements`, by index of the drawn element.
-    numbers: BTreeMap<u32, usize>,
+    /// The indices into `elements`, by index of the drawn element; `None` if it has none yet.
+    numbers: Vec<Option<u32>>,
     elements: Vec<CutElement>,
     cuts: Vec<PartCut>,
 }
@@ -77,8 +78,8 @@ impl CutCollector<'_> {
         circle: Option<Xy>,
         sections: impl IntoIterator<Item = Section>,
     ) {
-        let number = self.numbers.get(&drawn).copied().unwrap_or(self.elements.len());
-        let element = u32::try_from(number).unwrap_or(u32::MAX);
+        let next = u32::try_from(self.elements.len()).unwrap_or(u32::MAX);
+        let element = self.numbers[drawn as usize].unwrap_or(next);
         let mut lowest = f64::INFINITY;
         for Section { curve, from_z, to_z } in sections {
             let way = TipMove { curve, from_z, to_z };
@@ -90,13 +91,13 @@ impl CutCollector<'_> {
         if lowest.is_infinite() {
             return;
         }
-        if number == self.elements.len() {
+        if element == next {
             let bottom = supported.map_or(f64::INFINITY, |(_, bottom)| bottom);
             let supported = supported.map(|(segment, _)| segment);
             self.elements.push(CutElement { supported, bottom, circle, ..cut_element(self.path, drawn) });
-            self.numbers.insert(drawn, number);
+            self.numbers[drawn as usize] = Some(element);
         }
-        let element = &mut self.elements[number];
+        let element = &mut self.elements[element as usize];
         element.lowest = element.lowest.min(lowest);
     }
 

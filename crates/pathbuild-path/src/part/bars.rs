@@ -45,6 +45,11 @@ pub struct LostBar {
 pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
     let mut found = Vec::new();
     for (of, path) in cuts.paths.iter().enumerate() {
+        // In most drawings no cut takes anything of a bar, so nothing needs to be grouped.
+        let is_untouched = |bar| BarLoss { cuts, tolerance, bar: &[bar] }.losses().is_empty();
+        if standing_bars(path).all(is_untouched) {
+            continue;
+        }
         for (bar, whole) in whole_bars(path).into_iter().enumerate() {
             let losses = BarLoss { cuts, tolerance, bar: &whole }.losses();
             let sections: Vec<Curve> = whole.iter().map(|(_, middle)| *middle).collect();
@@ -101,10 +106,14 @@ impl LostBar {
     }
 }
 
-/// Groups the bars of a path: those on both sides of a corner are a single bar. Bars of which nothing stands are left out.
+/// Returns the bars of a path of which something stands, each with the section of its centre line that stands.
+fn standing_bars(path: &PathCuts) -> impl Iterator<Item = (&StandingBar, Curve)> {
+    path.bars.iter().filter_map(|bar| Some((bar, bar.middle?)))
+}
+
+/// Groups the standing bars of a path: those on both sides of a corner are a single bar.
 fn whole_bars(path: &PathCuts) -> Vec<Vec<(&StandingBar, Curve)>> {
-    let bars: Vec<(&StandingBar, Curve)> =
-        path.bars.iter().filter_map(|bar| Some((bar, bar.middle?))).collect();
+    let bars: Vec<(&StandingBar, Curve)> = standing_bars(path).collect();
     let extent = |number: usize| widened_box(&bars[number].1, BOX_MARGIN);
     let boxes = BoxIndex::new((0..bars.len()).map(extent));
     let mut is_grouped = vec![false; bars.len()];

@@ -1,5 +1,6 @@
 //! An index of bounding boxes.
 
+use either::Either;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, Envelope as _, RTree};
 
@@ -40,17 +41,16 @@ impl BoxIndex {
     }
 
     /// Returns the numbers of the boxes that intersect `extent`, in ascending order, so that no result depends on the shape of the tree.
-    pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> std::vec::IntoIter<usize> {
-        let found = match self {
-            Self::Few(boxes) => boxes.near(&extent),
+    pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> impl DoubleEndedIterator<Item = usize> {
+        match self {
+            Self::Few(boxes) => Either::Left(boxes.near(extent)),
             Self::Many(tree) => {
                 let near = tree.locate_in_envelope_intersecting(extent);
                 let mut found: Vec<usize> = near.map(|found| found.data).collect();
                 found.sort_unstable();
-                found
+                Either::Right(found.into_iter())
             }
-        };
-        found.into_iter()
+        }
     }
 }
 
@@ -61,19 +61,13 @@ impl GroupedBoxes {
         Self { groups: boxes.chunks(GROUP_SIZE).map(merged).collect(), boxes }
     }
 
-    fn near(&self, extent: &AABB<[f64; 2]>) -> Vec<usize> {
-        let mut found = Vec::new();
-        for (group, around) in self.groups.iter().enumerate() {
-            if !around.intersects(extent) {
-                continue;
-            }
-            let first = GROUP_SIZE * group;
-            let boxes = self.boxes[first..].iter().take(GROUP_SIZE);
-            found.extend(
-                (first..).zip(boxes).filter(|(_, own)| own.intersects(extent)).map(|(number, _)| number),
-            );
-        }
-        found
+    fn near(&self, extent: AABB<[f64; 2]>) -> impl DoubleEndedIterator<Item = usize> {
+        let groups = self.boxes.chunks(GROUP_SIZE).zip(&self.groups).enumerate();
+        let near = groups.filter(move |(_, (_, around))| around.intersects(&extent));
+        near.flat_map(move |(group, (boxes, _))| {
+            let near = boxes.iter().enumerate().filter(move |(_, own)| own.intersects(&extent));
+            near.map(move |(number, _)| GROUP_SIZE * group + number)
+        })
     }
 }
 

@@ -191,9 +191,10 @@ impl<'s> PartCheck<'s> {
     /// Whether a cut through the plate runs beside a point of a ring's curve, on its outside and within O. A cut nearer to where the edge of a ring
     /// around it would be cut is meant for that edge.
     fn is_beside_outside(&self, ring: usize, curve: &Curve, share: f64, number: usize) -> bool {
-        let IndexedCut { path, radius, through, .. } = &self.cuts.cuts[number];
+        let cut = &self.cuts.cuts[number];
+        let IndexedCut { path, radius, .. } = cut;
         // The right of an opening's curves is inside it.
-        let Some((through, away)) = through.zip(offset_curve(curve, -radius)) else { return false };
+        let Some((through, away)) = cut.through().zip(offset_curve(curve, -radius)) else { return false };
         let at = away.at(share * away.length());
         let Side::Openings(around) = self.part.side(at) else { return false };
         let rings = &self.part.part.rings;
@@ -214,7 +215,7 @@ impl<'s> PartCheck<'s> {
             *inner != ring
                 && matches!(self.part.side(start), Side::Openings(around) if around.contains(&ring))
         };
-        judged.cut.through.is_some() && around.contains(&ring) && !around.iter().any(is_in_ring)
+        judged.cut.through().is_some() && around.contains(&ring) && !around.iter().any(is_in_ring)
     }
 
     /// Returns the findings about the part, each with the index of its path. Whether material is left depends on the cuts of all owners together.

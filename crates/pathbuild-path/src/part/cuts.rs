@@ -120,8 +120,6 @@ pub(super) struct IndexedCut<'c> {
     pub(super) path: usize,
     pub(super) cut: &'c PartCut,
     pub(super) radius: f64,
-    /// The section that goes through the plate.
-    pub(super) through: Option<Curve>,
 }
 
 /// A sweep of one of several paths.
@@ -146,12 +144,7 @@ pub(super) struct CutIndex<'c> {
 impl<'c> CutIndex<'c> {
     pub(super) fn new(paths: &'c [&'c PathCuts]) -> Self {
         let of_path = |(path, cuts): (usize, &'c &'c PathCuts)| {
-            cuts.cuts.iter().map(move |cut| IndexedCut {
-                path,
-                cut,
-                radius: cuts.radius,
-                through: cut.way.part_below(THROUGH_HEIGHT),
-            })
+            cuts.cuts.iter().map(move |cut| IndexedCut { path, cut, radius: cuts.radius })
         };
         let mut cuts = Vec::with_capacity(paths.iter().map(|path| path.cuts.len()).sum());
         paths.iter().enumerate().for_each(|path| cuts.extend(of_path(path)));
@@ -183,7 +176,7 @@ impl<'c> CutIndex<'c> {
     /// Whether a cut may cut out an outline beside it: it goes through the plate, belongs to a segment with support bars, or is that of a slot
     /// cutter.
     pub(super) fn may_cut_out(&self, cut: &IndexedCut<'c>) -> bool {
-        cut.through.is_some() || cut.element(self).supported.is_some() || self.paths[cut.path].is_slot
+        cut.through().is_some() || cut.element(self).supported.is_some() || self.paths[cut.path].is_slot
     }
 
     /// Returns the numbers of the sweeps that may run beside a curve at a distance of half of O, in ascending order.
@@ -203,11 +196,16 @@ impl IndexedCut<'_> {
         (self.path, self.cut.element)
     }
 
+    /// Returns the section that goes through the plate.
+    pub(super) fn through(&self) -> Option<Curve> {
+        self.cut.way.part_below(THROUGH_HEIGHT)
+    }
+
     /// Returns the section that must not enter a part: the one that goes through the plate. An element with support bars that goes through the plate
     /// between them is part of an outline and no groove, so everything that it mills in the material counts.
     pub(super) fn spoiling_section(&self, index: &CutIndex<'_>) -> Option<Curve> {
         if self.element(index).bottom > THROUGH_HEIGHT {
-            return self.through;
+            return self.through();
         }
         let top = index.paths[self.path].thickness - MIN_CUT_DEPTH;
         self.cut.way.part_below(top.max(THROUGH_HEIGHT))

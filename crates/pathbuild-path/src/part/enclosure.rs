@@ -87,5 +87,5 @@ impl<'s> Enclosure<'s> {
 }
 
 fn through<'s>(cut: &'s IndexedCut<'s>) -> Option<Cut<'s>> {
-    Some((cut, cut.through?))
+    Some((cut, cut.through()?))
 }

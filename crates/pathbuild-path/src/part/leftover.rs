@@ -298,7 +298,7 @@ impl<'s> LeftoverSearch<'s> {
         let mut found = Vec::new();
         let mut last = None;
         for cut in curve.near.iter().map(|number| &self.cuts.cuts[*number]) {
-            let Some(through) = cut.through.filter(|_| self.contours[cut.path]) else { continue };
+            let Some(through) = cut.through().filter(|_| self.contours[cut.path]) else { continue };
             let supported = cut.element(self.cuts).supported;
             if supported.is_some() && last.replace(cut.number()) == Some(cut.number()) {
                 continue;
@@ -314,7 +314,7 @@ impl<'s> LeftoverSearch<'s> {
         let mut found = Vec::new();
         for judged in self.cuts_beside(curve) {
             let radius = judged.cut.radius;
-            let reach = if judged.cut.through.is_some() { 2.0 * radius } else { radius + self.tolerance };
+            let reach = if judged.cut.through().is_some() { 2.0 * radius } else { radius + self.tolerance };
             add_stretches_within(curve.curve, &judged.curve, reach, &mut found);
         }
         join_stretches(found, JOIN_GAP)
@@ -416,7 +416,7 @@ impl<'s> LeftoverSearch<'s> {
     fn is_ringed(&self) -> bool {
         *self.is_ringed.get_or_init(|| {
             let cuts = self.cuts.cuts.iter().filter(|cut| self.contours[cut.path]);
-            let sweeps = cuts.filter_map(|cut| Some((cut.through?, cut.radius)));
+            let sweeps = cuts.filter_map(|cut| Some((cut.through()?, cut.radius)));
             let feet = self.bars().map(|(bar, radius)| (bar.foot, radius));
             is_surrounded(self.part, &sweeps.chain(feet).collect::<Vec<_>>())
         })
@@ -497,7 +497,7 @@ impl<'s> LeftoverSearch<'s> {
         // Take no samples at the ends: the end of the cut may be there, where the distance to its edge is largest.
         let sample = |number| place(from + length * (f64::from(number) + 0.5) / f64::from(SAMPLES));
         let thickness = (0..SAMPLES).map(sample).map(|at| self.distance(at)).fold(0.0, f64::max);
-        let is_through = nearest.through.is_some();
+        let is_through = nearest.through().is_some();
         Some(Leftover {
             nest: self.part.part.rings[ring].nest,
             path: nearest.path,
@@ -585,7 +585,7 @@ impl<'s> LeftoverSearch<'s> {
         let curve = RingCurve { ring, start: 0.0, curve: &point, near };
         let distance = |judged: &ClassifiedCut<'_>| judged.curve.distance_to(at) - judged.cut.radius;
         let counts = |judged: &&ClassifiedCut<'_>| {
-            judged.cut.through.is_some() || distance(judged) <= self.tolerance + JOIN_GAP
+            judged.cut.through().is_some() || distance(judged) <= self.tolerance + JOIN_GAP
         };
         let nearest = self.cuts_beside(&curve).filter(counts).min_by(|one, other| {
             distance(one).total_cmp(&distance(other)).then_with(|| one.cut.number().cmp(&other.cut.number()))
@@ -601,7 +601,7 @@ impl<'s> LeftoverSearch<'s> {
             |number: &usize| self.judged.get(*number).map_or(ring == 0, |judged| judged.side.is_beside(ring));
         let cuts = self.cuts.cuts.iter().enumerate();
         let beside = cuts.filter(|(number, cut)| self.contours[cut.path] && is_beside(number));
-        let way = |cut: &IndexedCut<'s>| Some(cut.element(self.cuts).supported.unwrap_or(cut.through?));
+        let way = |cut: &IndexedCut<'s>| Some(cut.element(self.cuts).supported.unwrap_or(cut.through()?));
         let beside: Vec<_> = beside.filter_map(|(_, cut)| Some((cut, way(cut)?))).collect();
         let at = curve.at(along);
         let farthest = |(_, curve): &(&IndexedCut<'_>, Curve)| (curve.start() - at).norm() + curve.length();

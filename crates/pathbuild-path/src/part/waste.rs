@@ -53,8 +53,8 @@ impl PlacedCuts<'_> {
             let openings = part.part.rings.iter().enumerate().skip(1);
             let mut outermost = openings.filter(|(ring, drawn)| drawn.nest == *ring);
             outermost.find_map(|(ring, _)| {
-                let through = OnceCell::new();
-                Opening { owner: self, part: &part, ring, earlier, through }
+                let through_cuts = OnceCell::new();
+                Opening { owner: self, part: &part, ring, earlier, through_cuts }
                     .cut_in_loose_waste(later, cuts.clone())
             })
         })
@@ -77,7 +77,7 @@ struct Opening<'o> {
     ring: usize,
     earlier: &'o [EarlierCuts<'o, 'o>],
     /// The earlier cuts in the opening that go through the plate, each with its cutter radius. Computed when first needed.
-    through: OnceCell<Vec<(Curve, f64)>>,
+    through_cuts: OnceCell<Vec<(Curve, f64)>>,
 }
 
 impl Opening<'_> {
@@ -87,7 +87,7 @@ impl Opening<'_> {
         let cuts = later.curves_below(cuts, top);
         let mut near = cuts.filter(|(_, curve)| widened_box(curve, 0.0).intersects(&extent));
         near.find_map(|(element, curve)| {
-            let is_loose = self.points_in_waste(&curve).any(|at| is_enclosed(at, self.through()));
+            let is_loose = self.points_in_waste(&curve).any(|at| is_enclosed(at, self.through_cuts()));
             let opening = self.part.part.rings[self.ring].curves[0].start();
             is_loose.then_some(WasteCut { element, opening })
         })
@@ -100,7 +100,7 @@ impl Opening<'_> {
     /// Returns a point of each stretch of a cut that lies in waste of the opening.
     fn points_in_waste(&self, curve: &Curve) -> impl Iterator<Item = Xy> {
         let mut removed: Vec<Stretch> = Vec::new();
-        for (other, radius) in self.through() {
+        for (other, radius) in self.through_cuts() {
             add_stretches_within(curve, other, *radius, &mut removed);
         }
         let length = curve.length();
@@ -111,7 +111,8 @@ impl Opening<'_> {
         }
         let along = *curve;
         let middles = stretches.into_iter().map(move |(from, to)| along.at(f64::midpoint(from, to)));
-        let is_removed = |at: Xy| self.through().iter().any(|(cut, radius)| cut.distance_to(at) < *radius);
+        let is_removed =
+            |at: Xy| self.through_cuts().iter().any(|(cut, radius)| cut.distance_to(at) < *radius);
         middles.filter(move |at| self.contains(*at) && !is_removed(*at))
     }
 
@@ -120,8 +121,8 @@ impl Opening<'_> {
     }
 
     /// Returns the earlier cuts in the opening that go through the plate.
-    fn through(&self) -> &[(Curve, f64)] {
-        self.through.get_or_init(|| {
+    fn through_cuts(&self) -> &[(Curve, f64)] {
+        self.through_cuts.get_or_init(|| {
             let extent = self.extent();
             let is_near = |earlier: &&EarlierCuts<'_, '_>| {
                 earlier.path.swept.is_some_and(|swept| swept.intersects(&extent))
