@@ -105,8 +105,8 @@ messages! {
     UNKNOWN_SPECIAL_CIRCLE: UnknownSpecialCircle {
         en: "a {line_type} circle with a diameter of {diameter} mm has no meaning",
         de: "ein {line_type}-Kreis mit {diameter} mm Durchmesser hat keine Bedeutung",
-        help_en: "correct the diameter; PHANTOM: 1 mm start, 1.5 mm turn marker, 2 mm end, 6 mm Z-probe; DASHDOT and DOT: 6 mm",
-        help_de: "den Durchmesser berichtigen; PHANTOM: 1 mm Anfang, 1,5 mm Wendemarke, 2 mm Ende, 6 mm Z-Probe; DASHDOT und DOT: 6 mm",
+        help_en: "correct the diameter; PHANTOM: 1 mm start, 1.5 mm turn marker, 2 mm end, 6 mm Z-probe; DASHDOT: 6 mm Z-probe; DOT: 6 mm Z-probe that is left out",
+        help_de: "den Durchmesser berichtigen; PHANTOM: 1 mm Anfang, 1,5 mm Wendemarke, 2 mm Ende, 6 mm Z-Probe; DASHDOT: 6 mm Z-Probe; DOT: 6 mm ausgelassene Z-Probe",
     }
     /// A PHANTOM circle that would be a marker in another unit.
     SPECIAL_CIRCLE_IN_OTHER_UNIT: UnknownSpecialCircle {

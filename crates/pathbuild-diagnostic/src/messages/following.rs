@@ -260,24 +260,24 @@ messages! {
     }
     /// A program that does not state whether its coordinates are absolute.
     DISTANCE_NOT_STATED: ModesNotStated {
-        en: "there is neither G90 nor G91 before the first move that depends on it; G90 is assumed",
+        en: "there is neither G90 nor G91 before the first move that depends on them; G90 is assumed",
         de: "vor der ersten Bewegung, die davon abhängt, fehlt G90 oder G91; G90 wird angenommen",
-        help_en: "state it: the control keeps what the previous program set",
-        help_de: "das Wort angeben: die Steuerung behält sonst, was das vorige Programm gesetzt hat",
+        help_en: "write one of them: otherwise, the control keeps what the previous program set",
+        help_de: "eines der beiden Wörter angeben: die Steuerung behält sonst, was das vorige Programm gesetzt hat",
     }
     /// A program that does not state a mode such as G17.
     MODES_NOT_STATED: ModesNotStated {
         en: "there is no {words} before the first move that depends on it; {taken} is assumed",
         de: "vor der ersten Bewegung, die davon abhängt, fehlt {words}; {taken} wird angenommen",
-        help_en: "state it: the control keeps what the previous program set",
+        help_en: "write it: otherwise, the control keeps what the previous program set",
         help_de: "das Wort angeben: die Steuerung behält sonst, was das vorige Programm gesetzt hat",
     }
     /// A program that does not state to which height the tool rises after a hole.
     RETRACT_NOT_STATED: ModesNotStated {
         en: "there is neither G98 nor G99 before the first hole; G99 is assumed, so the tool goes to the next hole at R",
         de: "vor dem ersten Loch fehlt G98 oder G99; G99 wird angenommen, das Werkzeug fährt also auf R zum nächsten Loch",
-        help_en: "state it: the control keeps what the previous program set",
-        help_de: "das Wort angeben: die Steuerung behält sonst, was das vorige Programm gesetzt hat",
+        help_en: "write one of them: otherwise, the control keeps what the previous program set",
+        help_de: "eines der beiden Wörter angeben: die Steuerung behält sonst, was das vorige Programm gesetzt hat",
     }
     /// Coordinates without a motion word, as XpertMILL accepts them.
     MOTION_NOT_STATED: MotionNotStated {

@@ -109,12 +109,12 @@ messages! {
     }
     /// Note: the drawing that defines the path, although the file's name does not contain the path's name.
     NOT_IN_FILE_NAME: PathNotFound {
-        en: "{near} defines the path, although the file's name does not include it: name that drawing",
+        en: "{near} defines the path, although its file name does not contain the path's name: specify this drawing instead",
         de: "{near} enthält den Pfad, obwohl der Dateiname ihn nicht nennt: diese Zeichnung angeben",
     }
     /// Note: the drawing that defines the path, in a directory that is not searched.
     NOT_SEARCHED: PathNotFound {
-        en: "{near} defines the path, but its directory is not searched: name that drawing, or list the directory under `library` in pathbuild.toml",
+        en: "{near} defines the path, but its directory is not searched: specify this drawing instead, or list the directory under `library` in pathbuild.toml",
         de: "{near} enthält den Pfad, aber das Verzeichnis wird nicht durchsucht: diese Zeichnung angeben oder das Verzeichnis unter `library` in pathbuild.toml aufführen",
     }
     /// Note: the path with the most similar name.

@@ -300,7 +300,7 @@ messages! {
     /// Note: the spindle turns at a stop for the operator at which it stands still in the program.
     SPINDLE_TURNS_AT_STOP: PostDiffers {
         en: "the spindle turns at this stop, but in the program it stands still there",
-        de: "bei diesem Halt dreht sich die Spindel, im Programm steht sie dort",
+        de: "bei diesem Halt dreht sich die Spindel, im Programm steht sie dort still",
     }
     /// Note: the spindle turns at another speed.
     SPINDLE_OTHER_SPEED: PostDiffers {

@@ -273,7 +273,7 @@ pub struct PostArgs {
     /// Post-processor: a built-in name or a file
     #[arg(long, value_name = "POST", required = true, add = completions::posts())]
     pub post: Option<String>,
-    /// File to write; without it standard output
+    /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
     /// Height of the material's upper face, for rapid moves and for posts that need it; programs by pathbuild contain it
@@ -323,7 +323,7 @@ pub struct ViewArgs {
     /// Name of a path, drawing (.dxf), or G-code program
     #[arg(value_name = "PATH|DRAWING|FILE", add = completions::paths())]
     pub what: String,
-    /// File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture
+    /// Write a file (.svg, .png, .pdf, .html or .json, the scene as data) instead of showing the picture in the browser
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
     /// Show the stock when all moves are done, from above, in a file .svg, .png or .pdf
@@ -362,7 +362,7 @@ pub struct SheetArgs {
     /// Name of a path, or drawing (.dxf) with one path
     #[arg(value_name = "PATH|DRAWING", add = completions::paths())]
     pub what: String,
-    /// File to write: .pdf, .html or .svg; without it the browser shows the setup sheet
+    /// Write a file (.pdf, .html or .svg) instead of showing the setup sheet in the browser
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
     /// Write for this post-processor: a built-in name or a file
@@ -396,7 +396,7 @@ pub struct QProjectArgs {
     /// Name of the Q-project's path; without it the drawing's first number with .0Q
     #[arg(long, value_name = "NAME")]
     pub path_name: Option<String>,
-    /// File to write; without it `DRAWING_Q.dxf`
+    /// Write to this file instead of `DRAWING_Q.dxf`
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<Utf8PathBuf>,
 }
@@ -534,8 +534,8 @@ german! {
         "ZEICHNUNG.dxf, `ZEICHNUNG_Clean.gcode`, `ZEICHNUNG_Z.txt` oder ZEICHNUNG";
     "Name of a path, drawing (.dxf), or G-code program", "Name eines Pfads, Zeichnung (.dxf) oder G-Code-Programm";
     "Name of a path, or drawing (.dxf) with one path", "Name eines Pfads, oder Zeichnung (.dxf) mit einem Pfad";
-    "File to write: .pdf, .html or .svg; without it the browser shows the setup sheet",
-        "Zieldatei: .pdf, .html oder .svg; sonst zeigt der Browser das Einrichteblatt";
+    "Write a file (.pdf, .html or .svg) instead of showing the setup sheet in the browser",
+        "Schreibt eine Datei (.pdf, .html oder .svg), statt das Einrichteblatt im Browser zu zeigen";
     "Before the change: a directory, a drawing, a Git revision, or a G-code program",
         "Vor der Änderung: ein Verzeichnis, eine Zeichnung, eine Git-Revision oder ein G-Code-Programm";
     "After the change: the same, or a path if OLD is a program (default: working directory)",
@@ -577,7 +577,7 @@ german! {
         "Datum für Postprozessoren, die eines schreiben, und für befristete Ausnahmen";
     "After writing, run the command that the post names", "Führt nach dem Schreiben den Befehl aus, den der Postprozessor nennt";
     "Post-processor: a built-in name or a file", "Postprozessor: ein eingebauter Name oder eine Datei";
-    "File to write; without it standard output", "Zieldatei; sonst die Standardausgabe";
+    "Write to this file instead of standard output", "Schreibt in diese Datei statt in die Standardausgabe";
     "Height of the material's upper face, for rapid moves and for posts that need it; programs by pathbuild contain it",
         "Höhe der Materialoberfläche, für Eilgänge und für Postprozessoren, die sie brauchen; in Programmen von pathbuild steht sie";
     "Largest allowed difference between a measured and a drawn height",
@@ -592,8 +592,8 @@ german! {
     "With --serve: show the page in the browser", "Mit --serve: zeigt die Seite im Browser";
     "With --serve: end when the page has been closed", "Mit --serve: endet, wenn die Seite geschlossen worden ist";
     "Show only texts that match", "Zeigt nur Texte, auf die REGEX passt";
-    "File to write: .svg, .png, .pdf, .html or .json (the scene as data); without it the browser shows the picture",
-        "Zieldatei: .svg, .png, .pdf, .html oder .json (das Bild als Daten); sonst zeigt der Browser das Bild";
+    "Write a file (.svg, .png, .pdf, .html or .json, the scene as data) instead of showing the picture in the browser",
+        "Schreibt eine Datei (.svg, .png, .pdf, .html oder .json, das Bild als Daten), statt das Bild im Browser zu zeigen";
     "Show the stock when all moves are done, from above, in a file .svg, .png or .pdf",
         "Zeigt das Rohteil nach allen Bewegungen von oben, in einer Datei .svg, .png oder .pdf";
     "Diameter of a program's cutter; without it from T and `[tool.NAME]`, or from comments",
@@ -614,7 +614,7 @@ german! {
         "Vergleicht mit Programmen für diesen Postprozessor: ein eingebauter Name oder eine Datei";
     "Name of the Q-project's path; without it the drawing's first number with .0Q",
         "Name des Q-Projekt-Pfads; sonst die erste Nummer der Zeichnung mit .0Q";
-    "File to write; without it `DRAWING_Q.dxf`", "Zieldatei; sonst `ZEICHNUNG_Q.dxf`";
+    "Write to this file instead of `DRAWING_Q.dxf`", "Schreibt in diese Datei statt in `ZEICHNUNG_Q.dxf`";
     "Write a small library to learn on: a first drawing, two components, a project, templates for CAD programs",
         "Schreibt eine kleine Bibliothek zum Lernen: eine erste Zeichnung, zwei Bauteile, ein Projekt, Vorlagen für CAD-Programme";
     "Also say where each value comes from", "Gibt auch an, woher jeder Wert kommt";
