@@ -50,7 +50,7 @@ pub fn element_parameters(
     language: &Language,
 ) -> Vec<ElementParameters> {
     let interpolation =
-        Interpolation { bindings, limit: language.text_limit, unknown: &raw.faults.variables };
+        Interpolation { bindings, limit: language.text_limit, unknown: &raw.uncertainty.variables };
     let values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
     let chains = chains(raw, bindings, language);
     let table =

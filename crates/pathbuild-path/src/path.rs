@@ -11,7 +11,7 @@ use crate::element::{Cut, Element, Origin, Shape};
 use crate::geometry::{Curve, Xy};
 use crate::letter::{Letter, Letters};
 use crate::names::CaseSensitiveName;
-use crate::raw::{DrawnElements, Faults};
+use crate::raw::{DrawnElements, PathUncertainty};
 use crate::text::TextId;
 
 /// A path with all parameters present and within their limits, unless it has [faults](Self::has_faults).
@@ -64,7 +64,7 @@ pub struct Path {
     /// Curves on the path's layers that do not belong to it, with their start points if known.
     pub left_out: Vec<(EntityKind, Option<Point>)>,
     /// Properties that errors leave unknown; `None` for a path without errors.
-    pub(crate) faults: Option<Box<Faults>>,
+    pub(crate) uncertainty: Option<Box<PathUncertainty>>,
 }
 
 /// An upper face of the material.
@@ -269,12 +269,12 @@ impl Path {
 
     /// Whether the path has errors. Such a path is checked further, but gives no program.
     pub fn has_faults(&self) -> bool {
-        self.faults.is_some()
+        self.uncertainty.is_some()
     }
 
     /// Whether it is known where and how deep the path cuts, despite any errors.
     pub fn are_cuts_known(&self) -> bool {
-        self.faults.as_ref().is_none_or(|faults| faults.are_cuts_known)
+        self.uncertainty.as_ref().is_none_or(|uncertainty| uncertainty.are_cuts_known)
     }
 
     /// Whether the path or any of its segments gives I.
@@ -289,7 +289,7 @@ impl Path {
 
     /// Returns the letters with values that are hidden by errors.
     pub(crate) fn unknown_letters(&self) -> Letters {
-        self.faults.as_ref().map_or_else(Letters::default, |faults| faults.letters)
+        self.uncertainty.as_ref().map_or_else(Letters::default, |uncertainty| uncertainty.letters)
     }
 
     /// S of the path when embedded or checked: its own, or the default.

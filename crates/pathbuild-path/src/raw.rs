@@ -33,7 +33,7 @@ pub struct RawPath {
     pub(crate) parameters: Option<TextId>,
     /// The path named by @, and its start marker, which has the parameters.
     pub(crate) borrowed_from: Option<Box<(PathName, Origin)>>,
-    pub(crate) faults: DrawingFaults,
+    pub(crate) uncertainty: DrawingUncertainty,
     /// The definitions of the path's variables, in the order written.
     pub definitions: Vec<Definition>,
     /// Curves on the path's layers that do not belong to it, with their start points if known.
@@ -135,7 +135,7 @@ impl RawPath {
 
     /// Lines and arcs of line types without a meaning.
     pub fn unclear_curves(&self) -> &[Element] {
-        &self.faults.unclear_curves
+        &self.uncertainty.unclear_curves
     }
 
     /// The cutter's diameter: O, if it is a literal and valid number.
@@ -181,7 +181,7 @@ impl SourceMap {
 
 /// Properties of a path that errors in its drawing leave unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct DrawingFaults {
+pub(crate) struct DrawingUncertainty {
     /// Letters in texts without an element: any element may lack them for that reason.
     pub(crate) stray_letters: Letters,
     /// Whether there is an unreadable entity, which may be anything.
@@ -214,7 +214,7 @@ pub(crate) enum WalkCertainty {
 
 /// Properties of a path that errors leave unknown, after its variables are bound.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Faults {
+pub(crate) struct PathUncertainty {
     pub(crate) letters: Letters,
     /// Whether an error may hide I of a segment.
     pub(crate) is_infeed_unknown: bool,
@@ -223,6 +223,6 @@ pub(crate) struct Faults {
     pub(crate) walk: WalkCertainty,
     /// Possible ends of the path; empty if the end is unknown.
     pub(crate) ends: Vec<Xy>,
-    /// See [`DrawingFaults::unclear_circles`].
+    /// See [`DrawingUncertainty::unclear_circles`].
     pub(crate) unclear_circles: Vec<Xy>,
 }

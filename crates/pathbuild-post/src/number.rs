@@ -13,7 +13,7 @@ pub(crate) struct NumberFormat {
     most: usize,
 }
 
-/// The option of a definition that determines how numbers are written.
+/// An option of a definition, for messages: the one that determines how numbers are written, or how far lines may be from the arc that they replace.
 #[derive(Debug)]
 pub(crate) struct StatedOption {
     pub(crate) name: &'static str,

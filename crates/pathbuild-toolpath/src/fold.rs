@@ -132,7 +132,7 @@ pub(crate) struct Fold<'a, P: FoldPaths> {
     probes: Vec<ProbePoint>,
     /// Curves on the layers of paths, but left out of the program, by name of the path.
     left_out: BTreeMap<Box<str>, OmittedCurves>,
-    /// Index of the last sweep as long as only comments follow it. A further sweep replaces that one.
+    /// Index of the last sweep if only comments follow it and a further sweep may replace it (see [`sweep`](Self::sweep)).
     mergeable: Option<usize>,
     /// The path and element from which the current steps originate.
     here: StepOrigin,
@@ -389,8 +389,8 @@ pub(crate) fn distance(a: Tip, b: Tip) -> f64 {
 
 // Determines the order in which Z-probes are measured. (book: language/probes)
 
-/// Relative tolerance for the order of the R-tree, which rounding may change: probes this close to the nearest one are compared by their own
-/// distances, and the first of equal ones is taken.
+/// Relative tolerance for the order of the R-tree, which rounding may change. Probes whose distance exceeds that of the tree's first one by no more
+/// than this are compared by distances computed here, and of equally distant ones the first is taken.
 const ROUNDING: f64 = 1e-12;
 
 /// Starts at (0, 0) and repeatedly visits the nearest remaining probe; the first of these if there are several. Returns the indices of the probes.

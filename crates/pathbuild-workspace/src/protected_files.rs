@@ -24,7 +24,7 @@ pub fn replace_report(context: &Workspace, file: &Utf8Path, text: &str) -> Resul
     }
 }
 
-/// Returns the reason if a file is a source, or has the name of a program of any post or of one of these.
+/// Returns the reason why an output must not replace a file: it is a source, or has the name of a program of any post or of one of these.
 pub(crate) fn reason_to_keep(
     context: &Workspace,
     post: Option<&PostProcessor>,
@@ -36,8 +36,9 @@ pub(crate) fn reason_to_keep(
     reason_to_keep_source(context, post, file).or_else(|| is_named().then_some(&NAME_OF_PROGRAM))
 }
 
-/// Returns the reason if a file is a drawing, a configuration, an ignore file, measured values or the baseline, or belongs to the definition of `post`
-/// or of the configured post. For most of them the name decides, whether or not the file exists; a link counts as the file to which it leads.
+/// Returns the reason why an output must not replace a file: it is a drawing, a configuration, a post's definition, an ignore file, measured values or
+/// the baseline, or belongs to `post` or to the configured post. `None` if it is none of these. For most of them the name decides, whether or not the
+/// file exists; a link counts as the file to which it leads.
 pub(crate) fn reason_to_keep_source(
     context: &Workspace,
     post: Option<&PostProcessor>,
@@ -79,7 +80,7 @@ fn configured_post(context: &Workspace) -> Option<PostProcessor> {
     PostProcessor::for_run(context, None, PostArguments::default()).ok().flatten()
 }
 
-/// Returns the reason if a file has the name of a source.
+/// Returns the reason why an output must not replace a file with this name: it is the name of a source. `None` for other names.
 fn name_of_source(file: &Utf8Path) -> Option<&'static Text> {
     let is = |extension: &str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(extension));
     let name = file.file_name().unwrap_or_default().to_ascii_lowercase();

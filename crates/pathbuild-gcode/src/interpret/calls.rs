@@ -235,7 +235,7 @@ impl<'r, 'i> Runner<'r, 'i> {
         }
         match outcome {
             RunEnd::Repeated if times > 0 => self.end_after_continue(name, line),
-            // LinuxCNC restarts this loop, but runs no further pass.
+            // `repeat [0]`: LinuxCNC restarts the loop because of an earlier `continue`, but there is no pass to run.
             RunEnd::Repeated => self.stale.continue_line = None,
             _ => {}
         }
@@ -253,7 +253,7 @@ impl<'r, 'i> Runner<'r, 'i> {
     ) -> RunEnd {
         let start = reader.place();
         match self.find_end(reader, &name, OWordKind::EndWhile, line) {
-            Some(_) => self.repeat_if(reader, OpenLoop { name, is_do: false }, start, condition, line),
+            Some(_) => self.run_loop(reader, OpenLoop { name, is_do: false }, start, condition, line),
             None => RunEnd::NoLines,
         }
     }
@@ -261,13 +261,13 @@ impl<'r, 'i> Runner<'r, 'i> {
     fn repeat_do(&mut self, reader: &mut BlockReader<'_>, name: Box<str>, line: u32) -> RunEnd {
         let start = reader.place();
         match self.find_end(reader, &name, OWordKind::While, line) {
-            Some(condition) => self.repeat_if(reader, OpenLoop { name, is_do: true }, start, condition, line),
+            Some(condition) => self.run_loop(reader, OpenLoop { name, is_do: true }, start, condition, line),
             None => RunEnd::NoLines,
         }
     }
 
     /// Runs the lines from `start` on as long as the condition holds. A `do` loop tests its condition only after the first pass.
-    fn repeat_if(
+    fn run_loop(
         &mut self,
         reader: &BlockReader<'_>,
         open: OpenLoop,

@@ -223,7 +223,7 @@ impl Program for NearbyMoves<'_> {
     }
 }
 
-/// Returns the bounding box of a move in the plane. The moves of a drawing are known in all axes.
+/// Returns the bounding box of a move in the plane; infinite along an axis without a known position, which no move of a drawing has.
 fn sides(movement: &Move) -> Sides {
     let [across, up, _] = movement.extent();
     [across, up].map(|side| side.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)))

@@ -119,7 +119,7 @@ impl Binder<'_> {
                 (CIRCLE_ORDER_OFFSET, SegmentKind::Hole(push_indexed(&mut self.holes, hole)))
             }
             (ElementClass::UnknownCircle, _) | (_, None) => {
-                if let Some(tool) = tool.filter(|_| !self.raw.faults.is_in_other_unit) {
+                if let Some(tool) = tool.filter(|_| !self.raw.uncertainty.is_in_other_unit) {
                     let problem = Diagnostic::new(&drawing::CIRCLE_TOO_SMALL)
                         .with("diameter", 2.0 * radius)
                         .with("tool", tool);

@@ -26,7 +26,7 @@ use crate::path::{
     CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath, SubpathName, SubpathValue,
     Surface, Turn,
 };
-use crate::raw::{DrawingFaults, Faults, RawPath, WalkCertainty};
+use crate::raw::{DrawingUncertainty, PathUncertainty, RawPath, WalkCertainty};
 use crate::text::{LetterValue, ParameterText, TextId};
 use crate::values::{GivenNumber, Values, check_doubts, check_limits, check_mark};
 use crate::variables::{Bindings, Interpolation};
@@ -115,13 +115,16 @@ impl FaultSite<'_> {
 impl<'a> Binder<'a> {
     fn new(raw: &'a RawPath, bindings: &'a Bindings, language: &'a Language) -> Self {
         let interpolation =
-            Interpolation { bindings, limit: language.text_limit, unknown: &raw.faults.variables };
+            Interpolation { bindings, limit: language.text_limit, unknown: &raw.uncertainty.variables };
         let mut values = Values::of(raw.parameters(), ElementClass::PathStart, &interpolation);
-        let has_text = raw.parameters.is_some() && !raw.faults.has_second_start;
+        let has_text = raw.parameters.is_some() && !raw.uncertainty.has_second_start;
         // Letters that the path's own text lacks may be in a text without an element. If the path's own text is missing or uncertain, any letter
         // may be given.
-        let hidden =
-            if has_text && !raw.faults.has_broken_entity { raw.faults.stray_letters } else { Letters::ALL };
+        let hidden = if has_text && !raw.uncertainty.has_broken_entity {
+            raw.uncertainty.stray_letters
+        } else {
+            Letters::ALL
+        };
         values.unread = values.unread.and(hidden);
         Self {
             raw,
@@ -180,13 +183,13 @@ impl<'a> Binder<'a> {
             start_origin: start.origin.clone(),
             end_origin: end.origin.clone(),
             left_out: self.raw.left_out.clone(),
-            faults: None,
+            uncertainty: None,
         };
         self.add_probes(&mut path);
         self.unknown.needed |= tool.is_none() || thickness.is_none();
         let has_errors = !self.raw.is_sound() || self.problems.iter().any(Diagnostic::is_error);
         if has_errors || self.unknown.needed {
-            self.add_faults(&mut path);
+            self.add_uncertainty(&mut path);
         }
         Some(path)
     }
@@ -202,9 +205,9 @@ impl<'a> Binder<'a> {
     }
 
     /// Records in the path which of its properties errors leave unknown.
-    fn add_faults(&self, path: &mut Path) {
-        let DrawingFaults { has_broken_entity, has_second_start, other_ends, unclear_circles, .. } =
-            &self.raw.faults;
+    fn add_uncertainty(&self, path: &mut Path) {
+        let DrawingUncertainty { has_broken_entity, has_second_start, other_ends, unclear_circles, .. } =
+            &self.raw.uncertainty;
         let letters = Letter::ALL.into_iter().map(|(_, letter)| letter);
         let is_unknown = |letter: &Letter| match letter {
             Letter::O | Letter::T => self.path_number(*letter).is_none(),
@@ -215,12 +218,12 @@ impl<'a> Binder<'a> {
             self.raw.start.is_none() || *has_broken_entity || *has_second_start || self.unknown.order;
         let walk = if is_walk_unknown {
             WalkCertainty::Unknown
-        } else if self.may_hide_order || self.raw.faults.stray_letters.contains(Letter::N) {
+        } else if self.may_hide_order || self.raw.uncertainty.stray_letters.contains(Letter::N) {
             WalkCertainty::MayHideOrder
         } else {
             WalkCertainty::Known
         };
-        path.faults = Some(Box::new(Faults {
+        path.uncertainty = Some(Box::new(PathUncertainty {
             letters: letters
                 .filter(is_unknown)
                 .fold(Letters::default(), |all, one| all.and(Letters::of(&[one]))),
@@ -236,13 +239,13 @@ impl<'a> Binder<'a> {
     fn are_cuts_known(&self) -> bool {
         let mut errors = self.raw.diagnostics.iter().chain(&self.problems).filter(|found| found.is_error());
         !self.unknown.needed
-            && !self.raw.faults.stray_letters.has_any(CUTTING_LETTERS)
+            && !self.raw.uncertainty.stray_letters.has_any(CUTTING_LETTERS)
             && errors.all(|error| error.code() == Code::TextWithoutElement)
     }
 
     /// Adds lines and arcs of unknown line types as sweeps, since the path runs along them too.
     fn add_unclear_curves(&self, path: &mut Path) {
-        let unclear = &self.raw.faults.unclear_curves;
+        let unclear = &self.raw.uncertainty.unclear_curves;
         if unclear.is_empty() {
             return;
         }
@@ -263,7 +266,7 @@ impl<'a> Binder<'a> {
 
     /// Adds to PB201 the text that was probably meant for the start marker, which has another one.
     fn with_path_text(&self, problem: Diagnostic) -> Diagnostic {
-        let Some((text, at)) = &self.raw.faults.path_text else { return problem };
+        let Some((text, at)) = &self.raw.uncertainty.path_text else { return problem };
         let text = Value::quoted(text.replace('\n', " "));
         problem.note(
             &messages::PATH_TEXT_ELSEWHERE,
@@ -664,7 +667,7 @@ impl Binder<'_> {
     /// Reports support segments that are nowhere cut through. Short edges of rounded corners are between longer sides with gaps, so single ones are
     /// only doubtful if no segment of the path has a gap.
     fn report_missing_gaps(&mut self) {
-        if self.raw.faults.is_in_other_unit {
+        if self.raw.uncertainty.is_in_other_unit {
             return;
         }
         let elements = &self.raw.drawn.elements;

@@ -53,7 +53,7 @@ impl<'d> Texts<'d> {
             if let Some(problem) = layer.assign(path, margin, &budget, remember) {
                 // The elements of the remaining texts are unknown.
                 path.diagnostics.push(problem);
-                path.faults.stray_letters = Letters::ALL;
+                path.uncertainty.stray_letters = Letters::ALL;
                 return;
             }
         }
@@ -77,7 +77,8 @@ impl<'d> Texts<'d> {
                     path.note_start_text(read, text);
                 }
                 let letters = texts.first().map(ParameterText::possible_letters);
-                path.faults.stray_letters = path.faults.stray_letters.and(letters.unwrap_or_default());
+                path.uncertainty.stray_letters =
+                    path.uncertainty.stray_letters.and(letters.unwrap_or_default());
             }
         }
     }
@@ -107,7 +108,7 @@ pub(super) fn check_other_paths(paths: &mut [PathCollector<'_>], margin: f64) {
     let budget = SearchBudget::new(MAX_EXAMINED_FOR_HINTS);
     for number in 0..paths.len() {
         let path = &paths[number];
-        if path.faults.has_broken_entity {
+        if path.uncertainty.has_broken_entity {
             continue;
         }
         let others = || paths.iter().enumerate().filter(|(other, _)| *other != number);

@@ -18,7 +18,7 @@ use crate::language::Language;
 use crate::letter::Letter;
 use crate::line_type::{LineType, LineTypes};
 use crate::names::{PathName, PathPattern};
-use crate::raw::{DrawingFaults, DrawnElements, Position, RawPath, SourceMap};
+use crate::raw::{DrawingUncertainty, DrawnElements, Position, RawPath, SourceMap};
 use crate::read::candidates::{Candidate, Owner};
 use crate::read::entities::{FoundText, plane_arc, xy};
 use crate::read::parameters::{PathCheck, StartHints, StartText, Starts};
@@ -43,7 +43,7 @@ pub(crate) struct PathCollector<'d> {
     left_out: Vec<(EntityKind, Option<Point>)>,
     pub(crate) diagnostics: Vec<Diagnostic>,
     has_broken_circle: bool,
-    pub(super) faults: DrawingFaults,
+    pub(super) uncertainty: DrawingUncertainty,
     pub(super) unclear: Vec<UnclearCircle>,
     pub(super) shared: Vec<SharedProblem>,
     pub(super) hints: StartHints,
@@ -111,7 +111,7 @@ impl PathCollector<'_> {
             left_out: Vec::new(),
             diagnostics: Vec::new(),
             has_broken_circle: false,
-            faults: DrawingFaults::default(),
+            uncertainty: DrawingUncertainty::default(),
             unclear: Vec::new(),
             shared: Vec::new(),
             hints: StartHints::default(),
@@ -146,7 +146,7 @@ impl PathCollector<'_> {
         texts.assign(self, language.doubts.text_margin);
         self.texts = texts;
         // The text may belong to a broken entity.
-        if self.faults.has_broken_entity {
+        if self.uncertainty.has_broken_entity {
             self.diagnostics.truncate(before);
         }
         let name = self.name.as_str();
@@ -176,11 +176,11 @@ impl PathCollector<'_> {
             borrowed_from: None,
             definitions: Vec::new(),
             left_out: self.left_out,
-            faults: self.faults,
+            uncertainty: self.uncertainty,
             diagnostics: self.diagnostics,
         };
-        raw.faults.other_ends.extend(ends.map(|end| end.at));
-        raw.faults.path_text = self.hints.text.as_ref().map(|text| (text.string.clone(), text.anchor));
+        raw.uncertainty.other_ends.extend(ends.map(|end| end.at));
+        raw.uncertainty.path_text = self.hints.text.as_ref().map(|text| (text.string.clone(), text.anchor));
         let mut checked = PathCheck { raw: &mut raw, hints: self.hints };
         checked.check_leftovers();
         if !self.has_broken_circle {
@@ -279,7 +279,7 @@ impl PathCollector<'_> {
 
     fn add_fault(&mut self, diagnostic: &Diagnostic) {
         self.has_elements = true;
-        self.faults.has_broken_entity = true;
+        self.uncertainty.has_broken_entity = true;
         let is_circle =
             matches!(diagnostic.place.entity, Some(EntityKind::Circle | EntityKind::Other) | None);
         // The finding about elements far from the origin names only the first one.
@@ -414,7 +414,7 @@ impl<'d> PathCollector<'d> {
         let Some(role) = found.line_type.and_then(curve_role) else {
             self.add_unknown(found, shape);
             let element = Element { source: found.source, shape, role: Role::SilentSweep, text: None };
-            return self.faults.unclear_curves.push(element);
+            return self.uncertainty.unclear_curves.push(element);
         };
         self.add_element(found, shape, role);
     }
@@ -451,7 +451,7 @@ impl<'d> PathCollector<'d> {
                     .quoting("line_type", &*found.entity.line_type)
                     .with("diameter", exact_length(2.0 * radius));
                 self.report(self.origin(found.source, centre).at(diagnostic));
-                self.faults.is_in_other_unit |= scaled.is_some();
+                self.uncertainty.is_in_other_unit |= scaled.is_some();
                 let radius = scaled.map_or(radius, |scaled| scaled.radius);
                 let meant =
                     if is_phantom { IntendedMarker::of_radius(radius) } else { IntendedMarker::Other };
@@ -463,7 +463,7 @@ impl<'d> PathCollector<'d> {
 
     fn add_unclear(&mut self, found: &LayerEntity<'_>, shape: Shape, meant: IntendedMarker) {
         let marker = self.marker(found, shape.point());
-        self.faults.unclear_circles.push(marker.at);
+        self.uncertainty.unclear_circles.push(marker.at);
         self.unclear.push(UnclearCircle { marker, shape, meant });
     }
 
@@ -568,9 +568,9 @@ impl PathCollector<'_> {
         for marker in take(&mut self.other_starts) {
             let is_start = !has_text || texts.has_path_text(&marker, START_RADIUS);
             if is_start {
-                self.faults.has_second_start = true;
+                self.uncertainty.has_second_start = true;
             } else {
-                self.faults.unclear_circles.push(marker.at);
+                self.uncertainty.unclear_circles.push(marker.at);
             }
             if !is_start && self.ends.is_empty() && self.hints.meant_as_end.is_none() {
                 self.hints.meant_as_end = Some(marker.origin.point);
@@ -586,7 +586,7 @@ impl PathCollector<'_> {
     fn take_unclear(&mut self, meant: IntendedMarker) -> Option<Marker> {
         let index = self.unclear.iter().position(|circle| circle.meant == meant)?;
         let marker = self.unclear.remove(index).marker;
-        self.faults.unclear_circles.retain(|point| *point != marker.at);
+        self.uncertainty.unclear_circles.retain(|point| *point != marker.at);
         Some(marker)
     }
 
@@ -611,7 +611,7 @@ impl PathCollector<'_> {
             markers.retain(|other| other.origin.id != marker.origin.id);
         }
         self.unclear.retain(|other| other.marker.origin.id != marker.origin.id);
-        self.faults.unclear_circles.retain(|point| *point != marker.at);
+        self.uncertainty.unclear_circles.retain(|point| *point != marker.at);
         Some(marker)
     }
 

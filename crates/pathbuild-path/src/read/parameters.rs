@@ -62,7 +62,7 @@ impl PathCheck<'_> {
         let Some(text) = self.raw.drawn.text(start.text) else {
             let problem = start.origin.at(Diagnostic::new(&parameters::NO_PATH_PARAMETERS));
             let problem = self.with_start_text(problem);
-            if !self.raw.faults.has_broken_entity {
+            if !self.raw.uncertainty.has_broken_entity {
                 self.report(problem);
             }
             return self.check_elements(None);
@@ -174,7 +174,7 @@ impl PathCheck<'_> {
             }
         }
         self.raw.definitions = definitions;
-        self.raw.faults.variables = faulty;
+        self.raw.uncertainty.variables = faulty;
         for problem in problems {
             self.report(problem);
         }
@@ -185,8 +185,8 @@ impl PathCheck<'_> {
     /// Reports PB210 for each variable that no text of the path refers to. Nothing is reported if errors may hide a reference. Not called for
     /// drawings whose paths borrow texts from each other, since the variable may be meant for one of them.
     fn check_uses(&mut self) {
-        let faults = &self.raw.faults;
-        let may_be_hidden = faults.has_broken_entity || faults.stray_letters != Letters::default();
+        let uncertainty = &self.raw.uncertainty;
+        let may_be_hidden = uncertainty.has_broken_entity || uncertainty.stray_letters != Letters::default();
         if self.raw.definitions.is_empty() || may_be_hidden {
             return;
         }
@@ -221,10 +221,10 @@ impl PathCheck<'_> {
     /// only embeds others. Not called for drawings whose paths borrow texts from each other.
     fn check_letters_of_cuts(&mut self) {
         let drawn = Arc::clone(&self.raw.drawn);
-        let faults = &self.raw.faults;
-        let is_cut_hidden = faults.has_broken_entity
-            || !faults.unclear_curves.is_empty()
-            || !faults.unclear_circles.is_empty();
+        let uncertainty = &self.raw.uncertainty;
+        let is_cut_hidden = uncertainty.has_broken_entity
+            || !uncertainty.unclear_curves.is_empty()
+            || !uncertainty.unclear_circles.is_empty();
         let has_cut = drawn.elements.iter().any(|element| matches!(element.role, Role::Cut(_)));
         let names_path = |subpath: &Element| {
             drawn.text(subpath.text).is_some_and(|text| text.letters.contains(Letter::Embed))

@@ -115,7 +115,7 @@ impl<'a> Walker<'a> {
             let diagnostics = problem.chain(missing).collect();
             walked = WalkedPath { diagnostics, ..WalkedPath::default() };
         }
-        if path.faults.as_ref().is_some_and(|faults| faults.is_infeed_unknown) {
+        if path.uncertainty.as_ref().is_some_and(|uncertainty| uncertainty.is_infeed_unknown) {
             walked.diagnostics.retain(|found| found.message != &parameters::MISSING);
         }
         group_missing(&mut walked.diagnostics);
@@ -129,7 +129,12 @@ impl<'a> Walker<'a> {
     }
 
     fn run(&mut self) -> Result<(), Failure> {
-        if self.path.faults.as_ref().is_some_and(|faults| faults.walk == WalkCertainty::Unknown) {
+        if self
+            .path
+            .uncertainty
+            .as_ref()
+            .is_some_and(|uncertainty| uncertainty.walk == WalkCertainty::Unknown)
+        {
             return Err(None);
         }
         if self.path.segments.is_empty() {
@@ -163,7 +168,7 @@ impl<'a> Walker<'a> {
             return Ok(());
         }
         let stopped_at = self.at;
-        if self.path.faults.as_ref().is_some_and(|faults| faults.ends.is_empty()) {
+        if self.path.uncertainty.as_ref().is_some_and(|uncertainty| uncertainty.ends.is_empty()) {
             self.open_end = Some(stopped_at);
             return Ok(());
         }
@@ -186,17 +191,17 @@ impl<'a> Walker<'a> {
     /// Returns a failure, unless there is a circle without a meaning at the current point, where the walk may turn or end, or the walk passed a segment
     /// that an unread N may have put first.
     fn unless_unclear(&self, problem: impl FnOnce(&Self) -> Diagnostic) -> Failure {
-        let is_unclear = self.path.faults.as_ref().is_some_and(|faults| {
-            let mut circles = faults.unclear_circles.iter();
+        let is_unclear = self.path.uncertainty.as_ref().is_some_and(|uncertainty| {
+            let mut circles = uncertainty.unclear_circles.iter();
             circles.any(|circle| coincide(*circle, self.at) || self.path.segments.is_empty())
-                || faults.walk == WalkCertainty::MayHideOrder && self.passed_branch().is_some()
+                || uncertainty.walk == WalkCertainty::MayHideOrder && self.passed_branch().is_some()
         });
         (!is_unclear).then(|| problem(self).into())
     }
 
     /// Whether there are several end markers, so that it is unknown where the path ends.
     fn has_several_ends(&self) -> bool {
-        self.path.faults.as_ref().is_some_and(|faults| faults.ends.len() > 1)
+        self.path.uncertainty.as_ref().is_some_and(|uncertainty| uncertainty.ends.len() > 1)
     }
 
     /// Returns the next segment at the current point: the minimum by order, preference and length.
@@ -303,9 +308,9 @@ impl<'a> Walker<'a> {
     }
 
     fn is_at_end(&self) -> bool {
-        match &self.path.faults {
+        match &self.path.uncertainty {
             None => coincide(self.at, self.path.end),
-            Some(faults) => faults.ends.iter().any(|end| coincide(self.at, *end)),
+            Some(uncertainty) => uncertainty.ends.iter().any(|end| coincide(self.at, *end)),
         }
     }
 
@@ -392,7 +397,7 @@ impl Walker<'_> {
     /// Whether the end marker is within the tolerance, so that the tool sweeps there with a warning.
     fn joins_end(&mut self) -> bool {
         let distance = (self.path.end - self.at).norm();
-        let is_known = self.path.faults.as_ref().is_none_or(|faults| !faults.ends.is_empty());
+        let is_known = self.path.uncertainty.as_ref().is_none_or(|uncertainty| !uncertainty.ends.is_empty());
         let is_near = is_known && self.join_tolerance > 0.0 && at_least(self.join_tolerance, distance);
         if is_near {
             self.report_join(&self.path.end_origin, self.path.end, distance);

@@ -20,7 +20,7 @@ pub(super) const CURVE_TOLERANCE: f64 = 3.0 * END_TOLERANCE;
 /// other take no more time and memory than others.
 const MAX_ADDITIONAL_PIECES: usize = 1_000_000;
 
-/// Maximum number of cells and points that are searched for ends on moves. Beyond it, moves stay whole.
+/// Maximum number of steps along moves, and of points near them, examined to find the ends of cuts on moves. Beyond it, moves stay whole.
 const MAX_SEARCHED: usize = 20_000_000;
 
 /// Assigns the same number to points that are the same within a tolerance.
