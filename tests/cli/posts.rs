@@ -818,6 +818,32 @@ fn post_does_not_replace_the_program_that_it_reads() {
     assert_eq!(post("link.gcode", "link.ngc").status, Some(0));
 }
 
+/// The posts haas and fanuc write titles in upper case, too.
+#[test]
+fn the_old_program_of_a_lost_path_is_named_whatever_the_case_of_its_title() {
+    for post in ["linuxcnc", "haas", "fanuc"] {
+        let place = library("");
+        let emit = |arguments: &str| {
+            place.run(&format!("emit {arguments} --post {post} --out-dir g --format concise"))
+        };
+        assert_eq!(emit("1234.1P").status, Some(0));
+        assert_eq!(emit("1234.1P 1500.1P --join both").status, Some(0));
+        let place = place.file("1234.dxf", "no drawing EOF");
+        let emit = |arguments: &str| {
+            place.run(&format!("emit {arguments} --post {post} --out-dir g --format concise"))
+        };
+        let both = emit(".");
+        assert!(both.stderr.contains("path 1234.1P was not written, so both_Milling"), "{post}: {both}");
+        for is_there in [true, false] {
+            if !is_there {
+                std::fs::remove_file(place.path().join("1234.dxf")).unwrap();
+            }
+            let run = emit("1234.1P");
+            assert!(run.stderr.contains("path 1234.1P was not written, so 1234_Milling"), "{post}: {run}");
+        }
+    }
+}
+
 /// A program that could not be written must not be processed.
 #[cfg(unix)]
 #[test]

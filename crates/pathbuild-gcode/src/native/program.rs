@@ -62,12 +62,19 @@ pub fn left_out_lines(program: &Program, lang: Lang) -> Vec<String> {
 
 /// Returns the name of the drawing in a [`title`].
 pub fn drawing_of_title(title: &str) -> Option<&str> {
-    title.split_once(OF_DRAWING).map(|(_, drawing)| drawing)
+    split_ignoring_case(title, OF_DRAWING).map(|(_, drawing)| drawing)
 }
 
 /// Returns the name of the path in a [`title`].
 pub fn path_of_title(title: &str) -> Option<&str> {
-    title.split_once(OF_DRAWING)?.0.strip_prefix(PATH)
+    let (path, _) = split_ignoring_case(title, OF_DRAWING)?;
+    split_ignoring_case(path, PATH).filter(|(before, _)| before.is_empty()).map(|(_, path)| path)
+}
+
+/// Splits a title at the first occurrence of a text, which some posts write in upper case.
+fn split_ignoring_case<'t>(title: &'t str, text: &str) -> Option<(&'t str, &'t str)> {
+    let at = title.to_ascii_lowercase().find(&text.to_ascii_lowercase())?;
+    Some((&title[..at], &title[at + text.len()..]))
 }
 
 /// Reduces a title, or the drawing's name in it, to the characters that all dialects preserve, so that titles can be compared regardless of the post
@@ -97,12 +104,12 @@ pub fn joined_title<'a>(name: &str, paths: impl Iterator<Item = &'a str>) -> Str
     format!("{PATHS}{}{JOINED_AS}{name}", paths.collect::<Vec<_>>().join(AND)).replace(',', " ")
 }
 
-/// Returns the names of the paths in a [`joined_title`], and the name as which they are joined, reduced as by [`plain_title`]; `None` for another
-/// title.
+/// Returns the names of the paths in a [`joined_title`], and the name as which they are joined, the latter reduced as by [`plain_title`]; `None` for
+/// another title.
 pub fn joined_paths(found: &str) -> Option<(Vec<String>, String)> {
-    let found = plain_title(found);
-    let (paths, name) = found.strip_prefix(&*plain_title(PATHS))?.split_once(JOINED_AS)?;
-    Some((paths.split(AND).map(str::to_owned).collect(), name.to_owned()))
+    let (paths, name) = split_ignoring_case(found, JOINED_AS)?;
+    let (_, paths) = split_ignoring_case(paths, PATHS).filter(|(before, _)| before.is_empty())?;
+    Some((paths.split(AND).map(str::to_owned).collect(), plain_title(name)))
 }
 
 const PATHS: &str = "Paths ";

@@ -3,11 +3,11 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::{FileKind, join};
-use pathbuild_db::{Db, SourceFile, Target};
+use pathbuild_db::system::join;
+use pathbuild_db::{SourceFile, Target};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
-use pathbuild_gcode::native;
+use pathbuild_gcode::native::{self, plain_title};
 
 use super::names::is_gcode;
 use super::{EarlierPrograms, file_name, provenance};
@@ -107,9 +107,11 @@ impl<'a> EarlierPrograms<'a> {
     ) -> Vec<(String, Utf8PathBuf)> {
         // A drawing that exists although no argument led to it may still yield its program.
         let is_gone = |program: &Utf8Path, title: &str| {
-            let drawing = native::drawing_of_title(title).unwrap_or_default();
-            let beside = program.with_file_name(drawing);
-            lost.has_drawing || self.session.db().system().kind(&beside) == FileKind::Missing
+            let plain = plain_title(title);
+            let drawing = native::drawing_of_title(&plain).unwrap_or_default();
+            let beside = self.session.file_names_in(program.parent().unwrap_or(Utf8Path::new("")));
+            let mut beside = beside.iter().flat_map(|names| names.iter());
+            lost.has_drawing || !beside.any(|name| plain_title(name) == drawing)
         };
         let mut programs = Vec::new();
         for directory in &lost.directories {

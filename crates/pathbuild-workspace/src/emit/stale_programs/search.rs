@@ -283,7 +283,7 @@ impl<'a> StaleSearch<'a> {
         let db = session.db();
         let (mut programs, mut paths) = (Vec::new(), Vec::new());
         for name in names {
-            let files = self.writers.drawings_of(session, name, path.parent()?);
+            let files = self.writers.drawings_of(session, &plain_title(name), path.parent()?);
             let target = match &*files {
                 [] if self.writers.has_broken => return Some(Reason::Unwritten { path: name.clone() }),
                 [] => return self.writers.reason_if_gone(),
