@@ -34,6 +34,7 @@ fn agreement(dialect: Dialect, program: &str, drawn: &str, peck: Option<f64>, to
         pecks: vec![(0, peck)],
         start: Position::known(0.0, 0.0, CLEARANCE),
         clearance: CLEARANCE,
+        is_probing: false,
         tool,
         number: None,
         spin_up: 0.0,

@@ -133,6 +133,7 @@ fn findings(text: &str, dialect: Dialect, program: &Program) -> Vec<Diagnostic> 
         pecks: Vec::new(),
         start: Position::known(0.0, 0.0, program.start_height()),
         clearance: program.start_height(),
+        is_probing: false,
         tool: ToolUse {
             number: Some(1),
             turning: Some(Turning::Clockwise),

@@ -162,13 +162,14 @@ impl<'c> Rules<'c> {
         self.check_diagonal(line, movement);
         self.check_home_move(line, movement);
         self.leave_frame(line, movement);
-        if movement.pace != Pace::Rapid {
-            self.check_announced_probe(Some((line, movement)));
-        }
+        let replaces_probe =
+            movement.pace != Pace::Rapid && self.check_announced_probe(Some((line, movement)));
         check_probe_direction(line, movement, &mut self.problems);
         self.check_turning_probe(line, movement);
         self.check_after_probe(line, movement);
-        self.check_cutting(line, movement);
+        if !replaces_probe {
+            self.check_cutting(line, movement);
+        }
         self.directions.add(line, movement, &mut self.problems);
         self.is_height_homed =
             !movement.to.known.has(Axes::Z) && (self.is_height_homed || movement.homes_z());
@@ -257,13 +258,15 @@ impl<'c> Rules<'c> {
     }
 
     /// Checks that a probe which a comment announces is made by `next`, the next move that is not rapid; `None` if there is none before the next such
-    /// comment. Any other move would not stop at the material.
-    fn check_announced_probe(&mut self, next: Option<(u32, &Move)>) {
-        let Some(comment) = self.announced_probe.take() else { return };
-        if !next.is_some_and(|(_, movement)| movement.probes_down()) {
+    /// comment. Any other move would not stop at the material. Returns whether the probe is missing.
+    fn check_announced_probe(&mut self, next: Option<(u32, &Move)>) -> bool {
+        let Some(comment) = self.announced_probe.take() else { return false };
+        let is_missing = !next.is_some_and(|(_, movement)| movement.probes_down());
+        if is_missing {
             let line = next.map_or(comment, |(line, _)| line);
             self.problems.add_at_line(&say::PROBE_MISSING, line, |d| d.with("comment", u64::from(comment)));
         }
+        is_missing
     }
 
     fn check_turning_probe(&mut self, line: u32, movement: &Move) {

@@ -163,6 +163,7 @@ impl ReferenceProgram {
             },
             start,
             clearance,
+            is_probing,
             tool: self
                 .tool(table)
                 .filled_from(rewritten.map_or(ToolUse::default(), |rewritten| rewritten.tool)),

@@ -33,6 +33,8 @@ pub struct ExpectedProgram<M> {
     pub start: Position,
     /// The start height S0 of the drawing in mm, slightly above the sweep height S. There are no obstacles at or above it.
     pub clearance: f64,
+    /// Whether this is the probing program, which may wait at any height: nothing turns in the material.
+    pub is_probing: bool,
     /// Number, spindle and coolant of the cutter on the machine.
     pub tool: ToolUse,
     /// The program number by which a control identifies the program, if the post writes one.
@@ -127,8 +129,9 @@ pub struct DrawingComparison<'w, M: Iterator<Item = (u32, Move)>> {
 impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
     /// Starts a comparison for a program in this dialect, written by a post with these words.
     pub fn new(drawn: ExpectedProgram<M>, dialect: Dialect, words: &'w PostWords) -> Self {
+        let lowest_wait = if drawn.is_probing { f64::NEG_INFINITY } else { drawn.clearance };
         Self {
-            setup: Setup::new(dialect, words, drawn.clearance, drawn.tool, drawn.spin_up),
+            setup: Setup::new(dialect, words, lowest_wait, drawn.tool, drawn.spin_up),
             words: WordRules::strict(words, dialect),
             cuts: CutComparison::new(drawn.moves, drawn.pecks, drawn.start, drawn.clearance, dialect),
             number: drawn.number,

@@ -27,7 +27,8 @@ const SPEED_TOLERANCE: f64 = 0.01;
 pub(super) struct Setup<'w> {
     dialect: Dialect,
     words: &'w PostWords,
-    clearance: f64,
+    /// The height in mm from which the program may wait.
+    lowest_wait: f64,
     expected: ToolUse,
     spin_up: f64,
     at: Position,
@@ -66,7 +67,7 @@ impl<'w> Setup<'w> {
     pub(super) fn new(
         dialect: Dialect,
         words: &'w PostWords,
-        clearance: f64,
+        lowest_wait: f64,
         tool: ToolUse,
         spin_up: f64,
     ) -> Self {
@@ -87,7 +88,7 @@ impl<'w> Setup<'w> {
             coolant_line: 0,
             has_uncompared_coolant: false,
             corners: None,
-            clearance,
+            lowest_wait,
             expected,
             spin_up,
             at: Position::default(),
@@ -233,9 +234,9 @@ impl<'w> Setup<'w> {
         }
     }
 
-    /// Whether the tool is below the drawing's start height, where it may be in the material.
+    /// Whether the tool is below the height from which the program may wait.
     fn is_low(&self) -> bool {
-        self.at.known.has(Axes::Z) && self.at.z() < self.clearance - HEIGHT_TOLERANCE
+        self.at.known.has(Axes::Z) && self.at.z() < self.lowest_wait - HEIGHT_TOLERANCE
     }
 
     fn check_move(&mut self, line: u32, movement: &Move) {
