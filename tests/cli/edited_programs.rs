@@ -208,6 +208,28 @@ fn writing_over_an_edited_program_is_told() {
     }
 }
 
+/// After a tool change by hand, only the operator knows where the tool is.
+#[test]
+fn a_move_in_the_plane_after_a_tool_change_needs_a_height() {
+    for (post, change) in [("marlin", "M0 Insert T2"), ("grbl", "M0")] {
+        let place = library();
+        let run = place.run(&format!("emit 1234.1P 1300.1P --join both --post {post} --out-dir g"));
+        assert_eq!(run.status, Some(0), "{run}");
+        let file = std::fs::read_dir(place.path().join("g")).unwrap().next().unwrap().unwrap().file_name();
+        let file = format!("g/{}", file.to_str().unwrap());
+        let program = place.read(&file);
+        let at = program.find(change).unwrap();
+        let (before, after) = program.split_at(at);
+        let lift = after.lines().find(|line| line.contains("Z10.")).unwrap();
+        let unraised = format!("{before}{}", after.replacen(&format!("{lift}\n"), "", 1));
+        let place = place.file("x.nc", program).file("y.nc", unraised);
+        for (name, is_found) in [("x.nc", false), ("y.nc", true)] {
+            let run = place.run(&format!("verify {name}"));
+            assert_eq!(run.stderr.contains("warning[PB742]"), is_found, "{post}: {run}");
+        }
+    }
+}
+
 /// Notepad's "Unicode" is UTF-16, and its "UTF-8 with BOM" has three bytes before the first line.
 #[test]
 fn the_encoding_of_an_editor_is_named() {

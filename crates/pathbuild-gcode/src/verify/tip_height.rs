@@ -2,13 +2,14 @@
 //! (book: program/reading, "Tool changes by hand")
 //!
 //! At a stop the operator may change the tool and set the zero, or only clean: then the tool is where the program left it. A stop is treated as a
-//! tool change if T names a tool other than that of the last cut, if M6 precedes or follows it without a move in between, or if the program sets a
-//! zero or another tool length after it. With M6, a tool that was raised to a machine position stays there.
+//! tool change if T, or the message of the post for Marlin, names a tool other than that of the last cut, if M6 precedes or follows it without a move
+//! in between, or if the program sets a zero or another tool length after it. With M6, a tool that was raised to a machine position stays there.
 
 use pathbuild_diagnostic::Message;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Axes, Change, Move, NamedPosition, Step, ToolLength};
 
+use super::tool_to_insert;
 use crate::dialect::{Dialect, ToolChanger};
 
 /// Knowledge about the height of the tool's tip: pass every step of a program to [`step`](Self::step).
@@ -65,12 +66,8 @@ impl TipHeight {
         match &step.action {
             Action::Move(movement) => return self.add_move(step, movement),
             Action::Stop { optional: false } => self.stop(),
-            Action::SelectTool(number) => {
-                self.selected = Some(*number);
-                if self.is_other_tool() {
-                    return self.change_at_stop();
-                }
-            }
+            Action::SelectTool(number) => return self.select(*number),
+            Action::Comment(text) => return tool_to_insert(text).and_then(|number| self.select(number)),
             Action::ChangeTool(number) => self.insert(*number),
             Action::Change(Change::Offsets { code: 100 | 920, is_followed: false, .. })
                 if self.height == (Height::Stopped { moved: None }) =>
@@ -96,6 +93,11 @@ impl TipHeight {
             Height::Stopped { moved } => moved,
             _ => None,
         }
+    }
+
+    fn select(&mut self, number: u32) -> Option<(u32, &'static Message)> {
+        self.selected = Some(number);
+        if self.is_other_tool() { self.change_at_stop() } else { None }
     }
 
     /// Whether T has selected a tool other than that of the last cut, for a tool change without M6.
