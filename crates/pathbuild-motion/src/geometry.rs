@@ -7,8 +7,8 @@ use std::f64::consts::{PI, TAU};
 pub struct Position {
     /// X, Y and Z in mm. The value of an axis that is not in `known` is not a coordinate of this system.
     pub at: [f64; 3],
-    /// The axes with a known coordinate. All are unknown at the start of the program; some become unknown after a move to a named position or a
-    /// probe.
+    /// The axes with a known coordinate. All are unknown at the start of the program; some become unknown through a move to a named position or
+    /// a probing move.
     pub known: Axes,
 }
 
@@ -217,7 +217,7 @@ impl Arc {
         [a - self.centre[0], b - self.centre[1]]
     }
 
-    /// Extends a box by the points of the arc that are extreme along the plane's axes.
+    /// Extends a bounding box by the points of the arc that are extreme along the plane's axes. Does nothing if an end is unknown in the plane.
     pub(crate) fn widen(&self, from: &Position, to: &Position, extent: &mut [Option<(f64, f64)>; 3]) {
         if !from.known.and(to.known).has(self.plane.axes_of_plane()) {
             return;
@@ -250,8 +250,9 @@ pub struct Course {
     from: [f64; 3],
     to: [f64; 3],
     sweep: f64,
-    /// The radius in mm at the start. `growth` is the increase of the radius along the arc, as a fraction of `radius`.
+    /// The radius in mm at the start.
     radius: f64,
+    /// Increase of the radius along the arc, as a fraction of `radius`; 0 for a true arc.
     growth: f64,
 }
 

@@ -199,7 +199,7 @@ pub enum Change {
     RapidFeed(f64),
     /// `#5221=...`: sets a parameter.
     Parameter,
-    /// Any M code without a step of its own, times ten.
+    /// An M code that has no step of its own, given as its number times ten.
     Switch(u16),
 }
 
@@ -467,7 +467,7 @@ impl Move {
         extent
     }
 
-    /// Returns the lowest height of the tip in mm. An arc in G18 or G19 may dip below its ends.
+    /// Returns the lowest height of the tip in mm. An arc in G18 or G19 may dip below its ends; if its Z is unknown, the result is negative infinity.
     pub fn lowest(&self) -> f64 {
         match self.shape {
             MoveShape::Arc(arc) if arc.plane != Plane::Xy => {

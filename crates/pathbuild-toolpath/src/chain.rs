@@ -1,5 +1,5 @@
-//! Generates the moves of milling chains. Next is always the nearest of the edges (segments at one of their depths) whose upper neighbours are done;
-//! a chain with W is milled back and forth without lifting. (book: program/gcode)
+//! Generates the moves of milling chains. An edge is a segment at one of its depths. The next edge to be milled is always the nearest one that has
+//! nothing left to mill above it; a chain with W is instead milled back and forth without lifting. (book: program/gcode)
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,15 +14,15 @@ use crate::fold::{Fold, FoldPaths, PlacedPath, Tip, distance};
 use crate::mill::{BarPlan, Section};
 use crate::program::{Comment, ElementKind};
 
-/// A segment of the chain (a strand) in program coordinates, with the depths of its edges from top to bottom.
-pub(crate) struct ChainEdge<'a> {
+/// A segment of the chain in program coordinates, with the depths of its edges from top to bottom.
+pub(crate) struct Strand<'a> {
     /// The drawing's comment for the operator (Q).
     comment: Option<&'a str>,
     pub(crate) curve: Curve,
     depths: Vec<f64>,
     /// Depth of the segment in mm: h + B, or h + D for a marking segment, where h is the height by which the path is raised.
     bottom: f64,
-    /// For segments with bars, the height h + D and the positions of the bars.
+    /// For segments with support bars, the height h + D of their top and the positions of the bars.
     bars: Option<PlannedBars>,
     feed: f64,
     /// Index into [`DrawnElements::elements`](pathbuild_path::DrawnElements::elements).
@@ -40,8 +40,8 @@ pub(crate) struct EdgePass {
 impl<P: FoldPaths> Fold<'_, P> {
     pub(crate) fn mill_chain(&mut self, place: &PlacedPath<'_>, chain: &Chain, members: &[ChainSegment]) {
         let first = chain.first_depth.map_or(place.surface - chain.infeed, |depth| place.raised + depth);
-        let strands: Vec<ChainEdge<'_>> =
-            members.iter().map(|member| self.chain_edge(place, member, first, chain.infeed)).collect();
+        let strands: Vec<Strand<'_>> =
+            members.iter().map(|member| self.strand(place, member, first, chain.infeed)).collect();
         let bottom = strands.iter().map(|strand| strand.bottom).fold(f64::INFINITY, f64::min);
         self.begin_element(strands[0].element);
         self.add_element_comment(
@@ -58,22 +58,23 @@ impl<P: FoldPaths> Fold<'_, P> {
         }
     }
 
-    fn chain_edge<'p>(
+    fn strand<'p>(
         &self,
         place: &PlacedPath<'p>,
         member: &ChainSegment,
         first: f64,
         infeed: f64,
-    ) -> ChainEdge<'p> {
+    ) -> Strand<'p> {
         let (cut, curve) = (member.cut(place.path), member.curve(place.path));
         let bottom = place.raised + cut.bottom;
         let bars = planned_bars(cut, place.path.tool, &curve);
         let mut placed = place.placement.place_curve(&curve);
-        // All passes of an arc without length run the same way, as its ends are equally near. Printed 0.001 mm apart, they would drift away.
+        // The ends of an arc without length are equally near to the tool, so all its passes run in the same direction. If the ends were printed
+        // 0.001 mm apart, each pass would begin where the previous one ended, and the arcs would drift away from their place. A line cannot drift.
         if is_negligible(placed.length()) {
             placed = Curve::Line(Line { start: placed.start(), end: placed.end() });
         }
-        ChainEdge {
+        Strand {
             comment: cut.comment.as_deref(),
             curve: placed,
             depths: depths(first, infeed, bottom),
@@ -85,7 +86,7 @@ impl<P: FoldPaths> Fold<'_, P> {
     }
 
     /// Mills the edge with the end nearest to the tool first, but each edge only after the edge above it.
-    fn mill_nearest_first(&mut self, place: &PlacedPath<'_>, strands: &[ChainEdge<'_>]) {
+    fn mill_nearest_first(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>]) {
         let mut open = OpenEdges::new(strands);
         let mut tip = Tip { at: strands[0].curve.start(), z: strands[0].depths[0] };
         let mut last_pass = None;
@@ -112,7 +113,7 @@ impl<P: FoldPaths> Fold<'_, P> {
 
     /// Mills a chain with W, for cutters that cannot leave their groove: every pass follows the whole chain and, if the chain is open, all passes but
     /// the last also lead back. The tool is not lifted.
-    fn mill_in_groove(&mut self, place: &PlacedPath<'_>, strands: &[ChainEdge<'_>]) {
+    fn mill_in_groove(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>]) {
         let runs = strands.iter().map(|strand| strand.depths.len()).max().unwrap_or(0);
         let (start, end) = (strands[0].curve.start(), strands[strands.len() - 1].curve.end());
         let goes_back = runs > 1 && !coincide(start, end);
@@ -137,7 +138,7 @@ impl<P: FoldPaths> Fold<'_, P> {
         }
     }
 
-    fn mill_pass_in_groove(&mut self, place: &PlacedPath<'_>, strands: &[ChainEdge<'_>], run: EdgePass) {
+    fn mill_pass_in_groove(&mut self, place: &PlacedPath<'_>, strands: &[Strand<'_>], run: EdgePass) {
         let strand = &strands[run.strand];
         self.begin_element(strand.element);
         let z = strand.depths[run.edge];
@@ -146,12 +147,12 @@ impl<P: FoldPaths> Fold<'_, P> {
     }
 
     /// Returns the feed of the plunge to the start of an edge.
-    fn entry_feed(&self, place: &PlacedPath<'_>, strand: &ChainEdge<'_>) -> f64 {
+    fn entry_feed(&self, place: &PlacedPath<'_>, strand: &Strand<'_>) -> f64 {
         if self.compatible { place.feed } else { place.feed.min(strand.feed) }
     }
 
     /// Mills a segment at one depth, except for its bars.
-    fn mill_edge(&mut self, place: &PlacedPath<'_>, strand: &ChainEdge<'_>, z: f64, is_backwards: bool) {
+    fn mill_edge(&mut self, place: &PlacedPath<'_>, strand: &Strand<'_>, z: f64, is_backwards: bool) {
         self.add_question_comment(strand.comment);
         for section in strand.sections(z, is_backwards) {
             self.mill_section(&section, place.surface, strand.feed);
@@ -159,7 +160,7 @@ impl<P: FoldPaths> Fold<'_, P> {
     }
 }
 
-impl ChainEdge<'_> {
+impl Strand<'_> {
     /// Returns the start and the end of the segment in this direction.
     fn ends(&self, is_backwards: bool) -> (Xy, Xy) {
         let (start, end) = (self.curve.start(), self.curve.end());
@@ -209,7 +210,7 @@ fn sections(curve: &Curve, z: f64, bars: Option<&PlannedBars>) -> Vec<Section> {
 }
 
 /// Returns the sections of a segment as its last pass mills them, in the coordinates of its drawing. In compatible mode the tool plunges to the
-/// bottom even at a bar, as in [`ChainEdge::entry`].
+/// bottom even at a bar, as in [`Strand::entry`].
 pub(crate) fn last_pass(path: &Path, member: &ChainSegment, is_compatible: bool) -> Vec<Section> {
     let (cut, curve) = (member.cut(path), member.curve(path));
     let bars = planned_bars(cut, path.tool, &curve);
@@ -243,7 +244,7 @@ fn depths(first: f64, infeed: f64, bottom: f64) -> Vec<f64> {
 
 /// The edges of a chain that have not been milled yet.
 pub(crate) struct OpenEdges<'a> {
-    strands: &'a [ChainEdge<'a>],
+    strands: &'a [Strand<'a>],
     /// Number of milled edges of each segment, counted from the top.
     done: Vec<usize>,
     /// Both ends of each segment, as indices into `points`.
@@ -263,7 +264,7 @@ type NextEdge = (usize, Coordinate, usize);
 struct Coordinate(f64);
 
 impl<'a> OpenEdges<'a> {
-    pub(crate) fn new(strands: &'a [ChainEdge<'a>]) -> Self {
+    pub(crate) fn new(strands: &'a [Strand<'a>]) -> Self {
         let (mut points, mut known) = (Vec::new(), BTreeMap::new());
         let mut point = |at: Xy| {
             *known.entry((Coordinate(at.x), Coordinate(at.y))).or_insert_with(|| {

@@ -151,7 +151,7 @@ pub(crate) struct SplitMove {
 }
 
 impl SplitMove {
-    /// Divides a move from `from`; `longest` is the maximum length of a part in mm; with 0, the move stays whole.
+    /// Divides a move that begins at the position `from`. `longest` is the maximum length of a part in mm; with 0, the move stays whole.
     pub(crate) fn new(from: ToolPosition, to: PlannedMove, count: Count, longest: f64) -> Self {
         let parts = match to {
             _ if longest <= 0.0 => 1.0,
@@ -184,7 +184,7 @@ impl SplitMove {
 
     /// Returns the part with this number, from 1, with the height corrected at its end.
     pub(crate) fn piece(&self, number: u64) -> ProgramStep {
-        let ToolPosition { at: to, z } = self.after(number);
+        let ToolPosition { at: to, z } = self.position_after(number);
         let z = Height { z, at: to };
         let moved = match self.to {
             PlannedMove::Sweep { .. } => PlannedMove::Sweep { to },
@@ -192,7 +192,7 @@ impl SplitMove {
             PlannedMove::Drill { feed, .. } => PlannedMove::Drill { feed, z },
             PlannedMove::Line { feed, .. } => PlannedMove::Line { feed, to, z },
             PlannedMove::Arc { feed, clockwise, centre, is_spiral, .. } => {
-                let centre = (self.from.at + centre.coords - self.after(number - 1).at).into();
+                let centre = (self.from.at + centre.coords - self.position_after(number - 1).at).into();
                 // The native dialect writes half circles of a spiral with I0, but parts of half circles with their real I.
                 let is_spiral = is_spiral && self.pieces == 1;
                 PlannedMove::Arc { feed, clockwise, centre, to, z, is_spiral }
@@ -205,7 +205,7 @@ impl SplitMove {
     }
 
     /// Returns the position of the tool after this number of parts.
-    fn after(&self, number: u64) -> ToolPosition {
+    fn position_after(&self, number: u64) -> ToolPosition {
         let end = self.end();
         if number == self.pieces {
             return end;

@@ -26,7 +26,7 @@ pub trait FoldPaths {
     /// Returns the walk along the path.
     fn walked(&self, id: Self::Id) -> &WalkedPath;
 
-    /// Returns the path embedded by a subpath segment, which is given as an index into [`Path::segments`].
+    /// Returns the path embedded by a subpath segment, which is given as an index into [`Path::segments`]; `None` if no such path was found.
     fn embedded(&self, id: Self::Id, segment: usize) -> Option<Self::Id>;
 
     /// Called regularly. Implementations may unwind here if the result is no longer needed.
@@ -89,7 +89,7 @@ fn fold_with<P: FoldPaths>(
         probes: Vec::new(),
         left_out: BTreeMap::new(),
         mergeable: None,
-        here: StepOrigin::default(),
+        current_origin: StepOrigin::default(),
         trace,
     };
     fold.add_path(root, Placement::from_origin(path.start), 0.0, sweep_height);
@@ -135,7 +135,7 @@ pub(crate) struct Fold<'a, P: FoldPaths> {
     /// Index of the last sweep if only comments follow it and a further sweep may replace it (see [`sweep`](Self::sweep)).
     mergeable: Option<usize>,
     /// The path and element from which the current steps originate.
-    here: StepOrigin,
+    current_origin: StepOrigin,
     /// Trace to which the origin of each step is added, if requested.
     trace: Option<Trace<P::Id>>,
 }
@@ -180,7 +180,7 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
             label: probe.label.clone(),
         }));
         if let Some(trace) = &mut self.trace {
-            let occurrence = self.here.occurrence;
+            let occurrence = self.current_origin.occurrence;
             trace.probes.extend((0..path.probes.len()).map(|probe| ProbeOrigin { occurrence, probe }));
         }
         let origin = |segment: usize| path.origin(&path.segments[segment]);
@@ -201,7 +201,7 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
                 Item::Subpath(subpath) => self.add_subpath(&place, id, subpath),
             }
         }
-        self.here = outside;
+        self.current_origin = outside;
     }
 
     /// Records curves on the layers of the path that do not belong to its elements.
@@ -220,18 +220,18 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
 
     /// Makes the given path the current one and returns the previous element.
     fn begin_path(&mut self, id: P::Id, placement: Placement, raised: f64, sweep_height: f64) -> StepOrigin {
-        let outside = self.here;
+        let outside = self.current_origin;
         if let Some(trace) = &mut self.trace {
             let parent = (!trace.occurrences.is_empty()).then_some(outside);
             let occurrence = u32::try_from(trace.occurrences.len()).unwrap_or(u32::MAX);
             trace.occurrences.push(Occurrence { id, parent, placement, raised, sweep_height });
-            self.here = StepOrigin { occurrence, element: None };
+            self.current_origin = StepOrigin { occurrence, element: None };
         }
         outside
     }
 
     pub(crate) fn begin_element(&mut self, element: u32) {
-        self.here.element = Some(element);
+        self.current_origin.element = Some(element);
     }
 
     /// Adds an embedded path, which begins exactly at the start of the segment. The next element begins at the end of the segment, even if
@@ -341,7 +341,7 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
     fn push(&mut self, step: ProgramStep) {
         self.steps.push(step);
         if let Some(trace) = &mut self.trace {
-            trace.steps.push(self.here);
+            trace.steps.push(self.current_origin);
         }
     }
 

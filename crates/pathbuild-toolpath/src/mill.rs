@@ -31,7 +31,8 @@ impl<P: FoldPaths> Fold<'_, P> {
         let z = Height { z: section.to_z, at: section.curve.start() };
         let count = Count { class: MoveClass::Milling, length: section.curve.length(), feed: Some(feed) };
         let tip = Tip { at: to, z: section.to_z };
-        // The three decimals of a program cannot tell a slope of almost no length, beside a bar on an arc, from a full turn of a helix.
+        // Beside a bar on an arc, a slope may have almost no length. Three decimals cannot distinguish such an arc from a full turn of a helix, so it
+        // becomes a line.
         let is_slope = section.from_z != section.to_z;
         let is_line = is_slope && section.curve.length() < LAST_DIGIT && !self.compatible;
         let to = match section.curve {
@@ -153,22 +154,22 @@ impl Circle {
     }
 
     /// Returns the point with the least Y, where full circles begin and end.
-    fn low(&self) -> Xy {
+    fn least_y_point(&self) -> Xy {
         Xy::new(self.centre.x, self.centre.y - self.radius)
     }
 
-    fn high(&self) -> Xy {
+    fn greatest_y_point(&self) -> Xy {
         Xy::new(self.centre.x, self.centre.y + self.radius)
     }
 
-    /// Returns the full circle, clockwise from its lowest point.
+    /// Returns the full circle, clockwise from its point with the least Y.
     fn curve(&self) -> Curve {
-        let low = self.low();
+        let start = self.least_y_point();
         Curve::Arc(Arc {
             centre: self.centre,
             radius: self.radius,
-            start: low,
-            end: low,
+            start,
+            end: start,
             clockwise: true,
             degrees: 360.0,
         })
@@ -183,7 +184,7 @@ impl<P: FoldPaths> Fold<'_, P> {
         self.add_element_comment(ElementKind::HelicalCircle, origin, bottom, place, None);
         self.plunge(place.surface + place.path.tool, place.surface, feed);
         self.add_question_comment(helix.comment.as_deref());
-        self.sweep(circle.low(), circle.radius);
+        self.sweep(circle.least_y_point(), circle.radius);
         let mut done = self.mill_half_circles(&circle, place.surface, helix.infeed, bottom);
         if let Some((depth, bars)) = &helix.bars {
             done = self.mill_circles_with_bars(place, &circle, (done, helix.infeed), *depth, bars);
@@ -203,8 +204,13 @@ impl<P: FoldPaths> Fold<'_, P> {
         }
         loop {
             let half = (depth - infeed / 2.0).max(bottom);
-            self.mill_half_circle(circle, circle.high(), circle.radius, half);
-            self.mill_half_circle(circle, circle.low(), -circle.radius, (half - infeed / 2.0).max(bottom));
+            self.mill_half_circle(circle, circle.greatest_y_point(), circle.radius, half);
+            self.mill_half_circle(
+                circle,
+                circle.least_y_point(),
+                -circle.radius,
+                (half - infeed / 2.0).max(bottom),
+            );
             if at_least(bottom, depth) {
                 return depth;
             }

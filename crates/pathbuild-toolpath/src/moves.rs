@@ -54,7 +54,7 @@ impl ToolTip {
         Self { at: Position::known(0.0, 0.0, height) }
     }
 
-    /// Makes a move to its target and returns it. `length` is the move's length in mm for the statistics.
+    /// Makes a planned move and returns it. `length` is its planned length in mm ([`Count::length`](crate::Count::length)).
     pub fn make_move(&mut self, to: &PlannedMove, length: f64) -> Move {
         match *to {
             PlannedMove::Sweep { to } => self.straight(place(to, self.at.z()), Pace::Rapid),
@@ -62,16 +62,16 @@ impl ToolTip {
             PlannedMove::Drill { feed, z } => self.straight(self.at_height(z.z), Pace::Feed(feed)),
             PlannedMove::Line { feed, to, z } => self.straight(place(to, z.z), Pace::Feed(feed)),
             PlannedMove::Arc { feed, clockwise, centre, to, z, .. } => {
-                let relative = centre;
+                let relative_centre = centre;
                 let centre = [self.at.x() + centre.x, self.at.y() + centre.y];
                 let arc = Arc { plane: Plane::Xy, centre, clockwise, extra_turns: 0 };
                 let to = place(to, z.z);
-                // An arc with ends that coincide, or almost coincide, may have almost no length or be a full circle; the length decides. Only ends
-                // that contradict the length are corrected; an arc that is not quite a full circle remains.
+                // An arc whose ends (almost) coincide either has almost no length or is a full circle: its length decides. Ends are corrected only if
+                // they contradict the length, so an arc that is not quite a full circle is kept.
                 let (radius, sweep) = (arc.radius(&self.at), arc.sweep(&self.at, &to));
-                let is_whole = length > (sweep + PI) * radius && is_doubtful(relative, length);
-                let is_next_to_nothing = length < radius && sweep > PI || is_point(relative);
-                let path = if is_next_to_nothing { MoveShape::Line } else { MoveShape::Arc(arc) };
+                let is_whole = length > (sweep + PI) * radius && is_doubtful(relative_centre, length);
+                let has_no_length = length < radius && sweep > PI || is_point(relative_centre);
+                let path = if has_no_length { MoveShape::Line } else { MoveShape::Arc(arc) };
                 let to = if is_whole { self.at_height(z.z) } else { to };
                 self.move_along(to, path, Pace::Feed(feed))
             }
@@ -106,7 +106,7 @@ pub fn is_point(centre: Xy) -> bool {
     centre.coords.amax() < LAST_DIGIT / 2.0
 }
 
-/// Whether an arc of this length in mm is so short, or so close to a full turn, that three decimals may change it.
+/// Whether an arc of this length in mm is so short, or so close to a full turn, that rounding to three decimals may turn one into the other.
 pub fn is_doubtful(centre: Xy, length: f64) -> bool {
     is_short(length) || length > TAU * centre.coords.norm() - DOUBTFUL_ARC_LENGTH
 }

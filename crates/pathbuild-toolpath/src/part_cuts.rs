@@ -14,7 +14,7 @@ use crate::mill::{BarPlan, Section, axis_circle, last_turns};
 pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible: bool) -> PathCuts {
     let drawn = path.drawn.elements.len();
     let (elements, cuts) = (Vec::with_capacity(drawn), Vec::with_capacity(drawn));
-    let mut found = CutCollector { path, numbers: vec![None; drawn], elements, cuts };
+    let mut collector = CutCollector { path, numbers: vec![None; drawn], elements, cuts };
     let mut embedded = Vec::new();
     for item in &walked.items {
         match item {
@@ -22,37 +22,42 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
                 for member in walked.members(chain) {
                     let cut = member.cut(path);
                     let supported = cut.bars.as_ref().map(|_| (member.curve(path), cut.bottom));
-                    found.add(member.element(path), supported, None, last_pass(path, member, is_compatible));
+                    collector.add(
+                        member.element(path),
+                        supported,
+                        None,
+                        last_pass(path, member, is_compatible),
+                    );
                 }
             }
             Item::Hole { segment, hole } => {
                 let (segment, z) = (&path.segments[*segment], path.holes[*hole as usize].bottom);
                 let [start, end] = path.ends(segment);
                 let curve = Curve::Line(Line { start, end });
-                found.add(segment.element, None, None, [Section { curve, from_z: z, to_z: z }]);
+                collector.add(segment.element, None, None, [Section { curve, from_z: z, to_z: z }]);
             }
             Item::Helix { segment, helix } => {
                 let helix = &path.helices[*helix as usize];
                 let curve = drawn_circle(path, helix);
                 let supported = helix.bars.as_ref().map(|(bottom, _)| (curve, *bottom));
                 let turns = last_turns(helix, path.thickness, path.tool, &curve);
-                found.add(path.segments[*segment].element, supported, Some(helix.centre), turns);
+                collector.add(path.segments[*segment].element, supported, Some(helix.centre), turns);
             }
-            Item::Subpath(placed) => embedded.extend(embedded_place(path, placed, found.cuts.len())),
+            Item::Subpath(placed) => embedded.extend(embedded_place(path, placed, collector.cuts.len())),
             Item::Sweep(_) => {}
         }
     }
-    let sweeps = found.sweeps();
-    // They are stored as long as the drawing's index, so free the spare capacity.
-    found.cuts.shrink_to_fit();
-    found.elements.shrink_to_fit();
+    let sweeps = collector.sweeps();
+    // The lists are stored as long as the drawing's index, so free their spare capacity.
+    collector.cuts.shrink_to_fit();
+    collector.elements.shrink_to_fit();
     PathCuts {
         name: path.name.clone(),
         radius: path.tool / 2.0,
         thickness: path.thickness,
         is_slot,
-        elements: found.elements,
-        cuts: found.cuts,
+        elements: collector.elements,
+        cuts: collector.cuts,
         sweeps,
         bars: bars(path),
         ends: (path.start, path.end),
@@ -62,7 +67,7 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
 
 struct CutCollector<'p> {
     path: &'p Path,
-    /// The indices into `elements`, by index of the drawn element; `None` if it has none yet.
+    /// The index into `elements` of each drawn element; `None` for those that have not been added.
     numbers: Vec<Option<u32>>,
     elements: Vec<CutElement>,
     cuts: Vec<PartCut>,
@@ -128,7 +133,8 @@ fn cut_element(path: &Path, number: u32) -> CutElement {
     CutElement { origin, lowest: f64::INFINITY, supported: None, bottom: f64::INFINITY, circle: None }
 }
 
-/// Returns the circle of a helix in a program of its own path.
+/// Returns the circle along which a helix moves the cutter's axis, in the coordinates of the drawing. It begins where it does in a program of this
+/// path alone.
 fn drawn_circle(path: &Path, helix: &Helix) -> Curve {
     axis_circle(helix, path.tool, &Placement::from_origin(Xy::origin()))
 }
@@ -182,7 +188,7 @@ struct BarPlace {
     /// Upper bound on the length in mm of the slopes beside the bar.
     slope: f64,
     top: f64,
-    /// P in mm.
+    /// Length P of the bar in mm, as drawn.
     length: f64,
     circle: Option<Xy>,
 }
@@ -218,8 +224,8 @@ impl BarPlace {
         let middle = if to - from > MAX_WEAK_BRIDGE {
             Some(self.curve.section(from, to))
         } else {
-            // A segment that is a bar from end to end keeps its middle, however short it is: a single one was drawn for its bar, so cuts that leave
-            // nothing of the bar must be found; one between other such segments stands anyway.
+            // A segment that is a bar from end to end keeps its middle, however short it is. If the segment stands alone, it was drawn for the
+            // sake of the bar, so cuts that leave nothing of the bar must be reported; between two other such segments, the bar stands anyway.
             (is_at_end == [true; 2] && is_whole[0] == is_whole[1]).then_some(self.curve)
         };
         StandingBar { middle, foot, top: self.top, required: self.length, circle: self.circle }

@@ -175,6 +175,7 @@ impl Plane {
     }
 }
 
+/// Number of probes that determine the height at a point.
 const PROBES_PER_POINT: usize = 4;
 
 /// Relative difference of weights below which the tree may order them wrongly, so that they are ordered by index.
@@ -225,11 +226,11 @@ impl NearestProbes {
 // Finds probes that do not fit the others. (PB607)
 //
 // Each probe is compared with the best-fitting plane (least squares) of all the others. It is odd if its distance from that plane exceeds
-// [`MIN_REPORTED_DEVIATION`] and also [`MIN_ODD_RATIO`] times the scatter of the others around it (externally studentized residual). So a bent sheet, on
-// which all probes scatter, has no odd probes, but a single typing error stands out. This requires five probes: three others always lie on a plane,
-// so that with four it is impossible to tell which one is wrong.
+// [`MIN_REPORTED_DEVIATION`] and also [`MIN_ODD_RATIO`] times the scatter of the others around the plane (externally studentized residual). So a bent
+// sheet, on which all probes scatter, has no odd probes, but a single typing error stands out. This requires five probes: with four, the three others
+// always lie on a plane, so that it is impossible to tell which one is wrong.
 
-/// Deviation in mm of a height from what the probes let expect up to which nothing is reported.
+/// Deviation of a height or of a correction in mm, from the one that the probes suggest, up to which nothing is reported.
 pub const MIN_REPORTED_DEVIATION: f64 = 0.1;
 
 /// Minimum ratio of a probe's distance from the plane to the scatter of the other probes.
