@@ -434,7 +434,7 @@ fn combinations_beyond_a_thousand_are_cut_with_a_warning() {
             (0..count).map(|number| format!("{}", f64::from(number) / 1000.0)).collect();
         let definitions = format!(":A{} :B?01 :C?01", values.join(","));
         let cut = place(&definitions).run("check --all-bindings 2051.dxf");
-        assert_eq!(!cut.stderr.contains("not even each value"), is_each_checked, "{cut}");
+        assert_eq!(!cut.stderr.contains("not even every value"), is_each_checked, "{cut}");
     }
 }
 
@@ -456,7 +456,7 @@ fn names_like_one_that_is_not_found_are_named() {
         pathbuild_testkit::sheet(drawn).unwrap().to_dxf()
     });
     let run = place.run("check 8009.1P");
-    for note in ["paths in drawings that could contain it: 1234.1P, 1234.2P", "similar names: 1234.1P"] {
+    for note in ["the searched drawings contain these paths: 1234.1P, 1234.2P", "similar names: 1234.1P"] {
         assert!(run.stderr.lines().any(|line| line.ends_with(note)), "{note} in {run}");
     }
     // Every command that looks for a path gives the same message.

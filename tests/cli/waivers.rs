@@ -264,7 +264,7 @@ fn an_accepted_rapid_move_holds_while_it_is_not_deeper() {
     assert!(shallower.status == Some(0) && shallower.stderr.contains("known: 1"), "{shallower}");
     for (roughed, depth) in [("-2.94", "0.06"), ("1", "3")] {
         let deeper = run(program("", roughed));
-        let note = format!("accepted up to 0.05 mm by pathbuild-baseline.txt:3; here it is {depth} mm");
+        let note = format!("pathbuild-baseline.txt:3 accepts this finding only up to 0.05 mm; here it is {depth} mm");
         assert!(deeper.status == Some(1) && deeper.stderr.contains(&note), "{deeper}");
     }
     let baseline = place.path().join("pathbuild-baseline.txt");
@@ -294,7 +294,7 @@ fn slopes_and_moves_beyond_the_machine_are_accepted_up_to_a_depth() {
     assert!(baseline.contains(" depth=1 ") && baseline.contains(" depth=0.5 "), "{baseline}");
     let notes = |surface: &str, most: f64| {
         std::fs::write(place.path().join("pathbuild.toml"), table(most)).unwrap();
-        place.run(&verify(surface)).stderr.matches("accepted up to").count()
+        place.run(&verify(surface)).stderr.matches("accepts this finding only up to").count()
     };
     assert_eq!(notes("0", 100.0), 0);
     assert_eq!(notes("-0.1", 100.1), 0);
@@ -591,7 +591,7 @@ fn an_accepted_cut_into_the_part_holds_while_it_is_not_deeper() {
     let baseline = place.read("pathbuild-baseline.txt");
     assert!(baseline.contains(" depth=0.05 reason=\"polished off\" severity=warning PB213 "), "{baseline}");
     let write = |text: &str| std::fs::write(place.path().join("pathbuild-baseline.txt"), text).unwrap();
-    let deeper = "accepted up to 0.05 mm by pathbuild-baseline.txt:3; here it is 0.06 mm";
+    let deeper = "pathbuild-baseline.txt:3 accepts this finding only up to 0.05 mm; here it is 0.06 mm";
     // Versions up to 0.2.0 wrote neither the depth nor the severity, but described the finding.
     for text in [&baseline, &baseline.replace(" depth=0.05", "").replace(" severity=warning", "")] {
         write(text);
@@ -603,7 +603,7 @@ fn an_accepted_cut_into_the_part_holds_while_it_is_not_deeper() {
     write(&baseline.replace(" depth=0.05", "").replace("0.05 mm", "a bit"));
     let (warning, error) = (check(20.1), check(20.11));
     assert_eq!(warning.status, Some(0), "{warning}");
-    let note = "accepted as a warning by pathbuild-baseline.txt:3; here it is an error";
+    let note = "pathbuild-baseline.txt:3 accepts this finding only as a warning; here it is an error";
     assert!(error.status == Some(1) && error.stderr.contains(note), "{error}");
 }
 
@@ -624,7 +624,7 @@ fn an_accepted_move_into_a_clamp_holds_while_it_is_not_deeper() {
     assert_eq!(place.run_with(&["check", "--accept", "PB407", "--reason", "filed down"]).status, Some(0));
     assert_eq!((check("20").status, check("20.5").status), (Some(0), Some(0)));
     let lower = check("19.99");
-    let note = "accepted up to 5 mm by pathbuild-baseline.txt:3; here it is 5.01 mm";
+    let note = "pathbuild-baseline.txt:3 accepts this finding only up to 5 mm; here it is 5.01 mm";
     assert!(lower.status == Some(1) && lower.stderr.contains(note), "{lower}");
     // Entries of versions up to 0.2.0 do not say how deep.
     let baseline = place.read("pathbuild-baseline.txt").replace(" depth=5", "");

@@ -32,13 +32,13 @@ words! {
     /// A report or similar output would overwrite a post definition or a text that it inserts.
     SOURCE_OF_POST: "it belongs to the post-processor, and would be lost", "sie gehört zum Postprozessor und ginge verloren";
     /// A report or dependency file would overwrite the baseline.
-    IS_BASELINE: "it is the baseline, which would be lost", "sie ist die Baseline, die verloren ginge";
+    IS_BASELINE: "it is the baseline, which would be lost", "sie ist die Liste bekannter Befunde, die verloren ginge";
     /// `post --output` would overwrite the program that it reads.
     PROGRAM_THAT_IS_READ: "it is the program to rewrite, which would be lost", "sie ist das Programm, das umgeschrieben wird, und ginge verloren";
     /// `post --output` would overwrite the program of another path.
     PROGRAM_OF_OTHER_PATH: "it is the program of another path, which would be lost", "sie ist das Programm eines anderen Pfades, das verloren ginge";
     /// `--update-baseline` would overwrite a file that is not a baseline.
-    NO_BASELINE: "the file there is not a baseline, and would be lost", "die Datei dort ist keine Baseline und ginge verloren";
+    NO_BASELINE: "the file there is not a baseline, and would be lost", "die Datei dort ist keine Liste bekannter Befunde und ginge verloren";
     /// q-project would overwrite a drawing that it did not write.
     DRAWN_BY_USER: "the drawing there was not written by q-project, or was edited since", "die Zeichnung dort stammt nicht von q-project oder wurde seither bearbeitet";
     /// A directory is in the place of a file to read.

@@ -233,7 +233,7 @@ fn a_large_program_is_checked_more_coarsely_not_never() {
     let plunge = problems.iter().find(|problem| problem.code().name() == "rapid-plunge").expect("a plunge");
     // The side of a cell is that of 20240 mm² divided into 16 million cells, 0.036 mm.
     let help = plunge.help(Lang::En).expect("help");
-    assert!(help.contains("stock known to within 0.073"), "{help}");
+    assert!(help.contains("stock is simulated to within 0.073"), "{help}");
 }
 
 #[test]

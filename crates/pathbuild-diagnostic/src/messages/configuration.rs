@@ -290,8 +290,8 @@ messages! {
     BASELINE_UNREADABLE: InvalidConfiguration {
         en: "cannot read the baseline: {reason}",
         de: "die Liste bekannter Befunde ist nicht lesbar: {reason}",
-        help_en: "check the file's name, or write a new baseline with --update-baseline, after moving away a file that cannot be read",
-        help_de: "den Dateinamen prüfen oder mit --update-baseline eine neue Liste schreiben und eine unlesbare Datei vorher woanders ablegen",
+        help_en: "check the file's name; or move the unreadable file away, and write a new baseline with --update-baseline",
+        help_de: "den Dateinamen prüfen; oder die unlesbare Datei woanders ablegen und mit --update-baseline eine neue Liste schreiben",
     }
     /// A line of a baseline that does not begin with a fingerprint.
     BASELINE_LINE: InvalidConfiguration {
@@ -344,28 +344,28 @@ messages! {
     }
     /// Note: a waiver would apply, but its last day has passed.
     WAIVER_ENDED: InvalidConfiguration {
-        en: "accepted until {until} by {place}; the date of this run is {date} ({source})",
-        de: "laut {place} hingenommen bis {until}; das Datum dieses Laufs ist {date} ({source})",
+        en: "{place} accepts this finding only until {until}; the date of this run is {date} ({source})",
+        de: "laut {place} ist dieser Befund nur bis {until} hingenommen; das Datum dieses Laufs ist {date} ({source})",
     }
     /// Note: the finding is worse than when it was accepted, for example a tool deeper in the material.
     WAIVER_DEEPER: InvalidConfiguration {
-        en: "accepted up to {accepted} mm by {place}; here it is {depth} mm",
-        de: "laut {place} bis {accepted} mm hingenommen; hier sind es {depth} mm",
+        en: "{place} accepts this finding only up to {accepted} mm; here it is {depth} mm",
+        de: "laut {place} ist dieser Befund nur bis {accepted} mm hingenommen; hier sind es {depth} mm",
     }
     /// Note: a finding that was accepted as a warning is an error now.
     WAIVER_OF_WARNING: InvalidConfiguration {
-        en: "accepted as a warning by {place}; here it is an error",
-        de: "laut {place} als Warnung hingenommen; hier ist es ein Fehler",
+        en: "{place} accepts this finding only as a warning; here it is an error",
+        de: "laut {place} ist dieser Befund nur als Warnung hingenommen; hier ist es ein Fehler",
     }
     /// Note: a waiver written by an older version accepts a tool in the material without stating the depth.
     WAIVER_WITHOUT_DEPTH: InvalidConfiguration {
-        en: "accepted by {place}, which does not state the depth: accept the finding again",
-        de: "laut {place} hingenommen, aber ohne Angabe der Tiefe: den Befund noch einmal hinnehmen",
+        en: "{place} accepts this finding, but does not state the depth: accept the finding again",
+        de: "laut {place} ist dieser Befund hingenommen, aber ohne Angabe der Tiefe: ihn noch einmal hinnehmen",
     }
     /// Note: a waiver with a last day does not apply because the date of the run is unknown.
     WAIVER_WITHOUT_DATE: InvalidConfiguration {
-        en: "accepted until {until} by {place}, which does not hold here because this run has no date",
-        de: "laut {place} hingenommen bis {until}; das gilt hier nicht, weil dieser Lauf kein Datum hat",
+        en: "{place} accepts this finding until {until}, which does not hold here because this run has no date",
+        de: "laut {place} ist dieser Befund bis {until} hingenommen; das gilt hier nicht, weil dieser Lauf kein Datum hat",
     }
     /// Note: the configuration sets a severity until a date.
     SEVERITY_UNTIL: InvalidConfiguration {
@@ -385,7 +385,7 @@ words! {
     /// Permitted values of measures. Values beyond these bounds can only be mistakes.
     MEASURE: "a number from 0.001 to 1000000", "eine Zahl von 0.001 bis 1000000";
     /// Permitted values of speeds in mm/min or 1/min.
-    SPEED: "a number without a separator of thousands, such as 1200 instead of 1.200", "eine Zahl ohne Tausendertrennzeichen, etwa 1200 statt 1.200";
+    SPEED: "a number without a thousands separator, such as 1200 instead of 1.200", "eine Zahl ohne Tausendertrennzeichen, etwa 1200 statt 1.200";
     /// Permitted values: numbers greater than 0.
     POSITIVE: "a number greater than 0", "eine Zahl größer als 0";
     /// Permitted values: 0 and greater numbers.

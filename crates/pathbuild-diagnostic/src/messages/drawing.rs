@@ -204,12 +204,12 @@ messages! {
     PLACE_UNKNOWN: DoubtfulText {
         en: "the text \"{text}\" belongs to {element} at {point}, but has {reason} and may be shown in another place",
         de: "zum Text \"{text}\" gehört {element} bei {point}; er hat {reason} und wird vielleicht an anderer Stelle angezeigt",
-        help_en: "remove that from the text in the CAD program, or write it as a new text without formatting",
-        help_de: "das im CAD aus dem Text entfernen oder ihn ohne Formatierung neu schreiben",
+        help_en: "remove this formatting from the text in the CAD program, or write it as a new text without formatting",
+        help_de: "diese Formatierung im CAD aus dem Text entfernen oder ihn ohne Formatierung neu schreiben",
     }
     /// Note: the text lies on a HIDDEN line or arc.
     HIDDEN_TAKES_NO_TEXT: TextWithoutElement {
-        en: "the HIDDEN element at {point}, which the text lies on, takes no text: draw it DASHED to give it N or S, DASHDOT to embed a path with >",
+        en: "the HIDDEN element at {point}, which the text lies on, takes no text: draw it DASHED to give it N or S, or DASHDOT to embed a path with >",
         de: "das Element mit Linientyp HIDDEN bei {point}, auf dem der Text liegt, nimmt keinen Text an: für N und S als DASHED zeichnen, zum Einbetten mit > als DASHDOT",
     }
     /// Note: the text lies on the end marker.
@@ -607,8 +607,8 @@ messages! {
     TOO_LARGE: InvalidDxf {
         en: "{entity} lies or reaches more than 1,000,000 mm from the origin, or its size is 0; elements of this layer with such a problem: {count}",
         de: "{entity} liegt mehr als 1.000.000 mm vom Nullpunkt entfernt, reicht so weit oder hat die Größe 0; Elemente dieses Layers mit einem solchen Problem: {count}",
-        help_en: "draw near the origin, at true size: move the whole drawing if it lies there (world coordinates), otherwise the entity or its block, or delete the entity",
-        help_de: "nahe am Nullpunkt und in wahrer Größe zeichnen: die ganze Zeichnung verschieben, wenn sie dort liegt (Weltkoordinaten), sonst das Element oder seinen Block, oder das Element löschen",
+        help_en: "draw near the origin, at true size: if the whole drawing lies far away (world coordinates), move it; otherwise move the entity or its block, or delete the entity",
+        help_de: "nahe am Nullpunkt und in wahrer Größe zeichnen: liegt die ganze Zeichnung so weit entfernt (Weltkoordinaten), sie verschieben; sonst das Element oder seinen Block verschieben oder das Element löschen",
     }
     /// An extrusion direction other than (0,0,1) and (0,0,-1).
     TILTED: OffPlane {

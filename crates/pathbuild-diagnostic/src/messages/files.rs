@@ -118,8 +118,8 @@ messages! {
     }
     /// A path with more moves than the limit permits once `z-split` has divided them.
     TOO_MANY_PIECES: LimitReached {
-        en: "z-split divides the moves of this path into {count}, which exceeds the limit of {limit}",
-        de: "z-split teilt die Bewegungen dieses Pfads in {count} und überschreitet damit die Grenze von {limit}",
+        en: "z-split divides the moves of this path into {count} pieces, which exceeds the limit of {limit}",
+        de: "z-split teilt die Bewegungen dieses Pfads in {count} Stücke und überschreitet damit die Grenze von {limit}",
         help_en: "raise `z-split`, which is the length of a piece; if that many are intended, raise `{key}` under [limits] in pathbuild.toml",
         help_de: "`z-split`, die Länge eines Stücks, erhöhen; sind so viele gewollt, `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
@@ -209,7 +209,7 @@ messages! {
     }
     /// A file to be written into a directory in whose place there is a file.
     DIRECTORY_IS_FILE: CannotWrite {
-        en: "cannot write {name}: a file has the name of its directory",
+        en: "cannot write {name}: in place of its directory, there is a file",
         de: "{name} kann nicht geschrieben werden: eine Datei heißt wie das Verzeichnis",
         help_en: "rename that file, or write into another directory",
         help_de: "jene Datei umbenennen oder in ein anderes Verzeichnis schreiben",

@@ -50,7 +50,7 @@ messages! {
         en: "{name} has no end in this file",
         de: "{name} hat in dieser Datei kein Ende",
         help_en: "end subprograms with M99 or endsub, `repeat` and `while` loops with `endrepeat` and `endwhile`, `do` loops with `while`, and branches with `endif`",
-        help_de: "Unterprogramme mit M99 oder endsub beenden, Schleifen mit endrepeat oder endwhile, do mit while, Verzweigungen mit endif",
+        help_de: "Unterprogramme mit M99 oder endsub beenden, Schleifen mit endrepeat oder endwhile, do-Schleifen mit while, Verzweigungen mit endif",
     }
     /// A `do` loop that LinuxCNC ends too early, because an earlier `while` loop was left by `break`.
     ENDED_BY_EARLIER_BREAK: WordNotFollowed {
@@ -70,8 +70,8 @@ messages! {
     LEFT_WITHOUT_LOOP: WordNotFollowed {
         en: "this word leaves the loop {name}, which is not running here",
         de: "dieses Wort verlässt die Schleife {name}, die hier nicht läuft",
-        help_en: "write the number of the surrounding while or do",
-        help_de: "die Nummer der umgebenden Schleife mit while oder do angeben",
+        help_en: "write the number of the while or do loop that contains this line",
+        help_de: "die Nummer der while- oder do-Schleife angeben, in der diese Zeile steht",
     }
     /// The end of a subprogram that was not called, in the main program.
     END_WITHOUT_CALL: WordNotFollowed {
@@ -103,29 +103,29 @@ messages! {
     }
     /// G28.1 or G30.1, which overwrites the home position that the control stores.
     HOME_STORED: OffsetLeftOn {
-        en: "{word} makes this the home position of the control for good: {home} of any other program goes here from now on",
+        en: "{word} permanently stores the current position as the home position of the control: from now on, {home} in any other program moves here",
         de: "{word} macht diese Stelle dauerhaft zur Referenzposition der Steuerung: {home} jedes anderen Programms fährt von nun an hierher",
         help_en: "remove the word, or store the usual home position again afterwards",
         help_de: "das Wort entfernen oder danach die übliche Referenzposition wieder speichern",
     }
     /// G28 of Marlin after the first cut, which changes the zero point.
     REFERENCED: WordNotFollowed {
-        en: "{dialect} moves to the reference switches at {word} and counts from them afterwards, no longer from the zero of the part",
-        de: "{dialect} fährt bei {word} auf die Referenzschalter und zählt danach von ihnen aus, nicht mehr vom Nullpunkt des Werkstücks",
+        en: "with {word}, {dialect} moves to the reference switches, and then counts from them, no longer from the zero of the part",
+        de: "mit {word} fährt {dialect} auf die Referenzschalter und zählt danach von ihnen aus, nicht mehr vom Nullpunkt des Werkstücks",
         help_en: "home the machine before you start the program; to park it at the end, raise the cutter and move to a position in the coordinates of the part",
         help_de: "vor dem Programm referenzieren; zum Parken den Fräser anheben und eine Position des Programms anfahren",
     }
     /// G92.1 or G92.2 after the operator has touched off.
     ZERO_CLEARED: WordNotFollowed {
-        en: "{word} goes back to the zero of before G92, and only the machine knows how far that is from where the tool stood at G92",
-        de: "{word} kehrt zum Nullpunkt von vor G92 zurück, und nur die Maschine weiß, wie weit er von der Stelle entfernt ist, an der das Werkzeug bei G92 stand",
+        en: "{word} returns to the zero that was in effect before G92, and only the machine knows how far that is from where the tool stood at G92",
+        de: "{word} kehrt zum Nullpunkt zurück, der vor G92 galt, und nur die Maschine weiß, wie weit er von der Stelle entfernt ist, an der das Werkzeug bei G92 stand",
         help_en: "write {word} after the last move, or set the zero again with G92 before the next one",
         help_de: "{word} hinter die letzte Bewegung schreiben oder den Nullpunkt vor der nächsten mit G92 neu setzen",
     }
     /// F words that are ignored because of an option.
     FEED_IGNORED: IgnoredWord {
-        en: "F is ignored because of an option: the feeds of the layers apply",
-        de: "F wird wie verlangt übergangen: es gelten die Vorschübe der Layer",
+        en: "F is ignored because of the option --ignore-feed: the feeds of the layers apply",
+        de: "F wird wegen der Option --ignore-feed übergangen: es gelten die Vorschübe der Layer",
     }
     /// A speed that replaces an earlier one of the same layer.
     SPEED_REPLACED: IgnoredWord {
@@ -136,8 +136,8 @@ messages! {
     }
     /// A dwell for a number of turns of the spindle before a speed is set.
     TURNS_WITHOUT_SPEED: MissingWord {
-        en: "this dwell lasts a number of turns of the spindle, and no speed is set",
-        de: "diese Wartezeit dauert eine Anzahl von Umdrehungen der Spindel, und es ist keine Drehzahl gesetzt",
+        en: "this dwell is given in turns of the spindle, but no spindle speed is set",
+        de: "diese Wartezeit ist in Umdrehungen der Spindel angegeben, es ist aber keine Drehzahl gesetzt",
         help_en: "set the speed with S on an earlier line, or write the dwell in seconds",
         help_de: "die Drehzahl mit S in einer früheren Zeile setzen oder die Wartezeit in Sekunden schreiben",
     }
@@ -199,14 +199,14 @@ messages! {
     POSITION_UNKNOWN: UnknownOffset {
         en: "the target of {word} is unknown, so the next move begins at an unknown position",
         de: "das Ziel von {word} ist unbekannt; die nächste Bewegung beginnt daher an unbekannter Stelle",
-        help_en: "check at the machine that nothing is in the way of the next move: lengths and checks leave out such moves",
-        help_de: "an der Maschine prüfen, dass der Weg der nächsten Bewegung frei ist: Längen und Prüfungen lassen solche Bewegungen aus",
+        help_en: "check at the machine that nothing is in the way of the next move: pathbuild leaves such moves out of lengths and checks",
+        help_de: "an der Maschine prüfen, dass der Weg der nächsten Bewegung frei ist: bei Längen und Prüfungen lässt pathbuild solche Bewegungen aus",
     }
     /// A program that does not state its unit.
     UNITS_NOT_STATED: UnitsNotStated {
         en: "there is no {inch} or {mm} before the first move; millimetres are assumed",
         de: "vor der ersten Bewegung fehlt {inch} oder {mm}; Millimeter werden angenommen",
-        help_en: "state the unit: the control keeps that of the previous program",
+        help_en: "state the unit: otherwise, the control keeps that of the previous program",
         help_de: "die Einheit angeben: die Steuerung behält sonst die des vorigen Programms",
     }
     /// A cut with an F that was stated before a change of the unit, on a control that may read its number in the new unit.
@@ -225,15 +225,15 @@ messages! {
     }
     /// A hole with an R, Z or Q that was stated before a change of the unit.
     CYCLE_IN_OTHER_UNIT: UnitChanged as Error {
-        en: "this hole takes {word} from line {line}, in {unit}: after the change of the unit, controls such as LinuxCNC read the number as {other}",
-        de: "diese Bohrung nimmt {word} aus Zeile {line}, in {unit}: nach dem Wechsel der Einheit lesen Steuerungen wie LinuxCNC die Zahl als {other}",
+        en: "this hole uses the {word} of line {line}, which is in {unit}: after the change of the unit, controls such as LinuxCNC read the number as {other}",
+        de: "diese Bohrung verwendet das {word} aus Zeile {line}, das in {unit} angegeben ist: nach dem Wechsel der Einheit lesen Steuerungen wie LinuxCNC die Zahl als {other}",
         help_en: "write R, Z and Q again in the new unit",
         help_de: "R, Z und Q in der neuen Einheit noch einmal angeben",
     }
     /// G20 and G21 in one program, for a control on which the unit is a setting of the machine.
     UNIT_IS_SETTING: UnitChanged as Error {
-        en: "{word} contradicts the unit before it: {dialect} has one unit, that of Setting 9, and stops with an alarm",
-        de: "{word} widerspricht der Einheit davor: {dialect} hat nur eine Einheit, die aus Setting 9, und hält mit einem Alarm an",
+        en: "{word} contradicts the unit set earlier in the program: {dialect} has only one unit, that of Setting 9, and stops with an alarm",
+        de: "{word} widerspricht der Einheit, die das Programm vorher gesetzt hat: {dialect} hat nur eine Einheit, die aus Setting 9, und hält mit einem Alarm an",
         help_en: "write the whole program in one unit",
         help_de: "das ganze Programm in einer Einheit schreiben",
     }
@@ -241,8 +241,8 @@ messages! {
     CYCLE_LEFT_ON: CycleLeftOn {
         en: "this line drills: {word} is still on, although line {line} has changed the tool",
         de: "diese Zeile bohrt: {word} gilt noch, obwohl Zeile {line} das Werkzeug gewechselt hat",
-        help_en: "write G80 before the tool change, and the cycle again with the R and Z of the new tool if it is to drill",
-        help_de: "vor dem Wechsel G80 schreiben, und den Zyklus mit R und Z des neuen Werkzeugs neu, falls es bohren soll",
+        help_en: "write G80 before the tool change; if the new tool is to drill, write the cycle again with the R and Z of that tool",
+        help_de: "vor dem Wechsel G80 schreiben; soll das neue Werkzeug bohren, den Zyklus mit seinem R und Z noch einmal schreiben",
     }
     /// G53 with a low Z, while the tool is at a known position in the plane and thus may be over the part.
     LOW_MACHINE_HEIGHT: UnknownOffset {

@@ -135,8 +135,8 @@ messages! {
     }
     /// A character that cannot begin a word and that the dialect ignores.
     UNKNOWN_CHARACTER_PASSED: UnknownCharacter {
-        en: "no word begins with `{found}`; it is ignored",
-        de: "mit `{found}` beginnt kein Wort; es wird übergangen",
+        en: "no word begins with `{found}`; the character is ignored",
+        de: "mit `{found}` beginnt kein Wort; das Zeichen wird übergangen",
         help_en: "remove it, or put the remark into a comment",
         help_de: "das Zeichen entfernen oder die Bemerkung in einen Kommentar setzen",
     }
@@ -375,8 +375,8 @@ messages! {
     OFF_IN_BUILDS: IgnoredWord {
         en: "common builds of {dialect} ignore {word}",
         de: "gängige Varianten von {dialect} übergehen {word}",
-        help_en: "write the program without it; if the machine's firmware was built with it, accept this warning with `--accept`",
-        help_de: "das Programm ohne dieses Wort schreiben; kann die Firmware der Maschine es, die Warnung mit `--accept` hinnehmen",
+        help_en: "write the program without {word}; if the machine's firmware was built to support it, accept this warning with `--accept`",
+        help_de: "das Programm ohne {word} schreiben; unterstützt die Firmware der Maschine dieses Wort, die Warnung mit `--accept` hinnehmen",
     }
     /// A word for an axis that is not interpreted.
     AXIS_NOT_FOLLOWED: WordNotFollowed {

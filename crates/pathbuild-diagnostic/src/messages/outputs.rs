@@ -104,7 +104,7 @@ messages! {
     }
     /// Note: the drawing that defines the path.
     DEFINED_IN: PathNotFound {
-        en: "the library defines the path in {near}: name that drawing",
+        en: "the library defines the path in {near}: specify this drawing instead",
         de: "die Bibliothek enthält den Pfad in {near}: diese Zeichnung angeben",
     }
     /// Note: the drawing that defines the path, although the file's name does not contain the path's name.

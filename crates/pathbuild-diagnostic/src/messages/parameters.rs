@@ -344,7 +344,7 @@ messages! {
     FEED_WITH_THOUSANDS: DoubtfulValue {
         en: "F{written} is a feed of {value} mm/min: a point or comma begins the decimals",
         de: "F{written} ist ein Vorschub von {value} mm/min: Punkt oder Komma beginnt die Nachkommastellen",
-        help_en: "write {meant} if that is meant: a feed has no separator of thousands",
+        help_en: "write {meant} if that is meant: a feed has no thousands separator",
         help_de: "wenn das gemeint ist, {meant} schreiben: ein Vorschub hat kein Tausendertrennzeichen",
     }
     /// A whole number with a zero before it, whose decimal point was probably forgotten.
@@ -426,10 +426,10 @@ messages! {
     }
     /// A sweep with an S of its own that is below material or a probe raised by H.
     SWEEP_BELOW_RAISED: ParameterOutOfRange {
-        en: "this sweep runs at {value}, but what the path embeds, or a probe, reaches up to {limit}: the rapid move may hit it",
-        de: "diese Leerfahrt läuft auf {value}, aber was der Pfad einbettet, oder eine Probe, reicht bis {limit}: der Eilgang kann damit kollidieren",
-        help_en: "remove S from the sweep, so that it has the S of the path, or give it one above {limit}",
-        help_de: "das S der Leerfahrt weglassen, dann gilt das des Pfads, oder eines über {limit} angeben",
+        en: "this sweep runs at {value}, but the material of an embedded path, or a probe, reaches up to {limit}: the rapid move may hit it",
+        de: "diese Leerfahrt läuft auf {value}, aber das Material eines eingebetteten Pfads oder eine Probe reicht bis {limit}: der Eilgang kann damit kollidieren",
+        help_en: "remove S from the sweep, so that the S of the path applies, or give the sweep an S above {limit}",
+        help_de: "das S der Leerfahrt weglassen, dann gilt das des Pfads, oder der Leerfahrt ein S über {limit} geben",
     }
     /// A parameter that is given twice in one text.
     TWICE: DuplicateParameter {
@@ -638,15 +638,15 @@ messages! {
     MISSING_VALUE: MissingVariableValue {
         en: "variable \"{variable}\" has no value",
         de: "Variable \"{variable}\" hat keinen Wert",
-        help_en: "it is defined as {definition}; embed the path in a project that sets it: :{variable}VALUE",
-        help_de: "sie ist als {definition} festgelegt; den Pfad in ein Projekt einbetten, das sie setzt: :{variable}WERT",
+        help_en: "embed the path in a project that sets the variable: :{variable}VALUE; the path defines it as {definition}",
+        help_de: "den Pfad in ein Projekt einbetten, das die Variable setzt: :{variable}WERT; der Pfad legt sie als {definition} fest",
     }
     /// A subpath that does not set a variable of the path that it embeds.
     MISSING_VALUE_HERE: MissingVariableValue {
         en: "variable \"{variable}\" of path {name} has no value",
         de: "Variable \"{variable}\" des Pfads {name} hat keinen Wert",
-        help_en: "add it here, for example :{variable}{example}; the path defines it as {definition}",
-        help_de: "den Wert hier angeben, zum Beispiel :{variable}{example}; der Pfad legt sie als {definition} fest",
+        help_en: "add the value here, for example :{variable}{example}; the path defines the variable as {definition}",
+        help_de: "den Wert hier angeben, zum Beispiel :{variable}{example}; der Pfad legt die Variable als {definition} fest",
     }
     /// A subpath that sets a variable of a path without variables.
     VALUE_WITHOUT_VARIABLES: UnknownVariable {
@@ -666,8 +666,8 @@ messages! {
     UNKNOWN_REFERENCE: UnknownVariable {
         en: "there is no variable \"{variable}\" in this path",
         de: "es gibt in diesem Pfad keine Variable \"{variable}\"",
-        help_en: "the path's start marker defines {known}; a reference is = and one character",
-        help_de: "die Anfangsmarke des Pfads legt {known} fest; ein Verweis ist = und ein Zeichen",
+        help_en: "use a variable that the path's start marker defines ({known}); a reference is = and one character",
+        help_de: "eine Variable verwenden, die die Anfangsmarke des Pfads festlegt ({known}); ein Verweis ist = und ein Zeichen",
     }
     /// A reference in a path without variables.
     REFERENCE_WITHOUT_VARIABLES: UnknownVariable {
@@ -713,8 +713,8 @@ messages! {
     }
     /// More values of one variable than combinations are checked.
     VALUES_CUT: LimitReached as Warning {
-        en: "{checked} of {all} combinations of the variables' values were checked, and not even each value",
-        de: "{checked} von {all} Kombinationen der Variablenwerte wurden geprüft, und nicht einmal jeder Wert",
+        en: "{checked} of {all} combinations of the variables' values were checked: not even every value occurred in one of them",
+        de: "{checked} von {all} Kombinationen der Variablenwerte wurden geprüft: nicht einmal jeder Wert kam darin vor",
         help_en: "check the projects that embed the path: projects are checked with the values that they set",
         help_de: "die Projekte prüfen, die den Pfad einbetten: Projekte werden mit den Werten geprüft, die sie setzen",
     }

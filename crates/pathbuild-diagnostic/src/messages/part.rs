@@ -73,15 +73,15 @@ messages! {
     }
     /// A part that is held after the cuts of its own path, but loose after the cuts of another path of its drawing.
     SEVERED_PART: LoosePart {
-        en: "after this cut, nothing holds the part of path {other} whose outline begins at {point}: it meets the cuts between the support bars",
-        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {point} beginnt: er verbindet sich mit den Schnitten zwischen den Stützstegen",
+        en: "after this cut, nothing holds the part of path {other} whose outline begins at {point}: this cut meets the cuts between the support bars",
+        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss bei {point} beginnt: dieser Schnitt verbindet sich mit den Schnitten zwischen den Stützstegen",
         help_en: "place the parts farther apart, or draw support bars on a side where material remains",
         help_de: "die Teile mit größerem Abstand anordnen oder Stützstege auf einer Seite zeichnen, an der Material stehen bleibt",
     }
     /// A part of another path of the project that is loose after the cuts of this path.
     SEVERED_NEIGHBOUR: LoosePart {
-        en: "after this cut, nothing holds the part of path {other} whose outline begins at {place} in the program: it meets the cuts between the support bars",
-        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss im Programm bei {place} beginnt: er verbindet sich mit den Schnitten zwischen den Stützstegen",
+        en: "after this cut, nothing holds the part of path {other} whose outline begins at {place} in the program: this cut meets the cuts between the support bars",
+        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss im Programm bei {place} beginnt: dieser Schnitt verbindet sich mit den Schnitten zwischen den Stützstegen",
         help_en: "place the parts farther apart, or draw support bars on a side where material remains",
         help_de: "die Teile mit größerem Abstand anordnen oder Stützstege auf einer Seite zeichnen, an der Material stehen bleibt",
     }
@@ -89,8 +89,8 @@ messages! {
     BAR_CUT_AWAY: BarCutAway {
         en: "this cut removes {lost} of the {length} mm of the support bar at {point} of path {other} (bars: {count})",
         de: "dieser Schnitt nimmt {lost} von {length} mm des Stützstegs bei {point} von Pfad {other} weg (Stege: {count})",
-        help_en: "leave the bar out of this cut, end the cut higher than D of the bar, or make a short line with a bar longer than O",
-        help_de: "den Schnitt am Steg aussparen oder höher als D des Stegs enden lassen, oder eine kurze Linie mit Steg länger als O zeichnen",
+        help_en: "interrupt this cut at the bar, end it higher than D of the bar, or lengthen a short line with a bar to more than O",
+        help_de: "den Schnitt am Steg aussparen oder höher als D des Stegs enden lassen, oder eine kurze Linie mit Steg auf mehr als O verlängern",
     }
     /// Support bars that a cut of another path of the project removes.
     NEIGHBOURS_BAR_CUT_AWAY: BarCutAway {
@@ -145,8 +145,8 @@ messages! {
     OUTLINE_NOT_CUT: OutlineNotCut {
         en: "no path of this drawing cuts through the material along this outline",
         de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang durch das Material",
-        help_en: "draw the missing path; give a path along it that ends above the plate a lower B; move a path that runs O or more away to half of O beside the outline; if this is not an outline of the part, move it to another layer",
-        help_de: "den fehlenden Pfad zeichnen; einem Pfad daran, der über der Platte endet, ein tieferes B geben; einen Pfad, der um O oder mehr entfernt verläuft, auf die Hälfte von O neben den Umriss verschieben; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
+        help_en: "draw the missing path; give a path along it that ends above the plate a lower B; move a path that runs O or more away to a distance of half of O from the outline; if this is not an outline of the part, move it to another layer",
+        help_de: "den fehlenden Pfad zeichnen; einem Pfad daran, der über der Platte endet, ein tieferes B geben; einen Pfad, der um O oder mehr entfernt verläuft, auf einen Abstand von O/2 an den Umriss schieben; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
     }
     /// A layer with a part that names a path which its drawing lacks.
     LAYER_WITHOUT_PATH: OutlineNotCut {

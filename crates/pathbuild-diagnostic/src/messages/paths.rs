@@ -26,8 +26,8 @@ messages! {
     ENDS_BESIDE_TRAVERSED: NothingContinues {
         en: "the path breaks off here, {distance} mm from {point}, where {element} ends; segments not reached: {left}",
         de: "hier bricht der Pfad ab, {distance} mm neben {point}, wo {element} endet; nicht erreichte Segmente: {left}",
-        help_en: "close the gap: let the two end at the same point",
-        help_de: "die Lücke schließen: beide an demselben Punkt enden lassen",
+        help_en: "close the gap: let both segments end at the same point",
+        help_de: "die Lücke schließen: beide Segmente an demselben Punkt enden lassen",
     }
     /// The path breaks off at the end of a segment that is slightly too long.
     TOO_LONG: NothingContinues {
@@ -47,8 +47,8 @@ messages! {
     ENDS_ON_OTHER: NothingContinues {
         en: "the path breaks off here, in the middle of {element}: it continues only at the ends of segments; segments not reached: {left}",
         de: "hier bricht der Pfad ab, mitten auf einem anderen Segment ({element}): er geht nur an den Enden von Segmenten weiter; nicht erreichte Segmente: {left}",
-        help_en: "split that line or arc into two at {point}, or draw what leads here to one of its ends instead",
-        help_de: "diese Linie oder diesen Bogen bei {point} in zwei Teile trennen oder, was hierher führt, stattdessen zu einem ihrer Enden zeichnen",
+        help_en: "split that line or arc into two at {point}, or lead the path to one of its ends instead",
+        help_de: "diese Linie oder diesen Bogen bei {point} in zwei Teile trennen oder den Pfad stattdessen zu einem ihrer Enden führen",
     }
     /// The path breaks off because it runs back along a segment that is drawn twice.
     DRAWN_TWICE: NothingContinues {
@@ -112,15 +112,15 @@ messages! {
     UNREACHED_BRANCH: UnreachedSegments {
         en: "segments not reached: {left}; the path went past {point}, where {element} branches off, and ends here",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; der Pfad lief an {point} vorbei, wo {element} abzweigt, und endet hier",
-        help_en: "remove it if it is a helper line, or move it to another layer; otherwise give it a smaller N than the segment on which the path goes on from there (HIDDEN takes no N: use DASHED), and draw what leads back from its tip, or put a turn marker (a PHANTOM circle of 1.5 mm) there",
-        help_de: "ist es eine Hilfslinie, sie entfernen oder auf einen anderen Layer legen; sonst ihr ein kleineres N geben als dem Segment, auf dem der Pfad von dort weiterläuft (HIDDEN nimmt kein N: DASHED verwenden), und zeichnen, was von ihrer Spitze zurückführt, oder dort eine Wendemarke (PHANTOM-Kreis mit 1,5 mm)",
+        help_en: "remove it if it is a helper line, or move it to another layer; otherwise give it a smaller N than the segment on which the path goes on from there (HIDDEN takes no N: use DASHED), and draw the segments that lead back from its tip, or put a turn marker (a PHANTOM circle of 1.5 mm) there",
+        help_de: "ist es eine Hilfslinie, sie entfernen oder auf einen anderen Layer legen; sonst ihr ein kleineres N geben als dem Segment, auf dem der Pfad von dort weiterläuft (HIDDEN nimmt kein N: DASHED verwenden), und die Segmente zeichnen, die von ihrer Spitze zurückführen, oder dort eine Wendemarke (PHANTOM-Kreis mit 1,5 mm)",
     }
     /// A segment that is not reached because a small gap separates it from the end of a traversed one.
     UNREACHED_BESIDE: UnreachedSegments {
         en: "segments not reached: {left}; {element} at {point} is {distance} mm away from {end}, where {other} ends",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; {element} bei {point} liegt {distance} mm neben {end}, wo {other} endet",
-        help_en: "move the one to the other with the object snap (`join-tolerance` closes a gap only where the path cannot continue otherwise), or remove what does not belong to the path",
-        help_de: "das eine mit dem Objektfang auf das andere schieben (`join-tolerance` schließt eine Lücke nur, wo der Pfad nicht anders weitergeht) oder entfernen, was nicht zum Pfad gehört",
+        help_en: "snap one of these ends to the other with the object snap (`join-tolerance` closes a gap only where the path cannot continue otherwise), or remove what does not belong to the path",
+        help_de: "das eine Ende mit dem Objektfang auf das andere setzen (`join-tolerance` schließt eine Lücke nur, wo der Pfad nicht anders weitergeht) oder entfernen, was nicht zum Pfad gehört",
     }
     /// The path ends in the middle of a segment that was not reached.
     UNREACHED_ENDS_ON_OTHER: UnreachedSegments {
@@ -147,7 +147,7 @@ messages! {
     UNREACHED_CIRCLE: UnreachedSegments {
         en: "segments not reached: {left}, among them arcs that form a circle of {diameter} mm around {point}",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}, darunter Bögen, die einen Kreis von {diameter} mm um {point} bilden",
-        help_en: "draw a hole as a CIRCLE, with the diameter of the hole: along these arcs, the middle of the cutter would run, and the hole would be larger by O",
+        help_en: "draw a hole as a CIRCLE with the diameter of the hole: the centre of the cutter would run along these arcs, and the hole would be larger by O",
         help_de: "ein Loch als CIRCLE (Kreis) mit dem Durchmesser des Lochs zeichnen: auf diesen Bögen liefe die Mitte des Fräsers, und das Loch würde um O größer",
     }
     /// A segment that is not reached because it touches another kind of segment between that segment's ends.
@@ -229,8 +229,8 @@ messages! {
     }
     /// Support bars that leave no gap, because the segment is too short.
     NO_GAP_BETWEEN_BARS: NoGapBetweenBars {
-        en: "everything is milled only down to D {top}: a length of {length} mm is shorter than P + U, which is {pitch} mm",
-        de: "alles wird nur bis D {top} gefräst: eine Länge von {length} mm ist kürzer als P + U ({pitch} mm)",
+        en: "the support bars leave no gap, so everything is milled only down to D {top}: a length of {length} mm is less than P + U, which is {pitch} mm",
+        de: "die Stützstege lassen keine Lücke, alles wird daher nur bis D {top} gefräst: eine Länge von {length} mm ist kürzer als P + U ({pitch} mm)",
         help_en: "for a gap, lower P, the length of a bar, or U, the minimum distance between bars; use line type DIVIDE to mill only to D, and CONTINUOUS to mill through",
         help_de: "für eine Lücke P, die Länge eines Stegs, oder U, den Mindestabstand der Stege, verkleinern; Linientyp DIVIDE fräst nur bis D, CONTINUOUS ganz durch",
     }
@@ -278,8 +278,8 @@ messages! {
     }
     /// A G-code program that moves into a clamp, reported at the line of the move.
     LINE_INTO_CLAMP: InsideKeepOut {
-        en: "here the tool, O{tool}, hits the clamp of layer {layer} at {clamp} of the program, which is {height} mm high: {what}, lowest Z {z}",
-        de: "hier trifft der Fräser, O{tool}, das Spannmittel auf Layer {layer} bei {clamp} im Programm, das {height} mm hoch ist: {what}, tiefstes Z {z}",
+        en: "here the tool, O{tool}, hits the clamp of layer {layer}, which lies at {clamp} in the program and is {height} mm high: {what}, lowest Z {z}",
+        de: "hier trifft der Fräser, O{tool}, das Spannmittel auf Layer {layer}, das im Programm bei {clamp} liegt und {height} mm hoch ist: {what}, tiefstes Z {z}",
         help_en: "do not run this program: according to the drawing, the clamp is there; move the clamp, or write the program with higher rapids",
         help_de: "dieses Programm nicht ausführen: laut Zeichnung steht dort das Spannmittel; es versetzen oder das Programm mit höheren Eilgängen neu schreiben",
     }
@@ -346,13 +346,13 @@ messages! {
     }
     /// Note: the names of the paths that the searched drawings contain, none of which is similar.
     NAMES_THERE: PathNotFound {
-        en: "paths in drawings that could contain it: {names}",
-        de: "Pfade in Zeichnungen, die ihn enthalten könnten: {names}",
+        en: "the searched drawings contain these paths: {names}",
+        de: "die durchsuchten Zeichnungen enthalten diese Pfade: {names}",
     }
     /// Note: a drawing elsewhere in the library that contains the path.
     ELSEWHERE: PathNotFound {
-        en: "the library contains it in {file}: add {directory} to `search`",
-        de: "die Bibliothek enthält ihn in {file}: {directory} zu `search` hinzufügen",
+        en: "the library contains this path in {file}: add {directory} to `search`",
+        de: "die Bibliothek enthält diesen Pfad in {file}: {directory} zu `search` hinzufügen",
     }
     /// A path that is defined at two places.
     DEFINED_TWICE: PathDefinedTwice {
@@ -419,7 +419,7 @@ messages! {
     THICKNESS_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",
         de: "{letter} ist hier {segment}, in Pfad {name} aber {path}",
-        help_en: "give both paths the same T, or embed a component that is drawn for this thickness: both are milled from the same sheet; one of its own has another M, or lies on shims (H)",
+        help_en: "give both paths the same T, or embed a component that is drawn for this thickness: both are milled from the same sheet; a separate sheet would have another M, or lie on shims (H)",
         help_de: "beiden Pfaden dasselbe T geben oder ein Bauteil einbetten, das für diese Dicke gezeichnet ist: beide werden aus demselben Blech gefräst; ein eigenes Blech hat ein anderes M oder liegt auf Unterlagen (H)",
     }
     /// A subpath segment with another T, O or M than the embedded path has, which can be corrected on the segment.

@@ -45,10 +45,10 @@ messages! {
     }
     /// A cutter diameter that is missing from the tool table.
     TOOL_UNKNOWN: UnknownTool {
-        en: "the tool table has no cutter with O = {diameter} for {path}; it is written as tool {index}",
+        en: "the tool table has no cutter with O = {diameter} for {path}; the cutter is written as tool {index}",
         de: "die Werkzeugtabelle hat keinen Fräser mit O = {diameter} für {path}; er wird als Werkzeug {index} geschrieben",
-        help_en: "add it as [tool.NAME] to pathbuild.toml",
-        help_de: "als [tool.NAME] in pathbuild.toml aufnehmen",
+        help_en: "add the cutter as [tool.NAME] to pathbuild.toml",
+        help_de: "den Fräser als [tool.NAME] in pathbuild.toml aufnehmen",
     }
     /// Two tools that fit a path equally well.
     TOOLS_ALIKE: UnknownTool {
@@ -59,10 +59,10 @@ messages! {
     }
     /// A tool number that is missing from the tool table, in a program that a post writes.
     TOOL_NUMBER_UNKNOWN: UnknownTool {
-        en: "the tool table has no tool with the number {index}: the diameter of T{index} is unknown, and a post that writes it writes 0",
+        en: "the tool table has no tool with the number {index}: the diameter of T{index} is unknown, and a post that writes the diameter writes 0",
         de: "die Werkzeugtabelle hat kein Werkzeug mit der Nummer {index}: der Durchmesser von T{index} ist unbekannt, und ein Postprozessor, der ihn schreibt, schreibt 0",
-        help_en: "add it as [tool.NAME] with `number` to pathbuild.toml",
-        help_de: "als [tool.NAME] mit `number` in pathbuild.toml aufnehmen",
+        help_en: "add the tool as [tool.NAME] with `number` to pathbuild.toml",
+        help_de: "das Werkzeug als [tool.NAME] mit `number` in pathbuild.toml aufnehmen",
     }
     /// `verify`: a change to a tool that is missing from the tool table.
     TOOL_NOT_IN_TABLE: UnknownTool {
@@ -89,14 +89,14 @@ messages! {
     TEXT_AMONG_WORDS: RejectedWord {
         en: "{macro} in {section} puts \"{text}\" outside a comment, where the machine would execute it",
         de: "{macro} in {section} setzt \"{text}\" außerhalb eines Kommentars, wo die Maschine es ausführen würde",
-        help_en: "write it in a comment in the post, or give the drawing another name",
+        help_en: "put the text into a comment in the post, or give the drawing another name",
         help_de: "den Text im Postprozessor in einen Kommentar setzen oder die Zeichnung anders nennen",
     }
     /// A program to be wrapped around a cylinder with a radius of 0 or less.
     NO_RADIUS: NothingToPost {
-        en: "{operation} cannot be wrapped round a cylinder: its surface T, which is the radius, is not above 0",
-        de: "{operation} lässt sich nicht um einen Zylinder legen: die Oberfläche T, das ist der Radius, liegt nicht über 0",
-        help_en: "give the radius with --surface, or write the program from the drawing with emit, which knows T",
+        en: "{operation} cannot be wrapped round a cylinder: its surface T, which is the radius, must be above 0",
+        de: "{operation} lässt sich nicht um einen Zylinder legen: die Oberfläche T, die der Radius ist, muss über 0 liegen",
+        help_en: "give the radius with --surface, or write the program with emit from the drawing, which contains T",
         help_de: "den Radius mit --surface angeben oder das Programm mit emit aus der Zeichnung schreiben, die T enthält",
     }
     /// A program wrapped around a cylinder more than once.
@@ -110,13 +110,13 @@ messages! {
     AXIS_REVERSED: DoubtfulPost {
         en: "the post writes {axis} with the opposite sign: the output is a mirror image, right only for a machine whose {axis} axis counts the other way",
         de: "der Postprozessor schreibt {axis} mit umgekehrtem Vorzeichen: die Ausgabe ist gespiegelt und nur für eine Maschine richtig, deren {axis}-Achse andersherum zählt",
-        help_en: "replace the minus in the post's macros, such as {$-z}, by nothing or by _, unless the machine is such a one",
-        help_de: "das Minus in den Makros des Postprozessors, etwa {$-z}, weglassen oder durch _ ersetzen, außer bei einer solchen Maschine",
+        help_en: "remove the minus from the post's macros, such as {$-z}, or replace it with _, unless this axis of the machine does count the other way",
+        help_de: "das Minus in den Makros des Postprozessors, etwa {$-z}, weglassen oder durch _ ersetzen, außer wenn diese Achse der Maschine wirklich andersherum zählt",
     }
     /// Feeds of a path wrapped around a cylinder, which many controls take for other speeds.
     WRAPPED_FEED: DoubtfulPost {
-        en: "F is the speed along the surface of the cylinder, but without a rotary diameter controls take it for that of X, Y and Z alone or for degrees per minute: the cutter goes round far too fast or too slowly",
-        de: "F ist die Geschwindigkeit auf der Oberfläche des Zylinders, ohne Durchmesser der Drehachse bezieht es eine Steuerung aber nur auf X, Y und Z oder auf Grad je Minute: der Fräser fährt rundum viel zu schnell oder zu langsam",
+        en: "F is the speed along the surface of the cylinder, but a control that does not know the cylinder's diameter takes F for the speed of X, Y and Z alone, or for degrees per minute: the rotary axis turns far too fast or too slowly",
+        de: "F ist die Geschwindigkeit auf der Oberfläche des Zylinders, eine Steuerung ohne Angabe seines Durchmessers bezieht F aber nur auf X, Y und Z oder auf Grad je Minute: die Drehachse dreht viel zu schnell oder zu langsam",
         help_en: "run the program only on a control that converts feeds of the rotary axis, and set its diameter to 2 x T there",
         help_de: "das Programm nur auf einer Steuerung fahren, die Vorschübe der Drehachse umrechnet, und dort als deren Durchmesser 2 x T angeben",
     }
@@ -136,10 +136,10 @@ messages! {
     }
     /// A path without a tool, and so without a known spindle speed, although tools of its diameter are configured for other paths.
     SPINDLE_UNKNOWN_OF_PATH: MissingPostValue {
-        en: "no spindle speed is known for path {path}: `paths` of each [tool] with diameter = {diameter} matches other names only",
-        de: "für Pfad {path} ist keine Spindeldrehzahl bekannt: `paths` jedes [tool] mit diameter = {diameter} passt nur auf andere Namen",
-        help_en: "let `paths` of one of them match {path}, or add another [tool.NAME] with diameter = {diameter} and spindle to pathbuild.toml",
-        help_de: "`paths` eines von ihnen auch auf {path} passen lassen oder ein weiteres [tool.NAME] mit diameter = {diameter} und spindle in pathbuild.toml eintragen",
+        en: "no spindle speed is known for path {path}: each [tool] with diameter = {diameter} is limited by `paths` to other names",
+        de: "für Pfad {path} ist keine Spindeldrehzahl bekannt: jedes [tool] mit diameter = {diameter} gilt wegen seines `paths` nur für andere Namen",
+        help_en: "change `paths` of one of these tools so that it matches {path}, or add another [tool.NAME] with diameter = {diameter} and spindle to pathbuild.toml",
+        help_de: "`paths` eines dieser Werkzeuge so ändern, dass es auch auf {path} passt, oder ein weiteres [tool.NAME] mit diameter = {diameter} und spindle in pathbuild.toml eintragen",
     }
     /// A tool without a known spindle speed, in a program that states only the number of the tool.
     SPINDLE_UNKNOWN_OF_NUMBER: MissingPostValue {
@@ -171,7 +171,7 @@ messages! {
     }
     /// Note: the coolant is not switched as the program or the tool table says, because the definition lacks the macro for it.
     COOLANT_NOT_WRITTEN: DoubtfulPost {
-        en: "the post has no {macro}: the output does not follow the coolant that the program or the tool table sets",
+        en: "the post has no {macro}: the coolant setting of the program or the tool table does not reach the output",
         de: "der Postprozessor hat kein {macro}: die Ausgabe richtet sich nicht nach der Kühlung, die das Programm oder die Werkzeugtabelle bestimmt",
         help_en: "add {macro} to the post, or check how its texts switch the coolant",
         help_de: "{macro} in den Postprozessor aufnehmen oder prüfen, wie seine Texte die Kühlung schalten",
@@ -180,20 +180,20 @@ messages! {
     COOLANT_NEVER_ON: DoubtfulPost {
         en: "the program or the tool table switches the coolant on, but the output has neither M7 nor M8",
         de: "das Programm oder die Werkzeugtabelle schaltet die Kühlung ein, die Ausgabe enthält aber weder M7 noch M8",
-        help_en: "correct the words for the coolant in the post; words of your own for it are not checked",
+        help_en: "correct the coolant words in the post; custom words for the coolant are not checked",
         help_de: "die Wörter für die Kühlung im Postprozessor berichtigen; eigene Wörter dafür werden nicht geprüft",
     }
     /// Note: the spindle is not switched as the program or the tool table says, because the definition lacks the macro for it.
     SPINDLE_NOT_WRITTEN: DoubtfulPost {
-        en: "the post has no {macro}: the output does not follow the direction of the spindle that the program or the tool table sets",
+        en: "the post has no {macro}: the spindle direction of the program or the tool table does not reach the output",
         de: "der Postprozessor hat kein {macro}: die Ausgabe richtet sich nicht nach der Drehrichtung, die das Programm oder die Werkzeugtabelle bestimmt",
         help_en: "add {macro} to the post, or check how its texts start the spindle",
         help_de: "{macro} in den Postprozessor aufnehmen oder prüfen, wie seine Texte die Spindel einschalten",
     }
     /// Note: the output does not wait until the spindle is up to speed.
     SPIN_UP_NOT_WRITTEN: DoubtfulPost {
-        en: "the post has no {macro}: the output does not wait for the time that `spin-up` under [machine] gives the spindle",
-        de: "der Postprozessor hat kein {macro}: die Ausgabe wartet nicht so lange auf die Spindel, wie [machine] spin-up angibt",
+        en: "the post has no {macro}: the output does not wait until the spindle is up to speed, for which `spin-up` under [machine] sets the time",
+        de: "der Postprozessor hat kein {macro}: die Ausgabe wartet nicht, bis die Spindel ihre Drehzahl erreicht hat; die Zeit dafür setzt `spin-up` unter [machine]",
         help_en: "add {macro} to the post, after the words that start the spindle",
         help_de: "{macro} in den Postprozessor aufnehmen, hinter den Wörtern, die die Spindel einschalten",
     }
@@ -433,8 +433,8 @@ messages! {
     JOB_SYSTEM: NothingToPost {
         en: "{word} selects a work offset, which a post does not write: everything after it would be milled somewhere else",
         de: "{word} wählt eine Nullpunktverschiebung, die ein Postprozessor nicht schreibt: alles danach würde woanders gefräst",
-        help_en: "make a program of its own for each work offset, without {word}; select the offset at the machine or in the texts of the post",
-        help_de: "für jede Nullpunktverschiebung ein eigenes Programm ohne {word} anlegen; die Verschiebung an der Maschine oder in den Texten des Postprozessors wählen",
+        help_en: "write a separate program for each work offset, without {word}; select the offset at the machine or in the texts of the post",
+        help_de: "für jede Nullpunktverschiebung ein eigenes Programm ohne {word} schreiben; die Verschiebung an der Maschine oder in den Texten des Postprozessors wählen",
     }
     /// A cut from or to an unknown position, for example after G91, in a program to be written through a post.
     JOB_PLACE_UNKNOWN: NothingToPost {
@@ -475,8 +475,8 @@ messages! {
     JOB_MACHINE_VALUE: NothingToPost {
         en: "only the machine knows {parameter}, so what depends on it cannot be written through a post",
         de: "nur die Maschine kennt {parameter}; was davon abhängt, kann kein Postprozessor schreiben",
-        help_en: "measure and calculate in a program of the machine's own: a post can only write numbers",
-        help_de: "in einem eigenen Programm der Maschine messen und rechnen: ein Postprozessor kann nur Zahlen schreiben",
+        help_en: "measure and calculate in a program written for the machine: a post can only write numbers",
+        help_de: "in einem Programm messen und rechnen, das für die Maschine geschrieben ist: ein Postprozessor kann nur Zahlen schreiben",
     }
     /// M6 without T in the middle of a program.
     JOB_TOOL_UNNAMED: NothingToPost {
@@ -494,14 +494,14 @@ messages! {
     }
     /// A native program without the comment that names its path, if several tools have its O.
     CUTTER_OF_UNNAMED_PATH: NothingToPost {
-        en: "several tools have the program's O = {diameter} ({first}, {second}), and the comment is missing that names its path and so decides between them",
-        de: "mehrere Werkzeuge haben das O = {diameter} des Programms ({first}, {second}), und der Kommentar fehlt, der seinen Pfad nennt und zwischen ihnen entscheidet",
+        en: "several tools have the program's O = {diameter} ({first}, {second}), and the comment that would decide between them by naming the program's path is missing",
+        de: "mehrere Werkzeuge haben das O = {diameter} des Programms ({first}, {second}), und es fehlt der Kommentar mit dem Namen des Pfads, der zwischen ihnen entscheidet",
         help_en: "restore the comment `(Path NAME, drawing FILE)` below this line, or write the program from its drawing with `pathbuild emit`",
         help_de: "den Kommentar `(Path NAME, drawing DATEI)` unter dieser Zeile wiederherstellen oder das Programm mit `pathbuild emit` aus seiner Zeichnung schreiben",
     }
     /// Native programs for different tools in one file.
     SEVERAL_NATIVE_PROGRAMS: NothingToPost {
-        en: "here begins a program for the tool {tool}, but the file begins with one for the tool {first}",
+        en: "a program for the tool {tool} begins here, but the file begins with one for the tool {first}",
         de: "hier beginnt ein Programm für das Werkzeug {tool}, die Datei aber mit einem für das Werkzeug {first}",
         help_en: "post each program from a file of its own, or write the paths into one program with tool changes: pathbuild emit PATHS --join NAME",
         help_de: "jedes Programm aus einer eigenen Datei umschreiben oder die Pfade in ein Programm mit Werkzeugwechseln schreiben: pathbuild emit PFADE --join NAME",

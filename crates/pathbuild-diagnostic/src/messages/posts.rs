@@ -420,7 +420,7 @@ messages! {
     NUMBER_UNFORMATTED: DoubtfulControlText {
         en: "{text}, line {line}, column {column}: {name} is written with all its decimals",
         de: "{text}, Zeile {line}, Spalte {column}: {name} wird mit allen Nachkommastellen geschrieben",
-        help_en: "put it into a statement that rounds, such as one with \".\" or \"#\"",
+        help_en: "put the variable into a statement that rounds, such as one with \".\" or \"#\"",
         help_de: "die Variable in eine Anweisung setzen, die rundet, etwa mit \".\" oder \"#\"",
     }
     /// A file to insert that is missing, or not below the directory of the post.
@@ -439,10 +439,10 @@ messages! {
     }
     /// A text without Z for a helix.
     NO_Z_IN_ARC: InvalidControlText {
-        en: "{operation} has a helix from Z {from} to Z {to}, but the text arc has no ~Z1~",
-        de: "{operation} hat eine Helix von Z {from} nach Z {to}, aber der Text arc hat kein ~Z1~",
-        help_en: "add Z with ~Z1~ to the text arc; if the control does not support helices, add it to the text line: the helix is then written as lines",
-        help_de: "Z mit ~Z1~ in den Text arc aufnehmen; kennt die Steuerung keine Helix, in den Text line: die Helix wird dann in Strecken geschrieben",
+        en: "{operation} has a helix from Z {from} to Z {to}, but the text `arc` has no ~Z1~",
+        de: "{operation} hat eine Helix von Z {from} nach Z {to}, aber der Text `arc` hat kein ~Z1~",
+        help_en: "add ~Z1~ to the text `arc`; if the control does not support helices, add it to the text `line`: the helix is then written as lines",
+        help_de: "~Z1~ in den Text `arc` aufnehmen; kennt die Steuerung keine Helix, in den Text `line`: die Helix wird dann in Strecken geschrieben",
     }
     /// A control text that no program needs.
     TEXT_NEVER_CALLED: InvalidControlText {

@@ -89,13 +89,13 @@ messages! {
     HEIGHT_TOO_FAR: CorrectionTooLarge {
         en: "this height would be changed by {off} mm; at most {limit} mm are allowed",
         de: "diese Höhe würde um {off} mm verändert; erlaubt sind höchstens {limit} mm",
-        help_en: "this place lies far outside the probes: draw some near it, or allow more with --max-correction",
-        help_de: "diese Stelle liegt weit außerhalb der Proben: welche in ihrer Nähe zeichnen, oder mit --max-correction mehr erlauben",
+        help_en: "draw probes near this place, which lies far outside the others, or allow more with --max-correction",
+        help_de: "Proben in der Nähe dieser Stelle zeichnen, die weit außerhalb der anderen liegt, oder mit --max-correction mehr erlauben",
     }
     /// A rapid move at S, which is not corrected, at or below the highest measured height.
     SWEEP_BELOW_MEASURED: CorrectionTooLarge {
-        en: "the material was measured up to Z {surface}, but the program moves at rapid at Z {z} before its first cut and after its last one",
-        de: "das Material reicht nach der Messung bis Z {surface}, aber vor dem ersten und nach dem letzten Schnitt fährt das Programm mit Eilgang auf Z {z}",
+        en: "the material was measured up to Z {surface}, but the program makes rapid moves at Z {z} before its first cut and after its last one",
+        de: "das Material reicht nach der Messung bis Z {surface}, aber vor dem ersten und nach dem letzten Schnitt fährt das Programm im Eilgang auf Z {z}",
         help_en: "this height is the S of the path, which is not corrected: write a greater S in the drawing, and run `emit` again",
         help_de: "diese Höhe ist das S des Pfads, das nicht korrigiert wird: in der Zeichnung S höher setzen und noch einmal emit aufrufen",
     }
@@ -125,35 +125,35 @@ messages! {
         en: "the formula uses #{probe}, which {file} does not have",
         de: "die Formel verwendet #{probe}, das es in {file} nicht gibt",
         help_en: "run `emit` again, and measure with the new program: both files must come from the same run of emit",
-        help_de: "noch einmal ausgeben und mit dem neuen Programm messen: beide Dateien müssen vom selben Lauf von emit stammen",
+        help_de: "noch einmal emit aufrufen und mit dem neuen Programm messen: beide Dateien müssen vom selben Lauf von emit stammen",
     }
     /// A probe in the file of measured values that its program does not have.
     PROBE_OF_OTHER_PROGRAM: UnknownProbe {
         en: "{file} was written without a probe #{probe}",
         de: "{file} wurde ohne die Probe #{probe} geschrieben",
         help_en: "run `emit` again, and measure with the new program: both files must come from the same run of emit",
-        help_de: "noch einmal ausgeben und mit dem neuen Programm messen: beide Dateien müssen vom selben Lauf von emit stammen",
+        help_de: "noch einmal emit aufrufen und mit dem neuen Programm messen: beide Dateien müssen vom selben Lauf von emit stammen",
     }
     /// A probe in the program at another position than in the file of measured values.
     OTHER_PROBE: UnknownProbe {
-        en: "#{probe} is {here} here, but {file} was written with {there}",
-        de: "#{probe} ist hier {here}, aber {file} wurde mit {there} geschrieben",
+        en: "#{probe} is {here} here, but was {there} when {file} was written",
+        de: "#{probe} ist hier {here}, war aber {there}, als {file} geschrieben wurde",
         help_en: "run `emit` again, and measure with the new program: the drawing has changed since",
-        help_de: "noch einmal ausgeben und mit dem neuen Programm messen: die Zeichnung hat sich seither geändert",
+        help_de: "noch einmal emit aufrufen und mit dem neuen Programm messen: die Zeichnung hat sich seither geändert",
     }
     /// A probe with an unknown expected height: its line has an older form, and no formula contains the height.
     NO_EXPECTED_HEIGHT: InvalidProbeLine {
         en: "neither this line nor a formula says how high #{probe} was drawn, so its value cannot be checked",
         de: "weder diese Zeile noch eine Formel sagt, in welcher Höhe #{probe} gezeichnet ist; der Wert lässt sich nicht prüfen",
         help_en: "write the line as ([X Y]/T=HEIGHT) #{probe}=VALUE, or run `emit` again and measure with the new program",
-        help_de: "die Zeile als ([X Y]/T=HÖHE) #{probe}=WERT schreiben oder noch einmal ausgeben und mit dem neuen Programm messen",
+        help_de: "die Zeile als ([X Y]/T=HÖHE) #{probe}=WERT schreiben oder noch einmal emit aufrufen und mit dem neuen Programm messen",
     }
     /// A formula that lacks a value.
     VALUE_EXPECTED: InvalidFormula {
         en: "the formula needs a number, #51 or a bracket here",
         de: "die Formel braucht hier eine Zahl, #51 oder eine Klammer",
         help_en: "run `emit` again and use the new program: the formula was damaged or edited",
-        help_de: "noch einmal ausgeben und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
+        help_de: "noch einmal emit aufrufen und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
     }
     /// A formula that lacks an operator.
     OPERATOR_EXPECTED: InvalidFormula {
@@ -167,7 +167,7 @@ messages! {
         en: "the `)` that closes the formula is missing",
         de: "die schließende Klammer `)` der Formel fehlt",
         help_en: "run `emit` again and use the new program: the line was cut off",
-        help_de: "noch einmal ausgeben und das neue Programm verwenden: die Zeile ist abgeschnitten",
+        help_de: "noch einmal emit aufrufen und das neue Programm verwenden: die Zeile ist abgeschnitten",
     }
     /// A malformed number in a formula.
     NOT_A_NUMBER: InvalidFormula {
@@ -181,28 +181,28 @@ messages! {
         en: "brackets in the formula are nested more than {limit} levels deep",
         de: "Klammern in der Formel sind mehr als {limit} Ebenen tief verschachtelt",
         help_en: "run `emit` again and use the new program: formulas of pathbuild have only one level",
-        help_de: "noch einmal ausgeben und das neue Programm verwenden: Formeln von pathbuild haben nur eine Ebene",
+        help_de: "noch einmal emit aufrufen und das neue Programm verwenden: Formeln von pathbuild haben nur eine Ebene",
     }
     /// A formula that divides by zero.
     DIVISION_BY_ZERO: InvalidFormula {
         en: "the formula divides by 0 here",
         de: "die Formel teilt hier durch 0",
         help_en: "run `emit` again and use the new program: the formula was damaged or edited",
-        help_de: "noch einmal ausgeben und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
+        help_de: "noch einmal emit aufrufen und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
     }
     /// A formula with a value that is too large for a number.
     NOT_FINITE: InvalidFormula {
         en: "the formula's value is too large for a number",
         de: "der Wert der Formel ist zu groß für eine Zahl",
         help_en: "run `emit` again and use the new program: the formula was damaged or edited",
-        help_de: "noch einmal ausgeben und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
+        help_de: "noch einmal emit aufrufen und das neue Programm verwenden: die Formel wurde beschädigt oder bearbeitet",
     }
     /// A program that is already adjusted.
     ADJUSTED_BEFORE: InvalidFormula {
         en: "this program has been adjusted already",
         de: "dieses Programm ist schon angepasst",
         help_en: "run `emit` again, or use the original file: adjust needs the _Clean.gcode as emit wrote it",
-        help_de: "noch einmal ausgeben oder die ursprüngliche Datei verwenden: adjust braucht die _Clean.gcode, wie emit sie geschrieben hat",
+        help_de: "noch einmal emit aufrufen oder die ursprüngliche Datei verwenden: adjust braucht die _Clean.gcode, wie emit sie geschrieben hat",
     }
     /// A file with measured values of other probes, which would be overwritten.
     VALUES_PRESENT: ProbeValuesPresent {
@@ -258,7 +258,7 @@ messages! {
         en: "no formula in {file} uses #{probe}",
         de: "keine Formel in {file} verwendet #{probe}",
         help_en: "if formulas were removed or changed, run `emit` again and use the new program; if the probe lies too far from everything that is milled, remove it from the drawing",
-        help_de: "wurden Formeln entfernt oder geändert, noch einmal ausgeben und das neue Programm verwenden; liegt die Probe zu weit von allem, was gefräst wird, sie aus der Zeichnung entfernen",
+        help_de: "wurden Formeln entfernt oder geändert, noch einmal emit aufrufen und das neue Programm verwenden; liegt die Probe zu weit von allem, was gefräst wird, sie aus der Zeichnung entfernen",
     }
     /// A probe that corrects no height, reported when the program is written.
     WILL_BE_UNUSED: UnusedProbe as Warning {

@@ -124,8 +124,8 @@ messages! {
     MOVES_NOT_COMPARED: DoubtfulPost {
         en: "the moves were not compared with path {path}: with unchecked = true, it is unknown whether the output of {post} mills the drawing",
         de: "die Bewegungen wurden nicht mit dem Pfad {path} verglichen: mit unchecked = true ist nicht bekannt, ob die Ausgabe von {post} die Zeichnung fräst",
-        help_en: "remove `unchecked` in pathbuild.toml and emit the program again, or check its moves by hand",
-        help_de: "`unchecked` in pathbuild.toml entfernen und das Programm neu ausgeben, oder seine Bewegungen selbst prüfen",
+        help_en: "remove `unchecked` in pathbuild.toml and write the program again with `pathbuild emit`, or check its moves by hand",
+        help_de: "`unchecked` in pathbuild.toml entfernen und das Programm mit `pathbuild emit` neu schreiben, oder seine Bewegungen selbst prüfen",
     }
     /// `verify --against`: another program number (O) than that of the drawing's program.
     NUMBERS_DIFFER: MovesDiffer {
@@ -136,7 +136,7 @@ messages! {
     }
     /// `verify --against`: a program without the number by which the control identifies it.
     NUMBER_MISSING: MovesDiffer {
-        en: "the program has no number, but O{expected} according to the drawing: the control may take the first N for it and overwrite another program",
+        en: "the program lacks its number, which is O{expected} according to the drawing: the control may take the first N for the number and overwrite another program",
         de: "dem Programm fehlt die Nummer O{expected}, die es laut Zeichnung hat: die Steuerung nimmt vielleicht das erste N dafür und überschreibt ein anderes Programm",
         help_en: "write O{expected} at the beginning, or write the program again with `pathbuild emit`",
         help_de: "O{expected} an den Anfang schreiben, oder das Programm mit `pathbuild emit` neu schreiben",
@@ -157,8 +157,8 @@ messages! {
     }
     /// `verify --against`: a hole with C that is drilled in deeper strokes.
     STROKE_TOO_DEEP: MovesDiffer {
-        en: "the tool drills {found} mm in one stroke; by C of the drawing, each peck is at most {expected} mm deep",
-        de: "das Werkzeug bohrt {found} mm auf einmal; nach C der Zeichnung ist jede Stufe höchstens {expected} mm tief",
+        en: "the tool drills {found} mm in one stroke; according to C in the drawing, each peck is at most {expected} mm deep",
+        de: "das Werkzeug bohrt {found} mm auf einmal; laut C in der Zeichnung ist jede Stufe höchstens {expected} mm tief",
         help_en: "correct Q of the cycle, or write the program again with `pathbuild emit`",
         help_de: "Q des Zyklus berichtigen oder das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -230,28 +230,28 @@ messages! {
         en: "the machine goes to the height {number}, but the correction formula gives {value}",
         de: "die Maschine fährt auf {number}, die Formel ergibt aber {value}",
         help_en: "run `emit` and `adjust` again: the program was edited",
-        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
+        help_de: "noch einmal emit und adjust aufrufen: das Programm wurde bearbeitet",
     }
     /// A formula that differs from that in the drawing's program.
     FORMULA_NOT_DRAWN: FormulaDiffers {
-        en: "the formula is {found}, the drawing gives {expected}",
-        de: "die Formel ist {found}, die Zeichnung ergibt {expected}",
+        en: "the formula is {found}, but according to the drawing it must be {expected}",
+        de: "die Formel ist {found}, laut Zeichnung muss sie aber {expected} sein",
         help_en: "run `emit` and `adjust` again: the program was edited, or written with another `z-model`",
-        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet oder mit einem anderen `z-model` geschrieben",
+        help_de: "noch einmal emit und adjust aufrufen: das Programm wurde bearbeitet oder mit einem anderen `z-model` geschrieben",
     }
     /// A probe that differs from that in the drawing's program.
     PROBE_NOT_DRAWN: FormulaDiffers {
         en: "the program has the probe {found}, but the drawing has {expected}",
         de: "das Programm hat die Probe {found}, die Zeichnung aber {expected}",
         help_en: "run `emit` again, and measure with the new program",
-        help_de: "noch einmal ausgeben und mit dem neuen Programm messen",
+        help_de: "noch einmal emit aufrufen und mit dem neuen Programm messen",
     }
     /// A formula with a probe that the program's header does not list.
     PROBE_NOT_STATED: UncheckedFormula {
         en: "the formula uses #{probe}, which the program's header does not state",
         de: "die Formel verwendet #{probe}, das der Kopf des Programms nicht nennt",
         help_en: "run `emit` and `adjust` again: the program was edited",
-        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
+        help_de: "noch einmal emit und adjust aufrufen: das Programm wurde bearbeitet",
     }
     /// A formula that was applied, although the program's header does not list a measured height for it.
     HEIGHT_NOT_MEASURED: UncheckedFormula {
@@ -272,28 +272,28 @@ messages! {
         en: "the program has a correction formula, but no probes",
         de: "das Programm hat eine Korrekturformel, aber keine Proben",
         help_en: "run `emit` again: the program was edited",
-        help_de: "noch einmal ausgeben: das Programm wurde bearbeitet",
+        help_de: "noch einmal emit aufrufen: das Programm wurde bearbeitet",
     }
     /// A formula without a value, for example because of a division by zero.
     FORMULA_WITHOUT_VALUE: UncheckedFormula {
         en: "the formula has no value: it divides by 0, or its result is too large",
         de: "die Formel hat keinen Wert: sie teilt durch 0, oder ihr Ergebnis ist zu groß",
         help_en: "run `emit` and `adjust` again: the program was edited",
-        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
+        help_de: "noch einmal emit und adjust aufrufen: das Programm wurde bearbeitet",
     }
     /// A height without a formula in a program with probes. The height at the start needs none.
     HEIGHT_WITHOUT_FORMULA: UncheckedFormula {
         en: "this height has no correction formula",
         de: "diese Höhe hat keine Korrekturformel",
         help_en: "run `emit` and `adjust` again: an editor or the sending program may have removed the formula",
-        help_de: "noch einmal ausgeben und anpassen: ein Editor oder das Sendeprogramm hat die Formel vielleicht entfernt",
+        help_de: "noch einmal emit und adjust aufrufen: ein Editor oder das Sendeprogramm hat die Formel vielleicht entfernt",
     }
     /// A probe that the header lists twice, with different values.
     PROBE_STATED_TWICE: UncheckedFormula {
         en: "the header states #{probe} twice, with different values",
         de: "der Kopf nennt #{probe} zweimal, mit verschiedenen Werten",
         help_en: "run `emit` and `adjust` again: the program was edited",
-        help_de: "noch einmal ausgeben und anpassen: das Programm wurde bearbeitet",
+        help_de: "noch einmal emit und adjust aufrufen: das Programm wurde bearbeitet",
     }
     /// An adjusted program that does not list its measured heights.
     HEIGHTS_NOT_STATED: UncheckedFormula as Warning {
@@ -311,31 +311,31 @@ messages! {
     }
     /// A cut of a program by pathbuild that is deep below the plate.
     CUT_BELOW_PLATE: Disagreement {
-        en: "the program is one of pathbuild, with Z 0 on the plate, but this cut goes down to Z {z}: {depth} mm below the plate",
+        en: "pathbuild wrote this program, with Z 0 on the plate, but this cut goes down to Z {z}: {depth} mm below the plate",
         de: "das Programm ist von pathbuild, mit Z 0 auf der Platte, aber dieser Schnitt geht bis Z {z} hinunter: {depth} mm unter die Platte",
-        help_en: "check the numbers of a program that was edited, or compare it with its drawing (--against PATH); set `below-plate` under [warnings] to allow more than {limit} mm",
-        help_de: "die Zahlen eines bearbeiteten Programms prüfen oder es mit seiner Zeichnung vergleichen (--against PFAD); mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
+        help_en: "if the program was edited, check its numbers, or compare it with its drawing (--against PATH); set `below-plate` under [warnings] to allow more than {limit} mm",
+        help_de: "wurde das Programm bearbeitet, seine Zahlen prüfen oder es mit seiner Zeichnung vergleichen (--against PFAD); mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
     }
     /// A probe of a program by pathbuild that would go deep below the plate.
     PROBE_BELOW_PLATE: Disagreement {
-        en: "the program is one of pathbuild, with Z 0 on the plate, but this probe goes down to Z {z} if it touches nothing: {depth} mm below the plate",
+        en: "pathbuild wrote this program, with Z 0 on the plate, but this probe goes down to Z {z} if it touches nothing: {depth} mm below the plate",
         de: "das Programm ist von pathbuild, mit Z 0 auf der Platte, aber dieses Antasten geht bis Z {z} hinunter, wenn es nichts berührt: {depth} mm unter die Platte",
-        help_en: "check the numbers of a program that was edited, or compare it with its drawing (--against PATH); set `below-plate` under [warnings] to allow more than {limit} mm",
-        help_de: "die Zahlen eines bearbeiteten Programms prüfen oder es mit seiner Zeichnung vergleichen (--against PFAD); mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
+        help_en: "if the program was edited, check its numbers, or compare it with its drawing (--against PATH); set `below-plate` under [warnings] to allow more than {limit} mm",
+        help_de: "wurde das Programm bearbeitet, seine Zahlen prüfen oder es mit seiner Zeichnung vergleichen (--against PFAD); mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
     }
     /// A comment of a probing program without the probe that it announces.
     PROBE_MISSING: Disagreement as Error {
         en: "the comment in line {comment} announces a probe, but no probing move down follows it",
         de: "der Kommentar in Zeile {comment} kündigt ein Antasten an, aber darauf folgt keine Antastbewegung nach unten",
-        help_en: "write the probing program again: with G1 in place of G38.2 (of G31 on Fanuc, Haas and Mach3), the tool does not stop at the touch plate",
+        help_en: "write the probing program again: with G1 in place of G38.2 (or of G31 on Fanuc, Haas and Mach3), the tool does not stop at the touch plate",
         help_de: "das Antastprogramm neu schreiben: mit G1 statt G38.2 (bei Fanuc, Haas und Mach3 statt G31) hält das Werkzeug nicht an der Messplatte",
     }
     /// Inches in a program that pathbuild has written in millimetres.
     INCHES_OF_PATHBUILD: Disagreement {
-        en: "the program is one of pathbuild, which writes millimetres, but this word selects inches",
-        de: "das Programm ist von pathbuild, das Millimeter schreibt, aber dieses Wort stellt auf Zoll um",
-        help_en: "write it as emit does, or compare the program with its drawing (--against PATH)",
-        help_de: "es so schreiben, wie emit es tut, oder das Programm mit seiner Zeichnung vergleichen (--against PFAD)",
+        en: "pathbuild wrote this program, and writes all programs in millimetres, but this word selects inches",
+        de: "das Programm ist von pathbuild, das alle Programme in Millimetern schreibt, aber dieses Wort stellt auf Zoll um",
+        help_en: "restore the word that emit wrote, or compare the program with its drawing (--against PATH)",
+        help_de: "das Wort wiederherstellen, das emit geschrieben hat, oder das Programm mit seiner Zeichnung vergleichen (--against PFAD)",
     }
     /// A cutter in the header that differs from the tool table.
     OTHER_CUTTER_IN_TABLE: Disagreement {
@@ -353,17 +353,17 @@ messages! {
     }
     /// A cutter diameter in the header or an option that differs from the drawing's.
     OTHER_CUTTER_DRAWN: Disagreement {
-        en: "{place} says O{found}, the drawing O{drawn}",
-        de: "{place} nennt O{found}, die Zeichnung O{drawn}",
-        help_en: "emit the program again, or leave the option out",
-        help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
+        en: "{place} says that the cutter is O{found}, but the drawing says O{drawn}",
+        de: "{place} nennt als Fräser O{found}, die Zeichnung aber O{drawn}",
+        help_en: "write the program again with `pathbuild emit`, or leave the option out",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben oder die Option weglassen",
     }
     /// A height of the surface in the header or an option that differs from the drawing's.
     OTHER_SURFACE_DRAWN: Disagreement {
-        en: "{place} says the surface is at {found}, the drawing at {drawn}",
-        de: "{place} gibt die Oberfläche mit {found} an, die Zeichnung mit {drawn}",
-        help_en: "emit the program again, or leave the option out",
-        help_de: "das Programm noch einmal ausgeben oder die Option weglassen",
+        en: "{place} says that the surface is at {found}, but the drawing says {drawn}",
+        de: "{place} gibt die Oberfläche mit {found} an, die Zeichnung aber mit {drawn}",
+        help_en: "write the program again with `pathbuild emit`, or leave the option out",
+        help_de: "das Programm mit `pathbuild emit` neu schreiben oder die Option weglassen",
     }
     /// A height of the surface in the header that differs from `--surface`.
     OTHER_SURFACE_GIVEN: Disagreement {
@@ -395,7 +395,7 @@ messages! {
     }
     /// A required check of rapid moves that is incomplete.
     CHECK_INCOMPLETE: UnmadeCheck {
-        en: "the required check `{check}` is incomplete: rapid moves to below the material's surface start at unknown positions (number: {count}, the first in line {line})",
+        en: "the required check `{check}` is incomplete: rapid moves that go below the material's surface start at unknown positions (number: {count}, the first in line {line})",
         de: "die verlangte Prüfung `{check}` ist unvollständig: Eilgänge unter die Oberfläche des Materials beginnen an unbekannter Stelle (Anzahl: {count}, der erste in Zeile {line})",
         help_en: "go to X and Y above the material first, then down",
         help_de: "zuerst über dem Material nach X und Y fahren, dann hinunter",
@@ -432,20 +432,20 @@ messages! {
     TOOL_NOT_INSERTED: Disagreement {
         en: "T{tool} is selected here, but no M6 changes to it: the cuts that follow are made with the previous tool",
         de: "T{tool} wird hier gewählt, aber kein M6 wechselt es ein: die folgenden Schnitte macht das vorige Werkzeug",
-        help_en: "write M6 after it, or remove T",
-        help_de: "M6 dahinter schreiben oder T entfernen",
+        help_en: "write M6 after T, or remove T",
+        help_de: "M6 hinter T schreiben oder T entfernen",
     }
     /// T without M6 or a stop, followed by cuts, on a control where T alone changes no tool.
     TOOL_WITHOUT_STOP: Disagreement {
-        en: "T{tool} is selected here, but T alone does not change the tool on this control, and neither M6 nor a stop comes before the next cut: it is made with the previous tool",
-        de: "T{tool} wird hier gewählt, aber T allein wechselt auf dieser Steuerung kein Werkzeug, und vor dem nächsten Schnitt steht weder M6 noch ein Halt: ihn macht das vorige Werkzeug",
-        help_en: "write M0 beside it, so that the operator changes the tool, or M6 after it if the machine does; otherwise remove T",
-        help_de: "M0 daneben schreiben, damit der Bediener das Werkzeug wechselt, oder M6 dahinter, wenn die Maschine es tut; sonst T entfernen",
+        en: "T{tool} is selected here, but T alone does not change the tool on this control, and neither M6 nor a stop comes before the next cut: that cut is made with the previous tool",
+        de: "T{tool} wird hier gewählt, aber T allein wechselt auf dieser Steuerung kein Werkzeug, und vor dem nächsten Schnitt steht weder M6 noch ein Halt: diesen Schnitt macht das vorige Werkzeug",
+        help_en: "write M0 beside T so that the operator changes the tool, or M6 after T if the machine changes it; otherwise remove T",
+        help_de: "M0 neben T schreiben, damit der Bediener das Werkzeug wechselt, oder M6 dahinter, wenn die Maschine es wechselt; sonst T entfernen",
     }
     /// Headers of two programs that were put together, with different materials.
     SURFACE_STATED_TWICE: HeaderContradiction {
-        en: "a header of pathbuild above says that the material is {one} mm high (T{one}), this one says {other} mm (T{other})",
-        de: "ein Kopf von pathbuild weiter oben gibt das Material mit {one} mm an (T{one}), dieser mit {other} mm (T{other})",
+        en: "an earlier header of pathbuild says that the material is {one} mm high (T{one}), but this one says {other} mm (T{other})",
+        de: "ein früherer Kopf von pathbuild gibt das Material mit {one} mm an (T{one}), dieser aber mit {other} mm (T{other})",
         help_en: "run the programs one by one if they are for different sheets; until then, the higher value is used",
         help_de: "die Programme einzeln laufen lassen, wenn sie für verschiedene Bleche sind; bis dahin gilt der höhere Wert",
     }
@@ -461,7 +461,7 @@ messages! {
         en: "`{label}` states {stated} mm, but the program's moves add up to {length} mm",
         de: "`{label}` nennt {stated} mm, die Bewegungen des Programms ergeben aber {length} mm",
         help_en: "run `emit` again: the program was edited",
-        help_de: "noch einmal ausgeben: das Programm wurde bearbeitet",
+        help_de: "noch einmal emit aufrufen: das Programm wurde bearbeitet",
     }
     /// A comment after the last one that `emit` writes.
     TEXT_ADDED: Disagreement {
@@ -481,27 +481,27 @@ messages! {
     RAPID_IN_MATERIAL: RapidInMaterial {
         en: "a rapid move at Z {z} goes through material that still reaches up to Z {height}, near {point}",
         de: "ein Eilgang auf Z {z} führt durch Material, das noch bis Z {height} steht, bei {point}",
-        help_en: "raise the cutter first, or mill there beforehand (stock known to within {resolution} mm)",
-        help_de: "den Fräser vorher anheben oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
+        help_en: "raise the cutter before this move, or mill that place earlier (the stock is simulated to within {resolution} mm)",
+        help_de: "den Fräser vorher anheben oder dort zuerst fräsen (das Material ist auf {resolution} mm genau berechnet)",
     }
     /// A rapid move of a drawn path through material.
     SWEEP_IN_MATERIAL: RapidInMaterial {
         en: "the rapid move at Z {z} along this element goes through material that still reaches up to Z {height}, near {point}",
         de: "der Eilgang auf Z {z} entlang dieses Elements führt durch Material, das noch bis Z {height} steht, bei {point}",
-        help_en: "give this path an S above {height}, lead the sweep around, or mill there beforehand (stock known to within {resolution} mm)",
-        help_de: "diesem Pfad ein S über {height} geben, die Leerfahrt außen herum führen oder dort zuerst fräsen (Material auf {resolution} mm genau bekannt)",
+        help_en: "give this path an S above {height}, lead the sweep around that place, or mill it first (the stock is simulated to within {resolution} mm)",
+        help_de: "diesem Pfad ein S über {height} geben, die Leerfahrt außen herum führen oder dort zuerst fräsen (das Material ist auf {resolution} mm genau berechnet)",
     }
     /// A rapid move in the plane at cutting depth, where the surface of the material is unknown.
     RAPID_AT_DEPTH: RapidAtDepth {
-        en: "a rapid move at Z {z} passes {point}, where nothing was cut to that depth; the program cuts as deep just before or after it, so there is probably material",
-        de: "ein Eilgang auf Z {z} führt über {point}, wo nichts so tief gefräst wurde; davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
+        en: "a rapid move at Z {z} passes {point}, where nothing was cut to that depth; just before or after this move, the program cuts that deep, so there is probably material",
+        de: "ein Eilgang auf Z {z} führt über {point}, wo nichts so tief gefräst wurde; kurz vor oder nach dieser Bewegung fräst das Programm so tief, also steht dort wahrscheinlich Material",
         help_en: "raise the cutter first; if the material is not that high, give its height with `--surface` for an exact check",
         help_de: "den Fräser vorher anheben; ist das Material nicht so hoch, seine Höhe mit `--surface` angeben, damit genau geprüft wird",
     }
     /// A rapid move in the plane at cutting depth, where neither the surface of the material nor the cutter is known.
     RAPID_FAR_FROM_CUTS: RapidAtDepth {
-        en: "a rapid move at Z {z} passes {point}, where no cutter of up to {widest} mm can have cut to that depth; the program cuts as deep just before or after it, so there is probably material",
-        de: "ein Eilgang auf Z {z} führt über {point}, wo kein Fräser bis {widest} mm so tief gefräst haben kann; davor oder danach fräst das Programm so tief, also steht dort wahrscheinlich Material",
+        en: "a rapid move at Z {z} passes {point}, where no cutter of up to {widest} mm can have cut to that depth; just before or after this move, the program cuts that deep, so there is probably material",
+        de: "ein Eilgang auf Z {z} führt über {point}, wo kein Fräser bis {widest} mm so tief gefräst haben kann; kurz vor oder nach dieser Bewegung fräst das Programm so tief, also steht dort wahrscheinlich Material",
         help_en: "raise the cutter first; give its diameter with `--cutter` for a closer check, and the height of the material with `--surface` for an exact one",
         help_de: "den Fräser vorher anheben; für eine genauere Prüfung seinen Durchmesser mit `--cutter` angeben, für eine genaue auch die Höhe des Materials mit `--surface`",
     }
@@ -523,8 +523,8 @@ messages! {
     RAPID_PLUNGE: RapidPlunge {
         en: "a rapid move goes down to Z {z} into material that reaches up to Z {height}, at {point}",
         de: "ein Eilgang fährt auf Z {z} hinunter in Material, das bis Z {height} steht, bei {point}",
-        help_en: "go down with G1 and a feed (stock known to within {resolution} mm)",
-        help_de: "mit G1 und einem Vorschub hinunterfahren (Material auf {resolution} mm genau bekannt)",
+        help_en: "go down with G1 and a feed (the stock is simulated to within {resolution} mm)",
+        help_de: "mit G1 und einem Vorschub hinunterfahren (das Material ist auf {resolution} mm genau berechnet)",
     }
     /// A cut through material that another path of the program mills from higher up.
     CUT_IN_HIGHER_MATERIAL: CutInHigherMaterial {
@@ -537,8 +537,8 @@ messages! {
     PLUNGE_IN_DRAWING: RapidPlunge {
         en: "the rapid move down to Z {z} at this element goes into material that still reaches up to Z {height}, near {point}",
         de: "der Eilgang bei diesem Element hinunter auf Z {z} geht in Material, das noch bis Z {height} steht, bei {point}",
-        help_en: "look there for an element of another height, and check H, T and the place of both paths; if both are right, mill the higher one first (N), down to Z {z} (stock known to within {resolution} mm)",
-        help_de: "dort nach einem Element anderer Höhe suchen und bei beiden Pfaden H, T und die Stelle prüfen; stimmen beide, den höheren zuerst fräsen (N), bis Z {z} hinunter (Material auf {resolution} mm genau bekannt)",
+        help_en: "look there for an element of another height, and check H, T and the place of both paths; if both are right, mill the higher one first (N), down to Z {z} (the stock is simulated to within {resolution} mm)",
+        help_de: "dort nach einem Element anderer Höhe suchen und bei beiden Pfaden H, T und die Stelle prüfen; stimmen beide, den höheren zuerst fräsen (N), bis Z {z} hinunter (das Material ist auf {resolution} mm genau berechnet)",
     }
     /// A program that moves in the plane before it raises the cutter.
     START_NOT_RAISED: StartNotRaised {
@@ -612,8 +612,8 @@ messages! {
     }
     /// Arcs with only one or two decimals.
     COARSE_ARCS: CoarseArcs {
-        en: "arcs are written in steps of {step} mm",
-        de: "Bögen sind in Schritten von {step} mm geschrieben",
+        en: "the coordinates of arcs are rounded to steps of {step} mm",
+        de: "die Koordinaten der Bögen sind auf Schritte von {step} mm gerundet",
         help_en: "set the post-processor to three or more decimals: the ends and centres of rounded arcs do not match",
         help_de: "den Postprozessor auf drei oder mehr Nachkommastellen einstellen: die Enden und Mittelpunkte gerundeter Bögen passen nicht zusammen",
     }
@@ -731,17 +731,17 @@ messages! {
     }
     /// A rapid move that states Z with a tool length that was set before the last M6.
     RAPID_WITH_OLD_LENGTH: WrongToolLength as Warning {
-        en: "for the Z of this rapid move, the tool length still applies that line {set} set before {change} changed the tool: only the controller knows how high the tip is",
+        en: "this rapid move to a Z still uses the tool length that line {set} set before {change} changed the tool: only the controller knows how high the tip is",
         de: "für das Z dieses Eilgangs gilt noch die Werkzeuglänge, die Zeile {set} vor dem Werkzeugwechsel {change} gesetzt hat: nur die Steuerung weiß, wie hoch die Spitze ist",
         help_en: "set the length of the new tool before or in the first line with Z, such as `G43 H2 Z5` for T2",
         help_de: "die Länge des neuen Werkzeugs vor oder in der ersten Zeile mit Z setzen, etwa `G43 H2 Z5` für T2",
     }
     /// A rapid move that states Z after G49 or G43 H0.
     RAPID_WITHOUT_LENGTH: WrongToolLength as Warning {
-        en: "the Z of this rapid move is without a tool length, which line {set} switched off: on most controllers, the spindle nose goes there",
-        de: "das Z dieses Eilgangs gilt ohne Werkzeuglänge, die Zeile {set} ausgeschaltet hat: auf den meisten Steuerungen fährt die Spindelnase dorthin",
-        help_en: "raise the tool before the length is switched off, or go to a position of the machine, such as `G53 G0 Z0`",
-        help_de: "anheben, bevor die Länge ausgeschaltet wird, oder zu einer Stelle der Maschine fahren, etwa `G53 G0 Z0`",
+        en: "this rapid move to a Z uses no tool length, because line {set} switched it off: on most controllers, the spindle nose goes to this Z",
+        de: "für das Z dieses Eilgangs gilt keine Werkzeuglänge, weil Zeile {set} sie ausgeschaltet hat: auf den meisten Steuerungen fährt die Spindelnase auf dieses Z",
+        help_en: "raise the tool before the length is switched off, or go to a machine position, such as `G53 G0 Z0`",
+        help_de: "das Werkzeug anheben, bevor die Länge ausgeschaltet wird, oder eine Maschinenposition anfahren, etwa `G53 G0 Z0`",
     }
     /// A rapid move that states Z after M6 and before the first G43 of the program.
     RAPID_BEFORE_LENGTH: WrongToolLength as Warning {

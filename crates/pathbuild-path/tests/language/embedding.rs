@@ -412,7 +412,7 @@ fn what_is_not_found_names_what_is_near() {
     assert!(notes(&[]).is_empty());
     assert_eq!(notes(&["1111.2P", "111.1P", "1111.1Q"]), ["similar names: 111.1P, 1111.1Q"]);
     // The next path of the same drawing is a different path and not a misspelling.
-    let there = "paths in drawings that could contain it: ";
+    let there = "the searched drawings contain these paths: ";
     assert_eq!(notes(&["1111.3P", "1111.2P"]), [format!("{there}1111.2P, 1111.3P")]);
     let many = ["1111.2P", "1111.3P", "1111.4P", "1111.5P", "1111.6P", "1111.7P"];
     assert_eq!(notes(&many), [format!("{there}1111.2P, 1111.3P, 1111.4P, 1111.5P, 1111.6P, ...")]);

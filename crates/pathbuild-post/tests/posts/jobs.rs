@@ -233,7 +233,7 @@ fn programs_are_joined_with_the_tools_of_the_table() {
     let expected =
         [(2, "three", Some(9000.0)), (1, "two", Some(9000.0)), (2, "three", Some(9000.0)), (3, "4 mm", None)];
     assert_eq!(tools, expected);
-    let expected = "PB764 the tool table has no cutter with O = 4 for 8001.1P; it is written as tool 3 (add it as [tool.NAME] to pathbuild.toml)";
+    let expected = "PB764 the tool table has no cutter with O = 4 for 8001.1P; the cutter is written as tool 3 (add the cutter as [tool.NAME] to pathbuild.toml)";
     assert_eq!(texts(&warnings), [expected]);
     assert_eq!(job.operations[0].coolant, Some(Coolant::OFF));
 }

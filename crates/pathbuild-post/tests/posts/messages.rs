@@ -96,13 +96,13 @@ fn a_helix_without_z_is_mended_in_the_text_of_arcs() {
     let both = flat("arc = '{?~ArcDir~{$G03}{$G02}} X{+~X1~} Y{+~Y1~} Z{+~Z1~}");
     let both = both.replace("line = 'G01 X{+~X1~} Y{+~Y1~} Z{+~Z1~}", "line = 'G01 X{+~X1~} Y{+~Y1~}");
     let found = texts(&read_toml(&both).write(&job, &PostOptions::default()).unwrap_err());
-    assert!(found[0].contains("the text arc has no ~Z1~"), "{found:?}");
+    assert!(found[0].contains("the text `arc` has no ~Z1~"), "{found:?}");
     let with_line = flat("arc = '{?~ArcDir~{$G03}{$G02}} X{+~X1~} Y{+~Y1~} Z{+~Z1~}");
     assert!(read_toml(&with_line).write(&job, &PostOptions::default()).is_ok(), "lines have Z");
     // Without a text for arcs, the helix is written as lines.
     let lines_only = both.lines().filter(|line| !line.starts_with("arc = ")).collect::<Vec<_>>().join("\n");
     let found = texts(&read_toml(&lines_only).write(&job, &PostOptions::default()).unwrap_err());
-    assert!(found[0].contains("has no ~Z1~") && !found[0].contains("the text arc"), "{found:?}");
+    assert!(found[0].contains("has no ~Z1~") && !found[0].contains("the text `arc`"), "{found:?}");
 }
 
 #[test]

@@ -152,7 +152,7 @@ fn switch(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<b
     reader.require(value.get_ref().as_bool(), &messages::SWITCH, value)
 }
 
-/// Whether a speed was probably written with a separator of thousands, such as 1.200.
+/// Whether a speed was probably written with a thousands separator, such as 1.200.
 pub(super) fn has_thousands(written: &str, speed: f64) -> bool {
     let decimals = written.split_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len());
     decimals == 3 && SPEEDS_WITH_THOUSANDS.contains(&speed)
