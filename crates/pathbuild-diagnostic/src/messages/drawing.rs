@@ -145,15 +145,15 @@ messages! {
     }
     /// A text that belongs to no element.
     TEXT_WITHOUT_ELEMENT: TextWithoutElement {
-        en: "the text \"{text}\" belongs to no element: its circle is at {centre} with a diameter of {diameter} mm",
-        de: "der Text \"{text}\" gehört zu keinem Element: sein Kreis liegt bei {centre} mit {diameter} mm Durchmesser",
-        help_en: "move it over its element; text and element must be on exactly the same layer",
-        help_de: "über das Element schieben; Text und Element müssen auf genau demselben Layer liegen",
+        en: "the text \"{text}\" belongs to no element: the circle around the text is at {centre} with a diameter of {diameter} mm",
+        de: "der Text \"{text}\" gehört zu keinem Element: der Kreis um den Text liegt bei {centre} mit {diameter} mm Durchmesser",
+        help_en: "move the text over its element, so that this circle touches the element; both must be on exactly the same layer",
+        help_de: "den Text über sein Element schieben, sodass dieser Kreis das Element berührt; beide müssen auf genau demselben Layer liegen",
     }
     /// An invisible text, consisting only of blanks, that belongs to no element.
     BLANK_TEXT: TextWithoutElement {
-        en: "an invisible text that consists only of blanks belongs to no element: its circle is at {centre}",
-        de: "ein unsichtbarer Text, der nur aus Leerzeichen besteht, gehört zu keinem Element: sein Kreis liegt bei {centre}",
+        en: "an invisible text that consists only of blanks belongs to no element: the circle around the text is at {centre}",
+        de: "ein unsichtbarer Text, der nur aus Leerzeichen besteht, gehört zu keinem Element: der Kreis um den Text liegt bei {centre}",
         help_en: "delete it",
         help_de: "löschen",
     }
@@ -285,7 +285,7 @@ messages! {
     }
     /// A Z-probe on a layer without a path.
     PROBE_ON_OTHER_LAYER: TextOnOtherLayer {
-        en: "the circle of 6 mm at {point} with the text \"{text}\" is no probe: layer {layer} belongs to no path",
+        en: "the circle of 6 mm at {point} with the text \"{text}\" is not a probe: layer {layer} belongs to no path",
         de: "der Kreis von 6 mm bei {point} mit dem Text \"{text}\" ist keine Probe: Layer {layer} gehört zu keinem Pfad",
         help_en: "move circle and text to the layer of the path; if the text is a remark, move it off the circle",
         help_de: "Kreis und Text auf den Layer des Pfads legen; ist der Text eine Bemerkung, vom Kreis wegschieben",

@@ -398,15 +398,15 @@ messages! {
     }
     /// A program that would require more cells than the limit to simulate its material.
     TOO_LARGE_TO_FOLLOW: LimitReached {
-        en: "tracking the material of this program takes more cells than the limit of {limit}; rapid moves into material are not checked",
-        de: "um das Material dieses Programms zu verfolgen, sind mehr als die erlaubten {limit} Zellen nötig; Eilgänge ins Material werden nicht geprüft",
+        en: "simulating the material of this program takes more grid cells than the limit of {limit}; rapid moves into material are not checked",
+        de: "um das Material dieses Programms zu simulieren, sind mehr als die erlaubten {limit} Rasterzellen nötig; Eilgänge ins Material werden nicht geprüft",
         help_en: "correct numbers that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Zahlen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
     /// A program that exceeds the limit of pieces into which arcs and ramps are divided to simulate the material.
     TOO_MANY_PIECES: LimitReached {
-        en: "to track the material, the arcs and slopes of this program are divided into {count} pieces, which exceeds the limit of {limit}; rapid moves into material are not checked",
-        de: "um das Material zu verfolgen, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die erlaubten {limit}; Eilgänge ins Material werden nicht geprüft",
+        en: "to simulate the material, the arcs and slopes of this program are divided into {count} pieces, which exceeds the limit of {limit}; rapid moves into material are not checked",
+        de: "um das Material zu simulieren, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die erlaubten {limit}; Eilgänge ins Material werden nicht geprüft",
         help_en: "correct radii and heights that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Radien und Höhen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }

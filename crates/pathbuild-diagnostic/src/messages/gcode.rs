@@ -359,7 +359,7 @@ messages! {
     }
     /// A second `%`, which has no known meaning for XpertMILL.
     SECOND_PERCENT: DoubtfulSpelling {
-        en: "`%` begins a program; what it does for {dialect} anywhere else is not known",
+        en: "`%` begins a program; its effect on {dialect} anywhere else is not known",
         de: "mit `%` beginnt ein Programm; was {dialect} an anderer Stelle damit macht, ist nicht bekannt",
         help_en: "remove the line",
         help_de: "die Zeile entfernen",

@@ -92,8 +92,8 @@ messages! {
     NO_SUCH_PATH: PathNotFound {
         en: "there is no path or drawing {name}",
         de: "es gibt keinen Pfad und keine Zeichnung {name}",
-        help_en: "check the name; searched in {directories}",
-        help_de: "den Namen prüfen; gesucht in {directories}",
+        help_en: "check the name; pathbuild searched in {directories}",
+        help_de: "den Namen prüfen; gesucht wurde in {directories}",
     }
     /// A pattern that no path matches.
     NO_PATH_LIKE: PathNotFound {

@@ -112,7 +112,7 @@ messages! {
     UNREACHED_BRANCH: UnreachedSegments {
         en: "segments not reached: {left}; the path went past {point}, where {element} branches off, and ends here",
         de: "nicht alle Segmente wurden erreicht; übrig: {left}; der Pfad lief an {point} vorbei, wo {element} abzweigt, und endet hier",
-        help_en: "remove it if it is a helper line, or move it to another layer; otherwise give it a smaller N than the segment on which the path goes on from there (HIDDEN takes no N: use DASHED), and draw the segments that lead back from its tip, or put a turn marker (a PHANTOM circle of 1.5 mm) there",
+        help_en: "if the branch is a helper line, remove it or move it to another layer; otherwise give it a smaller N than the segment on which the path goes on from there (HIDDEN takes no N: use DASHED), and draw the segments that lead back from its tip, or put a turn marker (a PHANTOM circle of 1.5 mm) there",
         help_de: "ist es eine Hilfslinie, sie entfernen oder auf einen anderen Layer legen; sonst ihr ein kleineres N geben als dem Segment, auf dem der Pfad von dort weiterläuft (HIDDEN nimmt kein N: DASHED verwenden), und die Segmente zeichnen, die von ihrer Spitze zurückführen, oder dort eine Wendemarke (PHANTOM-Kreis mit 1,5 mm)",
     }
     /// A segment that is not reached because a small gap separates it from the end of a traversed one.
@@ -336,8 +336,8 @@ messages! {
     NOT_FOUND: PathNotFound {
         en: "path {name} was not found",
         de: "Pfad {name} wurde nicht gefunden",
-        help_en: "correct the name, or add the directory of its drawing to `search`; searched in {directories}; files that could contain it: {files}",
-        help_de: "den Namen berichtigen oder das Verzeichnis seiner Zeichnung zu `search` hinzufügen; gesucht in {directories}; Dateien, die ihn enthalten könnten: {files}",
+        help_en: "correct the name, or add the directory of its drawing to `search`; pathbuild searched in {directories}; files that could contain the path: {files}",
+        help_de: "den Namen berichtigen oder das Verzeichnis seiner Zeichnung zu `search` hinzufügen; gesucht wurde in {directories}; Dateien, die den Pfad enthalten könnten: {files}",
     }
     /// Note: names of existing paths that are similar to the one that was not found.
     NEAR_NAMES: PathNotFound {

@@ -227,8 +227,8 @@ messages! {
     }
     /// A `/` before a line that must not be skipped.
     LINE_SKIPPABLE: RejectedWord {
-        en: "`/` begins a line that moves, sets the tool, its length, a mode or the feed, or switches the spindle: a switch at the machine (block delete) can skip it",
-        de: "`/` beginnt eine Zeile, die fährt, das Werkzeug, dessen Länge, einen Modus oder den Vorschub setzt oder die Spindel schaltet: ein Schalter an der Maschine (Sätze ausblenden) kann sie überspringen",
+        en: "`/` begins a line that moves or selects the tool, sets its length, a mode or the feed, or switches the spindle: a switch at the machine (block delete) can skip it",
+        de: "`/` beginnt eine Zeile, die fährt, das Werkzeug wählt, dessen Länge, einen Modus oder den Vorschub setzt oder die Spindel schaltet: ein Schalter an der Maschine (Sätze ausblenden) kann sie überspringen",
         help_en: "remove `/` from the text of the definition",
         help_de: "`/` aus dem Text der Definition entfernen",
     }

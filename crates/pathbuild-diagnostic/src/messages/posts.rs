@@ -367,8 +367,8 @@ messages! {
     TERM_IS_TEXT: InvalidControlText {
         en: "{text}, line {line}, column {column}: \"{found}\" is a text, not a number",
         de: "{text}, Zeile {line}, Spalte {column}: \"{found}\" ist ein Text, keine Zahl",
-        help_en: "write the variable outside of a statement, or in a statement with s",
-        help_de: "die Variable außerhalb einer Anweisung schreiben oder in einer Anweisung mit s",
+        help_en: "write the variable outside of a statement, or in a statement with the format s",
+        help_de: "die Variable außerhalb einer Anweisung schreiben oder in einer Anweisung mit dem Format s",
     }
     /// A term without a finite value, for example because of a division by zero.
     TERM_NOT_FINITE: InvalidControlText {

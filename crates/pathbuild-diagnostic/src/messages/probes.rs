@@ -292,8 +292,8 @@ messages! {
     NOT_COMPATIBLE_PROGRAM: OldProgram {
         en: "{name} was written without --compatible: with that option, the drawing gives a different program",
         de: "{name} wurde ohne --compatible geschrieben: mit dieser Option ergibt die Zeichnung ein anderes Programm",
-        help_en: "run adjust without --compatible (`compat` sets that option), or run `emit` again with it",
-        help_de: "adjust ohne --compatible aufrufen (`compat` setzt diese Option) oder emit noch einmal mit ihr",
+        help_en: "run adjust without --compatible (the command `compat` sets that option), or run `emit` again with it",
+        help_de: "adjust ohne --compatible aufrufen (der Befehl `compat` setzt diese Option) oder emit noch einmal mit ihr",
     }
 }
 

@@ -3,7 +3,7 @@
 messages! {
     /// `verify --against`: no T word selects the tool before the first cut.
     TOOL_NOT_CHOSEN: MovesDiffer {
-        en: "the tool is not selected before the first cut: the drawing's program has {expected}",
+        en: "the tool is not selected before the first cut: the drawing's program selects it with {expected}",
         de: "vor dem ersten Schnitt ist das Werkzeug nicht gewählt: im Programm der Zeichnung steht {expected}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
@@ -94,16 +94,16 @@ messages! {
     }
     /// `verify --against` with a program that was corrected by probes and then converted.
     CONVERTED_CORRECTION: MovesDiffer {
-        en: "the heights of this program were corrected by probes, and after the conversion it no longer says by how much",
-        de: "die Höhen dieses Programms sind nach Proben korrigiert, und nach der Umwandlung sagt es nicht mehr, um wie viel",
-        help_en: "compare the NAME_Milling.gcode that adjust wrote, and verify this program without --against",
-        help_de: "die NAME_Milling.gcode vergleichen, die adjust geschrieben hat, und dieses Programm ohne --against prüfen",
+        en: "the heights of this program were corrected by probes, but the converted program no longer says by how much",
+        de: "die Höhen dieses Programms sind nach Proben korrigiert, aber das umgewandelte Programm sagt nicht mehr, um wie viel",
+        help_en: "compare the NAME_Milling.gcode that adjust wrote with --against, and verify this program without --against",
+        help_de: "die NAME_Milling.gcode, die adjust geschrieben hat, mit --against vergleichen und dieses Programm ohne --against prüfen",
     }
     /// `verify --against`: a probing program that a definition of the user's own wrote.
     PROBING_CONVERTED: MovesDiffer {
         en: "the program only probes, and a definition of your own wrote it: --against compares the probing programs of `emit` and of the built-in posts with the drawing, but not this one",
         de: "das Programm tastet nur an, und eine eigene Definition hat es geschrieben: --against vergleicht Antastprogramme von `emit` und der eingebauten Postprozessoren mit der Zeichnung, dieses aber nicht",
-        help_en: "compare the file NAME_Probing.gcode with --against, and verify this one without it",
+        help_en: "compare the file NAME_Probing.gcode with --against, and verify this one without --against",
         help_de: "die Datei NAME_Probing.gcode mit --against vergleichen und diese ohne --against prüfen",
     }
     /// `verify --against`: another tool than the drawing needs.
@@ -341,14 +341,14 @@ messages! {
     OTHER_CUTTER_IN_TABLE: Disagreement {
         en: "the header says that the cutter's diameter is {header} mm, but T{index} of `[tool]` has {table} mm",
         de: "laut Kopf hat der Fräser {header} mm; T{index} in `[tool]` hat {table} mm",
-        help_en: "use the cutter named in the header, or correct `[tool]`; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
+        help_en: "use the cutter named in the header, or correct `[tool]`; until then, the check of rapid moves removes material with the smaller cutter and looks for collisions with the larger one",
         help_de: "den Fräser einsetzen, den der Kopf nennt, oder `[tool]` berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
     }
     /// A cutter diameter in the header or the tool table that differs from `--cutter`.
     OTHER_CUTTER_GIVEN: Disagreement {
         en: "{place} says that the cutter's diameter is {found} mm, but --cutter says {given} mm",
         de: "{place} gibt den Fräser mit {found} mm an, --cutter mit {given} mm",
-        help_en: "correct the wrong value; until then, the check of rapid moves clears material with the smaller cutter and looks for collisions with the larger one",
+        help_en: "correct the wrong value; until then, the check of rapid moves removes material with the smaller cutter and looks for collisions with the larger one",
         help_de: "den falschen Wert berichtigen; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren Fräser und bei Kollisionen mit dem größeren",
     }
     /// A cutter diameter in the header or an option that differs from the drawing's.
@@ -404,14 +404,14 @@ messages! {
     TOOL_STATED_TWICE: HeaderContradiction {
         en: "comments contradict each other about the diameter of T{number}: {one} mm and {other} mm",
         de: "Kommentare widersprechen sich beim Durchmesser von T{number}: {one} mm und {other} mm",
-        help_en: "find out which tool is meant; until then, the check of rapid moves clears material with the smaller one",
+        help_en: "find out which tool is meant; until then, the check of rapid moves removes material with the smaller one",
         help_de: "klären, welches Werkzeug gemeint ist; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren",
     }
     /// Two comments with different diameters for a tool without a number.
     CURRENT_TOOL_STATED_TWICE: HeaderContradiction {
         en: "comments contradict each other about the diameter of the tool: {one} mm and {other} mm",
         de: "Kommentare widersprechen sich beim Durchmesser des Werkzeugs: {one} mm und {other} mm",
-        help_en: "find out which tool is meant; until then, the check of rapid moves clears material with the smaller one",
+        help_en: "find out which tool is meant; until then, the check of rapid moves removes material with the smaller one",
         help_de: "klären, welches Werkzeug gemeint ist; bis dahin rechnet die Prüfung der Eilgänge beim Abtragen mit dem kleineren",
     }
     /// Two comments with tips of different shapes for a tool.
@@ -537,8 +537,8 @@ messages! {
     PLUNGE_IN_DRAWING: RapidPlunge {
         en: "the rapid move down to Z {z} at this element goes into material that still reaches up to Z {height}, near {point}",
         de: "der Eilgang bei diesem Element hinunter auf Z {z} geht in Material, das noch bis Z {height} steht, bei {point}",
-        help_en: "look there for an element of another height, and check H, T and the place of both paths; if both are right, mill the higher one first (N), down to Z {z} (the stock is simulated to within {resolution} mm)",
-        help_de: "dort nach einem Element anderer Höhe suchen und bei beiden Pfaden H, T und die Stelle prüfen; stimmen beide, den höheren zuerst fräsen (N), bis Z {z} hinunter (das Material ist auf {resolution} mm genau berechnet)",
+        help_en: "look there for an element of another height, and check H, T and the place of both paths that mill there; if both are right, mill the higher one first (N), down to Z {z} (the stock is simulated to within {resolution} mm)",
+        help_de: "dort nach einem Element anderer Höhe suchen und bei beiden Pfaden, die dort fräsen, H, T und die Stelle prüfen; stimmen beide, den höheren zuerst fräsen (N), bis Z {z} hinunter (das Material ist auf {resolution} mm genau berechnet)",
     }
     /// A program that moves in the plane before it raises the cutter.
     START_NOT_RAISED: StartNotRaised {

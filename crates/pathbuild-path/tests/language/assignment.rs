@@ -264,7 +264,7 @@ fn a_text_without_element_names_the_nearest_and_how_far_it_is() {
     let lang = pathbuild_diagnostic::Lang::En;
     assert_eq!(
         found.text(lang),
-        "the text \"F100\" belongs to no element: its circle is at (20, 4) with a diameter of 5.2 mm"
+        "the text \"F100\" belongs to no element: the circle around the text is at (20, 4) with a diameter of 5.2 mm"
     );
     let notes: Vec<String> = found.notes.iter().map(|note| note.text(lang)).collect();
     assert_eq!(notes, ["the nearest element is a line at (0, 0), 1.4 mm away from the text's circle"]);
