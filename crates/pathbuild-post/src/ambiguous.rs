@@ -1,5 +1,5 @@
-//! Finds output lines that contradict themselves or that controls execute differently. This matters for definitions without a dialect, because the reader of a dialect reports
-//! most of these lines as errors. (book: program/posts, "Before a program is written")
+//! Finds output lines that contradict themselves or that controls execute differently. This matters for definitions without a dialect: for the others,
+//! the reader of the dialect reports most of these lines as errors. (book: program/posts, "Before a program is written")
 
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Value};

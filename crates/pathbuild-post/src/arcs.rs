@@ -26,8 +26,8 @@ pub(crate) fn pieces_of(course: &Course, widest: f64) -> u32 {
         .unwrap_or(u8::MAX.into())
 }
 
-/// Moves the centre of an arc so that it is equidistant from start and end, if the radii differ by more than is permitted in mm and by no more than
-/// is permitted in inches.
+/// Moves the centre of an arc so that it is equidistant from start and end, if the radii differ by more than is permitted in programs in mm, but by
+/// no more than is permitted in programs in inches.
 pub(crate) fn equalize_radii(movement: &mut Move) {
     let MoveShape::Arc(arc) = &mut movement.shape else { return };
     let difference = (arc.radius(&movement.from) - arc.radius(&movement.to)).abs();

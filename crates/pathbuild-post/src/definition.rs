@@ -167,7 +167,7 @@ impl PostDefinition {
         let chord = self.check_chord(job);
         let options = &self.restricted_to(options, target.as_ref());
         let target = target.as_ref();
-        let EngineOutput { text, shadow, origins, warnings, notes, follows_coolant, post_build } =
+        let EngineOutput { text, translation, origins, warnings, notes, follows_coolant, post_build } =
             match &self.engine {
                 Engine::CamBam(definition) => cambam::write(definition, &self.file, job, target, options)?,
                 Engine::Cad6(definition) => cad6::write(definition, &self.file, job, target, options)?,
@@ -186,7 +186,7 @@ impl PostDefinition {
             target.map(|target| target::check(&output.text, target)).filter(|errors| !errors.is_empty());
         let found = match refused {
             Some(errors) => Err(errors),
-            None => self.read_back(&output.text, (&shadow, follows_coolant), job, target, options),
+            None => self.read_back(&output.text, (&translation, follows_coolant), job, target, options),
         };
         if options.unchecked {
             output.notes.push(Note { message: &posts::POST_UNCHECKED, arguments: Vec::new() });
@@ -196,7 +196,7 @@ impl PostDefinition {
             problems.map(|problem| problem.in_file(&self.file)).collect::<Vec<_>>()
         };
         let doubts = found.map_err(|mut errors| {
-            self.explain_centres(&mut errors, &output.text, &shadow);
+            self.explain_centres(&mut errors, &output.text, &translation);
             let causes = self.empty_motion().into_iter();
             causes.chain(placed(errors, &output.text)).collect::<Vec<_>>()
         })?;
@@ -210,7 +210,7 @@ impl PostDefinition {
     fn read_back(
         &self,
         text: &[u8],
-        (shadow, follows_coolant): (&TranslatedText, bool),
+        (translation, follows_coolant): (&TranslatedText, bool),
         job: &Job,
         target: Option<&Target>,
         options: &PostOptions<'_>,
@@ -223,8 +223,8 @@ impl PostDefinition {
         // Some definitions round feeds to integers.
         let tolerance = Tolerance { place: half, feed: half.max(0.5), chord, ends: Ends::Cutting };
         let target = target.filter(|_| !self.has_own_axes());
-        let wording = target.map_or(Wording::Translated(shadow), Wording::Control);
-        let text = if target.is_some() { text } else { shadow.text.as_bytes() };
+        let wording = target.map_or(Wording::Translated(translation), Wording::Control);
+        let text = if target.is_some() { text } else { translation.text.as_bytes() };
         let tolerance = (!options.unchecked).then_some(tolerance);
         let is_manual = options.manual_spindle || target.is_some_and(|target| !target.switches_spindle());
         let machine = options.machine.as_ref();
@@ -245,12 +245,12 @@ impl PostDefinition {
     }
 
     /// Adds a note to the first error in an arc if the definition writes absolute centres but its output does not state that.
-    fn explain_centres(&self, errors: &mut [Diagnostic], text: &[u8], shadow: &TranslatedText) {
+    fn explain_centres(&self, errors: &mut [Diagnostic], text: &[u8], translation: &TranslatedText) {
         let is_absolute = match &self.engine {
             Engine::CamBam(definition) => definition.writes_absolute_centres(),
             Engine::Cad6(definition) => definition.writes_absolute_centres(),
         };
-        if !is_absolute || shadow.text.contains("G90.1") {
+        if !is_absolute || translation.text.contains("G90.1") {
             return;
         }
         let has_centre = |error: &&mut Diagnostic| {
@@ -344,7 +344,7 @@ impl PostDefinition {
             .then(|| self.format_finding(&posts::COARSE_NUMBERS).with("error", error)))
     }
 
-    /// Reports a stated distance between arcs and lines that is greater than the greatest that is used.
+    /// Reports a stated distance between arcs and lines that exceeds [`MAX_CHORD_DISTANCE`], which is used instead.
     fn check_chord(&self, job: &Job) -> Option<Diagnostic> {
         let (stated, option) = match &self.engine {
             Engine::CamBam(definition) => (definition.stated_chord(job.units), definition.chord_option()),
@@ -377,7 +377,7 @@ impl PostDefinition {
     }
 
     /// Restricts the options to the capabilities of the target. For a control without cycles, holes are written as moves, unless the
-    /// definition replaces the word of the cycle by a text of its own.
+    /// definition leaves the word of the cycle (G81) empty, because it then writes holes in its own way.
     fn restricted_to<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
         let (writes_cycles, is_wrapped) = match &self.engine {
             Engine::CamBam(definition) => {

@@ -68,7 +68,7 @@ impl LineStarts {
 pub(crate) struct EngineOutput {
     pub(crate) text: Vec<u8>,
     /// The translation of the text to RS274.
-    pub(crate) shadow: TranslatedText,
+    pub(crate) translation: TranslatedText,
     pub(crate) origins: Vec<LineOrigin>,
     /// Warnings about doubtful constructs in the definition or the text.
     pub(crate) warnings: Vec<Diagnostic>,

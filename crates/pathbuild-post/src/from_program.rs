@@ -12,7 +12,7 @@ use pathbuild_path::approx::{at_least, near};
 use pathbuild_toolpath::{Comment, ElementKind, Names, PlannedMove, Program, ProgramStep, ToolTip};
 use regex::Regex;
 
-use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, describe};
+use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, derive_feeds_and_depths};
 
 /// Length in mm below which arcs are written as lines. A post might print the same coordinates for both ends of such an arc, which would
 /// be a full circle that cuts off the adjacent support bars. The line differs from the arc by less than any machine can resolve.
@@ -30,9 +30,9 @@ impl Job {
         tools: &ToolTable,
         pecks: bool,
     ) -> (Self, Vec<Diagnostic>) {
-        let mut fitter = ToolAssigner::new(tools);
+        let mut assigner = ToolAssigner::new(tools);
         let operations = programs.iter().map(Borrow::borrow).flat_map(|program| {
-            let assignment = fitter.assign_tool(&program.path, program.tool);
+            let assignment = assigner.assign_tool(&program.path, program.tool);
             Builder::new(program, assignment, pecks).run()
         });
         let mut operations: Vec<Operation> = operations.collect();
@@ -44,20 +44,23 @@ impl Job {
             operation.clearance = clearance;
         }
         let drawing = programs.first().map_or("", |program| &program.borrow().drawing);
-        (Self { name: name.into(), drawing: drawing.into(), operations, ..Self::default() }, fitter.warnings)
+        (
+            Self { name: name.into(), drawing: drawing.into(), operations, ..Self::default() },
+            assigner.warnings,
+        )
     }
 
     /// Assigns the cutter of native programs to all operations, as in a job that is made from their paths. Native programs always say T1, whatever
     /// the cutter. Returns warnings about the tool.
     ///
     /// # Errors
-    /// PB765 if the programs need different tools, or if one does not name its path and several tools have its O.
+    /// PB765 if the programs need different tools, or if one does not name its path and several tools have its diameter O.
     pub fn set_cutter(
         &mut self,
         programs: &[NativeCutter],
         tools: &ToolTable,
     ) -> Result<Vec<Diagnostic>, Box<Diagnostic>> {
-        let mut fitter = ToolAssigner::new(tools);
+        let mut assigner = ToolAssigner::new(tools);
         let mut first = None;
         for NativeCutter { line, path, diameter } in programs {
             let alike = tools.positions_where(*diameter, |_| path.is_none());
@@ -67,7 +70,7 @@ impl Job {
                 let problem = problem.quoting("first", first).quoting("second", second);
                 return Err(Box::new(problem.at_line(*line, None)));
             }
-            let tool = fitter.assign_tool(path.as_deref().unwrap_or_default(), *diameter).tool;
+            let tool = assigner.assign_tool(path.as_deref().unwrap_or_default(), *diameter).tool;
             let expected = &*first.get_or_insert_with(|| tool.clone());
             if expected.index != tool.index {
                 let problem = Diagnostic::new(&posts::SEVERAL_NATIVE_PROGRAMS).quoting("tool", &*tool.name);
@@ -77,7 +80,7 @@ impl Job {
         if let Some(tool) = first {
             self.operations.iter_mut().for_each(|operation| operation.tool = tool.clone());
         }
-        Ok(fitter.warnings)
+        Ok(assigner.warnings)
     }
 }
 
@@ -125,7 +128,7 @@ impl<'a> Builder<'a> {
         let last = self.tool.lift(self.program.sweep_height);
         self.push(last);
         let thickness = self.program.thickness;
-        self.operations.iter_mut().for_each(|operation| describe(operation, thickness));
+        self.operations.iter_mut().for_each(|operation| derive_feeds_and_depths(operation, thickness));
         self.operations
     }
 
@@ -306,7 +309,7 @@ pub(super) struct ToolAssigner<'a> {
     table: &'a ToolTable,
     /// Tool number of each entry of the table.
     numbers: Vec<u32>,
-    fitted: Vec<(Key, Tool)>,
+    assigned: Vec<(Key, Tool)>,
     pub(super) warnings: Vec<Diagnostic>,
 }
 
@@ -362,7 +365,7 @@ impl ToolTable {
 
 impl<'a> ToolAssigner<'a> {
     pub(super) fn new(table: &'a ToolTable) -> Self {
-        Self { table, numbers: table.numbers(), fitted: Vec::new(), warnings: Vec::new() }
+        Self { table, numbers: table.numbers(), assigned: Vec::new(), warnings: Vec::new() }
     }
 
     /// Returns the cutter and settings for a path with diameter O, and remembers the cutter for later paths.
@@ -371,7 +374,7 @@ impl<'a> ToolAssigner<'a> {
         let position = positions.first().copied();
         let entry = position.map(|index| &self.table.entries[index]);
         let key = position.map_or(Key::Diameter(diameter), Key::Entry);
-        let tool = match self.fitted.iter().find(|(known, _)| known.is_same(key)) {
+        let tool = match self.assigned.iter().find(|(known, _)| known.is_same(key)) {
             Some((_, tool)) => tool.clone(),
             None => self.add(key, entry, path, diameter),
         };
@@ -407,14 +410,14 @@ impl<'a> ToolAssigner<'a> {
         let is_for_other_paths =
             entry.is_none() && !self.table.positions_where(diameter, |_| true).is_empty();
         let tool = Tool { is_for_other_paths, ..Tool::new(index, diameter, &name) };
-        self.fitted.push((key, tool.clone()));
+        self.assigned.push((key, tool.clone()));
         tool
     }
 
     /// Returns the smallest number used neither by the table nor by a cutter assigned before.
     fn free_index(&self) -> u32 {
         let is_free = |index: &u32| {
-            !self.numbers.contains(index) && self.fitted.iter().all(|(_, tool)| tool.index != *index)
+            !self.numbers.contains(index) && self.assigned.iter().all(|(_, tool)| tool.index != *index)
         };
         (1..=u32::MAX).find(is_free).unwrap_or(0)
     }

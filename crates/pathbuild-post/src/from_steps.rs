@@ -11,7 +11,7 @@ use pathbuild_motion::{
     Turning, WorkSystem,
 };
 
-use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, describe};
+use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, derive_feeds_and_depths};
 
 /// The meaning of a comment in the parsed program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -306,7 +306,7 @@ impl Builder {
     }
 
     /// Returns the operation for a cut, creating one if the settings have changed since the last cut.
-    fn cutting(&mut self) -> &mut Operation {
+    fn operation_for_cut(&mut self) -> &mut Operation {
         if let Some(change) = self.unnamed_change.take() {
             self.refuse(change, &posts::JOB_TOOL_UNNAMED);
         }
@@ -422,7 +422,7 @@ impl Builder {
         self.retract_after_change([Some(hole.at[0]), Some(hole.at[1])]);
         self.is_raised = true;
         self.at = Position::known(hole.at[0], hole.at[1], hole.exit);
-        self.cutting().steps.push(JobStep::Hole(hole));
+        self.operation_for_cut().steps.push(JobStep::Hole(hole));
     }
 
     /// After a tool change below the clearance plane, continues above the next position, because the new tool does not return to where the
@@ -476,7 +476,7 @@ impl Builder {
                 return self.refuse(line, &posts::JOB_PLACE_UNKNOWN);
             }
             self.was_changed_low = false;
-            self.cutting().steps.push(step);
+            self.operation_for_cut().steps.push(step);
         }
         self.has_probed = matches!(movement.pace, Pace::Probe { .. });
         self.is_raised = movement.pace == Pace::Rapid && movement.to.known.has(Axes::Z);
@@ -512,7 +512,7 @@ impl Job {
         self.has_no_surface = false;
         for operation in &mut self.operations {
             operation.surface = surface;
-            describe(operation, surface);
+            derive_feeds_and_depths(operation, surface);
             let retract = operation.holes().map(|hole| hole.retract).next();
             operation.retract = retract.unwrap_or(operation.retract);
         }

@@ -328,7 +328,7 @@ pub enum Entry {
 
 /// Derives the feeds and depths of an operation from its steps, and its retract height from its surface. An unspecified surface is set to
 /// `thickness`.
-pub(super) fn describe(operation: &mut Operation, thickness: f64) {
+pub(super) fn derive_feeds_and_depths(operation: &mut Operation, thickness: f64) {
     if operation.surface == f64::NEG_INFINITY {
         operation.surface = thickness;
     }

@@ -20,7 +20,7 @@ pub(crate) struct LineWords {
     pub(crate) is_percent: bool,
     /// Whether a `%` follows other words than the line's number.
     pub(crate) has_percent_behind_words: bool,
-    /// The number of the line, or what begins it, if it does not begin with N: `:` is the letter O to some controls.
+    /// The line number, or the sign or text with which it begins, if that is not N. Some controls read `:` as the letter O.
     pub(crate) other_number: Option<String>,
     /// The first sign of a parameter or an expression: `#` or `[`.
     pub(crate) formula: Option<char>,

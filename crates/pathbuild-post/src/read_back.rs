@@ -29,7 +29,7 @@ use crate::{ambiguous, dwells, tools};
 pub(super) enum Wording<'a> {
     /// As words of this control.
     Control(&'a Target),
-    /// No dialect defines them, or the definition has its own axes: the text that is checked is this translation to RS274.
+    /// By this translation to RS274, which is checked instead of the text: no dialect defines the words, or the definition has its own axes.
     Translated(&'a TranslatedText),
 }
 
@@ -165,12 +165,12 @@ fn move_errors(
     match traverse::check(&found, &wanted, clearance, tolerance) {
         Ok(cuts) => {
             let of_changes = [&gcode::SPINNING_AT_CHANGE, &gcode::CHANGE_NOT_RAISED];
-            let is_told = |problem: &Diagnostic| {
+            let is_reported = |problem: &Diagnostic| {
                 of_changes.contains(&problem.message)
-                    && broken.iter().any(|told| told.message == problem.message)
+                    && broken.iter().any(|reported| reported.message == problem.message)
             };
             let tools = tools::check(&read.steps, job, &cuts, expected).into_iter();
-            errors.extend(tools.filter(|problem| !is_told(problem)).map(as_finding_of_post));
+            errors.extend(tools.filter(|problem| !is_reported(problem)).map(as_finding_of_post));
             errors.extend(rapids_with_other_length(&read.steps, expected.wording.reader()));
             let control = expected.wording.control().into_iter();
             errors.extend(control.flat_map(|control| bent_rapids(&read.steps, job, &cuts, control)));
@@ -330,8 +330,8 @@ fn unused_words(problems: &[Diagnostic]) -> Vec<Diagnostic> {
     let mut doubts: Vec<Diagnostic> = Vec::new();
     for problem in problems.iter().filter(|problem| problem.message == &gcode::UNUSED) {
         let Some(letter) = problem.argument("word") else { continue };
-        let is_told = doubts.iter().any(|doubt| doubt.argument("word") == Some(letter));
-        if !is_told {
+        let is_reported = doubts.iter().any(|doubt| doubt.argument("word") == Some(letter));
+        if !is_reported {
             let doubt = Diagnostic::new(&posts::WORD_NOT_FOLLOWED).with("word", letter.clone());
             doubts.push(doubt.at_line(problem.place.line, None));
         }

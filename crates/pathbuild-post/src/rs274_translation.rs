@@ -147,8 +147,8 @@ impl Rs274Translation {
         }
     }
 
-    /// Translates a line with this text and these words. `motion` is the number of the G word that a word of the definition's own in this line stands
-    /// for. If `is_mirrored`, one axis of the plane is reversed, so the direction of arcs is reversed too.
+    /// Translates a line with this text and these words. If the line contains a word that the definition uses instead of a G word for a motion,
+    /// `motion` is the number of that G word. If `is_mirrored`, one axis of the plane is reversed, so the direction of arcs is reversed too.
     pub(crate) fn line(&mut self, text: &str, line: &LineWords, motion: Option<u32>, is_mirrored: bool) {
         if self.enter_blank_definition(line) {
             return self.end_line();
@@ -166,7 +166,7 @@ impl Rs274Translation {
         if line.words.iter().filter(codes).any(|word| tenths(word) == 40) {
             let time = line.words.iter().find(|word| matches!(word.letter, 'P' | 'X' | 'U' | 'F' | 'S'));
             self.dwells.extend(time.map(|time| (self.line, time.number)));
-            // Only Siemens controls take them for a time. On others, F is the feed of the cuts that follow.
+            // Only Siemens controls take F and S for a time. On others, F is the feed of the cuts that follow.
             if let Some(time) = time.filter(|time| matches!(time.letter, 'F' | 'S')) {
                 self.report(format!("G4 {}", time.letter), Doubt::Unknown);
             }
@@ -195,7 +195,8 @@ impl Rs274Translation {
     }
 
     /// Reports constructs that may change where the tool goes, or which lines are run, and that cannot be recognised by a G or M word alone. Some
-    /// controls end a line at a CR and run the rest, even in a comment. In a line with the definition's own word for a motion, that word is no G-code.
+    /// controls end a line at a CR and run the rest, even in a comment. If `has_own_motion`, text that is no G-code is the definition's own word for
+    /// a motion.
     fn report_dangerous(&mut self, text: &str, line: &LineWords, has_own_motion: bool) {
         if let Some(foreign) = &line.foreign {
             let name = foreign.split(['(', '=']).next().unwrap_or_default();
@@ -212,7 +213,7 @@ impl Rs274Translation {
         if text.trim_end_matches('\r').contains('\r') {
             self.report("CR".to_owned(), Doubt::Dangerous);
         }
-        // Behind the `//` of a control text, a `)` may still follow.
+        // `line` ends at a `//` of a control text, although the comment may be closed by a `)` after that.
         if line.is_comment_open && text.rfind(')') < text.rfind('(') {
             self.report("(".to_owned(), Doubt::Unknown);
         }
@@ -277,8 +278,8 @@ impl Rs274Translation {
         self.text.insert_str(begin, &missing);
     }
 
-    /// Follows the definition of the blank (workpiece), and returns whether the line belongs to it. On a Heidenhain control, a line with G30, the plane and all axes begins the definition, and the
-    /// following G31 ends it. Other controls have no plane in the same line as G30.
+    /// Follows the definition of the blank (workpiece), and returns whether the line begins or ends it. On a Heidenhain control, a line with G30, the
+    /// plane and all axes begins the definition, and the following G31 ends it. Other controls have no plane in the same line as G30.
     fn enter_blank_definition(&mut self, line: &LineWords) -> bool {
         let has = |letter: char, number: i64| {
             line.words.iter().any(|word| word.letter == letter && tenths(word) == number)

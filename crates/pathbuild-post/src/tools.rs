@@ -258,7 +258,7 @@ impl<'j> Checker<'j> {
     fn check_spindle(&mut self, line: u32, operation: &Operation) {
         let found = self.tools.spindle();
         let turning = operation.spindle.filter(|turning| turning.is_on() && !self.is_manual);
-        // A layer of XpertMILL without an S of its own does not turn at that of another layer.
+        // In a layer of XpertMILL without an S of its own, the spindle does not turn at the speed of another layer.
         let speed = operation.speed.filter(|_| found.speed.is_some() || self.words.has_layers);
         // Cuts with a spindle that does not turn are reported by the rules of `verify`.
         if found.turning == Turning::Off || !self.tools.turns_otherwise(turning, speed, SPEED_TOLERANCE) {

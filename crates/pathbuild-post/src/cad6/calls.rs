@@ -191,12 +191,12 @@ impl<'a> Builder<'a> {
     }
 
     fn hole(&mut self, hole: &Hole) -> CallResult {
-        let can_say_it = match hole.kind {
+        let is_kind_supported = match hole.kind {
             HoleKind::Plain => true,
             HoleKind::Peck { .. } => self.abilities.peck,
             HoleKind::Dwell { .. } => self.abilities.dwell,
         };
-        if !self.abilities.hole || !can_say_it {
+        if !self.abilities.hole || !is_kind_supported {
             for step in hole.moves()? {
                 match step {
                     JobStep::Move(movement) => self.move_along(&movement)?,

@@ -83,7 +83,7 @@ impl Definition {
     /// speed throughout a job.
     pub(crate) fn has_one_speed_per_tool(&self) -> bool {
         let mut with_speed =
-            self.texts().filter(|(kind, _)| self.names(*kind, &["MillingSpindleRate"])).peekable();
+            self.texts().filter(|(kind, _)| self.uses_any(*kind, &["MillingSpindleRate"])).peekable();
         with_speed.peek().is_some()
             && with_speed
                 .all(|(kind, _)| matches!(kind, ControlTextKind::ToolChange | ControlTextKind::ProgramStart))
@@ -113,7 +113,7 @@ impl Definition {
         self.stated_chord().min(MAX_CHORD_DISTANCE)
     }
 
-    /// The same distance as the file states it.
+    /// Distance that the file states, which [`chord`](Self::chord) limits.
     pub(crate) fn stated_chord(&self) -> f64 {
         self.settings.arc_tolerance
     }
@@ -129,7 +129,7 @@ impl Definition {
     }
 
     /// Whether a text uses one of these variables, by its own name or an alias.
-    pub(super) fn names(&self, kind: ControlTextKind, variables: &[&str]) -> bool {
+    pub(super) fn uses_any(&self, kind: ControlTextKind, variables: &[&str]) -> bool {
         let others =
             self.aliases.iter().filter(|(_, own)| variables.contains(&&**own)).map(|(other, _)| &**other);
         let mut names = variables.iter().copied().chain(others).map(|name| format!("~{name}~"));
@@ -137,7 +137,7 @@ impl Definition {
     }
 
     pub(crate) fn writes_absolute_centres(&self) -> bool {
-        self.names(ControlTextKind::Arc, &["XC", "YC"])
+        self.uses_any(ControlTextKind::Arc, &["XC", "YC"])
     }
 
     /// Returns the reason why no program ever calls a text, or `None` if some program may.
@@ -352,14 +352,14 @@ impl Abilities {
         Self {
             rapid: has(ControlTextKind::Rapid),
             hole: has(hole),
-            peck: definition.names(hole, &["PeckDepth"]),
-            dwell: definition.names(hole, &["DwellTime"]),
+            peck: definition.uses_any(hole, &["PeckDepth"]),
+            dwell: definition.uses_any(hole, &["DwellTime"]),
             has_absolute_centres: definition.writes_absolute_centres(),
-            has_relative_centres: definition.names(ControlTextKind::Arc, &["IRel", "JRel"]),
+            has_relative_centres: definition.uses_any(ControlTextKind::Arc, &["IRel", "JRel"]),
             decimals: definition.settings.decimals,
             arc: has(ControlTextKind::Arc),
-            line_z: definition.names(ControlTextKind::Line, &["Z1", "ZIncr"]),
-            arc_z: definition.names(ControlTextKind::Arc, &["Z1", "ZIncr"]),
+            line_z: definition.uses_any(ControlTextKind::Line, &["Z1", "ZIncr"]),
+            arc_z: definition.uses_any(ControlTextKind::Arc, &["Z1", "ZIncr"]),
             lift_between_passes: definition.settings.lift_between_passes,
             arc_sweep: definition.settings.arc_sweep.to_radians(),
             arc_tolerance: definition.chord(),

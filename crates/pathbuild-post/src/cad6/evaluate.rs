@@ -42,7 +42,7 @@ pub(super) struct Outcome {
 }
 
 /// Evaluates the statements of an expanded text.
-pub(super) fn run(text: &Expanded, surroundings: Environment<'_>) -> Evaluated<Outcome> {
+pub(super) fn run(text: &Expanded, environment: Environment<'_>) -> Evaluated<Outcome> {
     let mut evaluator = Evaluator {
         text: &text.text,
         expanded: text,
@@ -50,7 +50,7 @@ pub(super) fn run(text: &Expanded, surroundings: Environment<'_>) -> Evaluated<O
         depth: 0,
         lines: vec![ResultLine::default()],
         doubts: Vec::new(),
-        surroundings,
+        environment,
     };
     evaluator.text(false)?;
     Ok(Outcome { lines: evaluator.lines, doubts: evaluator.doubts })
@@ -64,7 +64,7 @@ pub(super) struct Evaluator<'a> {
     depth: usize,
     pub(super) lines: Vec<ResultLine>,
     doubts: Vec<(usize, Doubt)>,
-    pub(super) surroundings: Environment<'a>,
+    pub(super) environment: Environment<'a>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -141,13 +141,13 @@ impl<'a> Evaluator<'a> {
         let start = self.at;
         let Some(length) = after.find('*') else { return Err(self.fault(&posts::INSERTION_OPEN, 5)) };
         let name: String = after[..length].chars().filter(|c| !is_mark(*c)).collect();
-        let name = self.surroundings.variables.without_placeholders(&name).into_owned();
+        let name = self.environment.variables.without_placeholders(&name).into_owned();
         self.at += 5 + length + 1;
         let span = start..self.at;
         if let Some(at) = after[..length].find(UNDEFINED_MARK) {
             return Err(self.undefined(start + 5 + at));
         }
-        let content = super::expand::read(&name, self.surroundings.files).map_err(|reason| {
+        let content = super::expand::read(&name, self.environment.files).map_err(|reason| {
             Fault::new(&posts::INSERTION_REFUSED, span).quoting("name", name.as_str()).with("reason", reason)
         })?;
         let line = self.line();
@@ -182,13 +182,13 @@ impl<'a> Evaluator<'a> {
         self.at += self.rest().len() - self.rest().trim_start_matches(is_mark).len();
     }
 
-    pub(super) fn blanks(&mut self) {
+    pub(super) fn skip_blanks(&mut self) {
         let is_blank = |c: char| c.is_whitespace() || is_mark(c);
         self.at += self.rest().len() - self.rest().trim_start_matches(is_blank).len();
     }
 
     fn close_statement(&mut self, start: usize) -> Evaluated<()> {
-        self.blanks();
+        self.skip_blanks();
         if self.rest().starts_with('}') {
             self.at += 1;
             return Ok(());
@@ -217,7 +217,7 @@ impl<'a> Evaluator<'a> {
         }
         let value = self.term(self.at..self.at + length)?;
         self.at += length;
-        let text = form.write(value, self.surroundings.decimals);
+        let text = form.write(value, self.environment.decimals);
         let text = text.ok_or_else(|| Fault::new(&posts::TERM_NOT_WHOLE, start..self.at))?;
         self.line().text.push_str(&text);
         Ok(())
@@ -226,23 +226,23 @@ impl<'a> Evaluator<'a> {
     /// Returns the text placeholder in the next `length` bytes of a statement, if these contain nothing else.
     fn single_placeholder(&self, length: usize) -> Option<char> {
         let mut inside = self.rest()[..length].chars().filter(|c| !is_mark(*c) && *c != ' ');
-        let first = inside.next().filter(|c| self.surroundings.variables.text(*c).is_some());
+        let first = inside.next().filter(|c| self.environment.variables.text(*c).is_some());
         first.filter(|_| inside.next().is_none())
     }
 
     /// Writes a text padded with blanks, as in `{s ~PrgName~}` and `{-20s ~PrgName~}`.
     fn text_in_form(&mut self, form: CForm, text: char, length: usize) -> Evaluated<()> {
-        let width = self.surroundings.variables.text(text).map_or(0, |text| text.chars().count());
+        let width = self.environment.variables.text(text).map_or(0, |text| text.chars().count());
         let Some([before, behind]) = form.blanks(width) else {
             // A C format for numbers, such as `f`, requires that the text is a number.
-            let found = self.surroundings.variables.text(text).unwrap_or("").to_owned();
+            let found = self.environment.variables.text(text).unwrap_or("").to_owned();
             let is_number = found.trim().parse::<f64>().is_ok_and(f64::is_finite);
             if !is_number {
                 return Err(self.fault(&posts::TERM_IS_TEXT, length).quoting("found", found));
             }
             let value = self.term(self.at..self.at + length)?;
             self.at += length;
-            let number = Form::C(form).write(value, self.surroundings.decimals);
+            let number = Form::C(form).write(value, self.environment.decimals);
             let number = number.ok_or_else(|| self.fault(&posts::TERM_NOT_WHOLE, 0))?;
             self.line().text.push_str(&number);
             return Ok(());
@@ -280,10 +280,10 @@ impl<'a> Evaluator<'a> {
         if let Some(at) = text.find(UNDEFINED_MARK) {
             return Err(self.undefined(span.start + at));
         }
-        // The text of a placeholder may be a number; it is never evaluated as a term.
-        let plain = self.surroundings.variables.without_placeholders(text);
+        // The text that a placeholder stands for is never evaluated as a term, but it may consist of a number.
+        let plain = self.environment.variables.without_placeholders(text);
         let is_number = plain.trim_matches(|c: char| c == ' ' || is_mark(c)).parse::<f64>().is_ok();
-        let found = text.chars().find_map(|c| self.surroundings.variables.text(c)).filter(|_| !is_number);
+        let found = text.chars().find_map(|c| self.environment.variables.text(c)).filter(|_| !is_number);
         if let Some(found) = found {
             return Err(Fault::new(&posts::TERM_IS_TEXT, span).quoting("found", found));
         }
@@ -349,15 +349,15 @@ impl Evaluator<'_> {
 
     pub(super) fn assignment(&mut self) -> Evaluated<()> {
         let name = self.name()?;
-        self.blanks();
+        self.skip_blanks();
         let text = self.result()?;
-        self.surroundings.variables.assign(name, &text);
+        self.environment.variables.assign(name, &text);
         Ok(())
     }
 
     fn non_existence(&mut self) -> Evaluated<()> {
         let name = self.name()?;
-        let is_missing = self.surroundings.variables.get(name).is_none();
+        let is_missing = self.environment.variables.get(name).is_none();
         self.branches(is_missing)
     }
 
@@ -369,11 +369,11 @@ impl Evaluator<'_> {
     }
 
     fn comparison(&mut self) -> Evaluated<()> {
-        self.blanks();
+        self.skip_blanks();
         let first = self.result()?;
-        self.blanks();
+        self.skip_blanks();
         let second = self.result()?;
-        let variables = &self.surroundings.variables;
+        let variables = &self.environment.variables;
         let is_same = variables.without_placeholders(&first) == variables.without_placeholders(&second);
         self.branches(is_same)
     }
@@ -392,12 +392,12 @@ impl Evaluator<'_> {
     /// Evaluates the first or the second branch of a condition. The second branch is optional. The branch that is not taken is skipped, so errors in
     /// it are not reported.
     fn branches(&mut self, takes_first: bool) -> Evaluated<()> {
-        self.blanks();
+        self.skip_blanks();
         if !self.rest().starts_with('{') {
             return Err(self.fault(&posts::BRANCH_EXPECTED, 0));
         }
         self.branch(takes_first)?;
-        self.blanks();
+        self.skip_blanks();
         if self.rest().starts_with('{') {
             self.branch(!takes_first)?;
         }

@@ -20,8 +20,7 @@ const MAX_TEXT_BYTES: usize = 1 << 16;
 #[derive(Debug, Default)]
 pub(super) struct Expanded {
     pub(super) text: String,
-    /// Offsets, in the control text and in the expanded text, at which parts begin. A part is either a copy, equal in both, or the value
-    /// of a variable.
+    /// The parts of the expanded text, in order. A part is either copied from the control text or the value of a variable.
     pieces: Vec<ExpandedPart>,
     /// Variables that do not exist, each with the offset in the expanded text at which its name was used.
     undefined: Vec<(usize, String)>,
@@ -30,8 +29,10 @@ pub(super) struct Expanded {
 
 #[derive(Clone, Copy, Debug)]
 struct ExpandedPart {
-    here: usize,
-    there: usize,
+    /// Offset at which the part begins in the expanded text.
+    expanded_start: usize,
+    /// Offset in the control text at which the copied part or the name of the variable begins.
+    source_start: usize,
     /// Whether the part is the value of a variable, so that all of it corresponds to a single position of the control text.
     is_variable: bool,
 }
@@ -60,8 +61,8 @@ impl Expanded {
         Ok(expanded)
     }
 
-    fn begin(&mut self, there: usize, is_variable: bool) {
-        self.pieces.push(ExpandedPart { here: self.text.len(), there, is_variable });
+    fn begin(&mut self, source_start: usize, is_variable: bool) {
+        self.pieces.push(ExpandedPart { expanded_start: self.text.len(), source_start, is_variable });
     }
 
     fn variable(&mut self, name: &str, variables: &Variables, depth: usize) -> Evaluated<()> {
@@ -97,18 +98,18 @@ impl Expanded {
     }
 
     /// Converts an offset in the expanded text to one in the control text.
-    pub(super) fn origin(&self, here: usize) -> usize {
-        let after = self.pieces.partition_point(|piece| piece.here <= here);
+    pub(super) fn origin(&self, offset: usize) -> usize {
+        let after = self.pieces.partition_point(|piece| piece.expanded_start <= offset);
         match after.checked_sub(1).map(|index| self.pieces[index]) {
-            Some(piece) if piece.is_variable => piece.there,
-            Some(piece) => piece.there + (here - piece.here),
-            None => here,
+            Some(piece) if piece.is_variable => piece.source_start,
+            Some(piece) => piece.source_start + (offset - piece.expanded_start),
+            None => offset,
         }
     }
 
     /// Returns the name of the non-existent variable that was used at an offset of the expanded text.
-    pub(super) fn undefined_at(&self, here: usize) -> &str {
-        self.undefined.iter().find(|(at, _)| *at == here).map_or("", |(_, name)| name)
+    pub(super) fn undefined_at(&self, offset: usize) -> &str {
+        self.undefined.iter().find(|(at, _)| *at == offset).map_or("", |(_, name)| name)
     }
 }
 

@@ -41,8 +41,8 @@ pub(super) fn write(
     target: Option<&Target>,
     options: &PostOptions<'_>,
 ) -> Result<EngineOutput, Vec<Diagnostic>> {
-    let guard = TextInserter::new(target, CommentMarks::default(), options.charset);
-    let mut runner = Runner::new(definition, file, options.files, guard, options.most_bytes);
+    let inserter = TextInserter::new(target, CommentMarks::default(), options.charset);
+    let mut runner = Runner::new(definition, file, options.files, inserter, options.most_bytes);
     program::run(job, target, options, &mut runner).map_err(|error| vec![*error])?;
     let called = std::mem::take(&mut runner.called);
     let mut output = runner.finish(job.units);
@@ -71,11 +71,11 @@ fn note_switches(output: &mut EngineOutput, uses: impl Fn(&str) -> bool, job: &J
 /// Translates a text to the words of RS274. `units` are the units of the job, which apply if the definition names none.
 pub(super) fn translate(definition: &Definition, text: &[u8], units: Units) -> TranslatedText {
     let has_other_lines = definition.settings.suppress_parser_errors;
-    let mut shadow = Rs274Translation::new(definition.units().unwrap_or(units), has_other_lines);
+    let mut translation = Rs274Translation::new(definition.units().unwrap_or(units), has_other_lines);
     for line in text.split(|&byte| byte == b'\n') {
         let line = String::from_utf8_lossy(line);
         let code = line.find("//").map_or(&*line, |comment| &line[..comment]);
-        shadow.line(&line, &words(code, &CommentMarks::default()), None, false);
+        translation.line(&line, &words(code, &CommentMarks::default()), None, false);
     }
-    shadow.finish()
+    translation.finish()
 }

@@ -33,7 +33,7 @@ pub(super) struct Runner<'a> {
     files: &'a dyn PostFiles,
     pub(super) variables: Variables,
     line_number: ControlText,
-    guard: TextInserter<'a>,
+    inserter: TextInserter<'a>,
     text: Vec<u8>,
     most_bytes: usize,
     /// Number of bytes that texts may still produce, not counting inserted files.
@@ -48,7 +48,7 @@ impl<'a> Runner<'a> {
         definition: &'a Definition,
         file: &'a Utf8Path,
         files: &'a dyn PostFiles,
-        guard: TextInserter<'a>,
+        inserter: TextInserter<'a>,
         most_bytes: usize,
     ) -> Self {
         let aliases = definition.aliases.iter().map(|(other, own)| (&**other, &**own));
@@ -59,7 +59,7 @@ impl<'a> Runner<'a> {
             files,
             variables: Variables::new(aliases),
             line_number: definition.text(ControlTextKind::LineNumber).cloned().unwrap_or(default),
-            guard,
+            inserter,
             text: Vec::new(),
             most_bytes,
             fuel: OutputBudget::new(0),
@@ -95,14 +95,14 @@ impl<'a> Runner<'a> {
         self.fuel.spend(if line.is_inserted { 0 } else { text.len() }, self.file)?;
         let has_text = text.chars().any(|c| byte_of(c).is_none());
         if self.definition.settings.number_lines && (has_text || !line.is_inserted) && !text.is_empty() {
-            self.number()?;
+            self.write_line_number()?;
         }
         self.push(text, kind)?;
         self.text.extend_from_slice(self.definition.settings.end_of_line.as_bytes());
         if self.text.len() > self.most_bytes { Err(too_large(self.most_bytes)) } else { Ok(()) }
     }
 
-    fn number(&mut self) -> RunResult {
+    fn write_line_number(&mut self) -> RunResult {
         let text = self.line_number.clone();
         for line in self.evaluate(ControlTextKind::LineNumber, &text)? {
             self.fuel.spend(line.text.len(), self.file)?;
@@ -116,7 +116,7 @@ impl<'a> Runner<'a> {
         let mut before = String::new();
         for c in line.chars() {
             if let Some(text) = self.variables.text(c) {
-                let Some(text) = self.guard.inserted_form(&before, text) else {
+                let Some(text) = self.inserter.inserted_form(&before, text) else {
                     let diagnostic =
                         Diagnostic::new(&posts::TEXT_AMONG_WORDS).quoting("section", kind.name());
                     return Err(Box::new(
@@ -143,13 +143,13 @@ impl<'a> Runner<'a> {
     ) -> Result<Vec<ResultLine>, Box<Diagnostic>> {
         let expanded =
             Expanded::new(&text.text, &self.variables).map_err(|fault| self.report(*fault, kind, text))?;
-        let surroundings = Environment {
+        let environment = Environment {
             variables: &mut self.variables,
             decimals: self.definition.settings.decimals,
             files: self.files,
         };
-        let Outcome { lines, doubts } = run(&expanded, surroundings).map_err(|mut fault| {
-            fault.span = in_text(&expanded, &fault.span, text.text.len());
+        let Outcome { lines, doubts } = run(&expanded, environment).map_err(|mut fault| {
+            fault.span = range_in_control_text(&expanded, &fault.span, text.text.len());
             self.report(*fault, kind, text)
         })?;
         for (at, doubt) in doubts {
@@ -186,10 +186,10 @@ impl<'a> Runner<'a> {
     /// Returns the output. `units` are the units of the job.
     pub(super) fn finish(self, units: Units) -> EngineOutput {
         let Self { text, origins, warnings, .. } = self;
-        let shadow = super::translate(self.definition, &text, units);
+        let translation = super::translate(self.definition, &text, units);
         EngineOutput {
             text,
-            shadow,
+            translation,
             origins,
             warnings,
             notes: Vec::new(),
@@ -216,7 +216,7 @@ fn line_ends(text: &[u8]) -> usize {
 }
 
 /// Converts a range of the expanded text to one of the control text.
-fn in_text(expanded: &Expanded, span: &Range<usize>, length: usize) -> Range<usize> {
+fn range_in_control_text(expanded: &Expanded, span: &Range<usize>, length: usize) -> Range<usize> {
     let start = expanded.origin(span.start).min(length);
     let end = expanded.origin(span.end.max(span.start + 1) - 1).min(length);
     start..(end + 1).max(start)

@@ -37,7 +37,7 @@ pub(super) enum Doubt {
 pub(super) fn evaluate(text: &str) -> Evaluated<Term> {
     let mut parser = Parser { text, at: 0, depth: 0, doubts: Vec::new() };
     let value = parser.binary(0)?;
-    parser.blanks();
+    parser.skip_blanks();
     if parser.at < text.len() {
         return Err(parser.unexpected());
     }
@@ -63,7 +63,7 @@ impl Parser<'_> {
         &self.text[self.at..]
     }
 
-    fn blanks(&mut self) {
+    fn skip_blanks(&mut self) {
         let rest = self.rest();
         self.at += rest.len() - rest.trim_start_matches(|c: char| c.is_whitespace() || is_mark(c)).len();
     }
@@ -102,7 +102,7 @@ impl Parser<'_> {
 
     /// Consumes an operator of this level, if one follows.
     fn operator(&mut self, operators: &'static [&'static str]) -> Option<&'static str> {
-        self.blanks();
+        self.skip_blanks();
         let rest = self.rest();
         let longest = LEVELS.iter().copied().flatten().filter(|operator| rest.starts_with(**operator));
         let operator = *longest.max_by_key(|operator| operator.len())?;
@@ -113,7 +113,7 @@ impl Parser<'_> {
     }
 
     fn unary(&mut self) -> Evaluated<f64> {
-        self.blanks();
+        self.skip_blanks();
         let sign = self.rest().chars().next().filter(|c| matches!(c, '+' | '-' | '!'));
         let Some(sign) = sign else { return self.operand() };
         self.at += 1;
@@ -155,7 +155,7 @@ impl Parser<'_> {
     }
 
     fn expect(&mut self, expected: char) -> Evaluated<()> {
-        self.blanks();
+        self.skip_blanks();
         if !self.rest().starts_with(expected) {
             return Err(self.unexpected());
         }
@@ -190,7 +190,7 @@ impl Parser<'_> {
         self.expect('(')?;
         let mut arguments = vec![self.nested(|parser| parser.binary(0))?];
         loop {
-            self.blanks();
+            self.skip_blanks();
             if !self.rest().starts_with(',') {
                 break;
             }

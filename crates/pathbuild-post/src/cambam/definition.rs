@@ -100,9 +100,9 @@ impl Definition {
 
     /// Whether the output axes differ from those of the drawing: wrapped around a cylinder, or with reversed sign.
     pub(crate) fn has_own_axes(&self) -> bool {
-        let is_turned = |what: &Macro| matches!(what, Macro::Register(register, Form::Reversed) if Register::AXES.contains(register));
+        let is_reversed = |what: &Macro| matches!(what, Macro::Register(register, Form::Reversed) if Register::AXES.contains(register));
         self.options.rotary.wrap
-            || self.templates().flat_map(Template::macros).any(|(what, _)| is_turned(what))
+            || self.templates().flat_map(Template::macros).any(|(what, _)| is_reversed(what))
     }
 
     pub(crate) fn writes_absolute_centres(&self) -> bool {
@@ -175,7 +175,7 @@ impl Definition {
         self.stated_chord(units).min(MAX_CHORD_DISTANCE)
     }
 
-    /// The same distance as the file states it.
+    /// Distance that the file states, converted to mm, which [`chord`](Self::chord) limits.
     pub(crate) fn stated_chord(&self, units: Units) -> f64 {
         self.options.arc_tolerance * units.millimetres()
     }
@@ -274,7 +274,7 @@ impl<'a> CbppReader<'a> {
     }
 
     fn notice_repetition(&mut self, name: &str, line: u32) {
-        // Two names of one setting.
+        // `AxisOfSpin` and `AxisOfRotation` are two names of the same setting.
         let setting = if name == "AxisOfSpin" { "AxisOfRotation" } else { name };
         if !self.seen.insert(setting.to_owned()) {
             self.report(Diagnostic::new(&posts::POST_REPEATED_ELEMENT).quoting("element", name), line);
@@ -311,7 +311,7 @@ impl<'a> CbppReader<'a> {
         if matches!(template.section, Section::Comment | Section::EndComment) {
             return;
         }
-        for (name, line) in template.in_braces() {
+        for (name, line) in template.texts_in_braces() {
             if is_built_in(name) {
                 let diagnostic = Diagnostic::new(&posts::MACRO_WITHOUT_SIGN);
                 let diagnostic = diagnostic
@@ -474,7 +474,7 @@ impl<'a> Plan<'a> {
         self.definition.templates().chain(self.macros.iter().map(|(_, text)| text))
     }
 
-    /// Whether the output states the plane of arcs. A definition without a dialect may do so in words of its own.
+    /// Whether the output states the plane of arcs. This is assumed without a dialect, because the definition may do so in words of its own.
     pub(super) fn has_planes(&self) -> bool {
         let is_plane = |(what, _): (&Macro, u32)| *what == Macro::State(State::WorkPlane);
         self.target.is_none() || self.templates().flat_map(Template::macros).any(is_plane)

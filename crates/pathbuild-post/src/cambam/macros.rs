@@ -287,14 +287,14 @@ with_arguments! {
 }
 
 /// Returns the macro for an argument that must be one of these words, ignoring case.
-fn of_word(argument: &str, words: &[(&str, Macro)]) -> Option<Macro> {
+fn macro_for_word(argument: &str, words: &[(&str, Macro)]) -> Option<Macro> {
     words.iter().find(|(word, _)| word.eq_ignore_ascii_case(argument)).map(|(_, what)| what.clone())
 }
 
 fn cutter_compensation(argument: Option<&str>) -> Option<Macro> {
     let words =
         [("off", Section::CutterCompOff), ("l", Section::CutterCompLeft), ("r", Section::CutterCompRight)];
-    of_word(argument?, &words.map(|(word, section)| (word, Macro::Section(section))))
+    macro_for_word(argument?, &words.map(|(word, section)| (word, Macro::Section(section))))
 }
 
 fn tool_change(argument: Option<&str>) -> Option<Macro> {
@@ -313,14 +313,14 @@ fn spindle(argument: Option<&str>) -> Option<Macro> {
         ("ccw", Macro::Section(Section::SpindleCcw)),
         ("off", Macro::Section(Section::SpindleOff)),
     ];
-    of_word(argument, &words)
+    macro_for_word(argument, &words)
 }
 
 fn coolant(argument: Option<&str>) -> Option<Macro> {
     let Some(argument) = argument else { return Some(Macro::State(State::Coolant)) };
     let words =
         [("flood", Section::CoolantFlood), ("mist", Section::CoolantMist), ("off", Section::CoolantOff)];
-    of_word(argument, &words.map(|(word, section)| (word, Macro::Section(section))))
+    macro_for_word(argument, &words.map(|(word, section)| (word, Macro::Section(section))))
 }
 
 fn check(arguments: Option<&str>) -> Option<Macro> {

@@ -61,7 +61,7 @@ pub(super) fn write(
 pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText {
     let marks = definition.comment_marks();
     let own_words = definition.own_motions();
-    let mut shadow = Rs274Translation::new(Units::default(), definition.options.suppress_parser_errors);
+    let mut translation = Rs274Translation::new(Units::default(), definition.options.suppress_parser_errors);
     let has_bare_numbers =
         definition.options.add_line_numbers && definition.options.numbering.prefix.is_empty();
     let end = if definition.options.end_of_line.ends_with('\r') { b'\r' } else { b'\n' };
@@ -75,9 +75,9 @@ pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText 
         if code.len() < line.len() {
             words.other_number = definition.options.numbering.other_number();
         }
-        shadow.line(code, &words, motion, false);
+        translation.line(code, &words, motion, false);
     }
-    shadow.finish()
+    translation.finish()
 }
 
 /// Adds a note if the job states the coolant but no template contains `{$coolant}`, and one if the spindle needs time to reach its speed but no

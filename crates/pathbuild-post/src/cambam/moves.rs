@@ -152,7 +152,7 @@ impl Writer<'_> {
         for (axis, target) in to.into_iter().enumerate() {
             if let Some(target) = target {
                 let text = self.machine.last_text(Register::AXES[axis]).map(Into::into);
-                self.own[axis] = Some((self.scaled(target), text));
+                self.intended[axis] = Some((self.scaled(target), text));
             }
         }
     }
@@ -161,7 +161,7 @@ impl Writer<'_> {
     /// sign; or the number last written, if a line of another kind has moved the tool since.
     fn current_position(&self, axis: usize) -> Option<f64> {
         let register = Register::AXES[axis];
-        match &self.own[axis] {
+        match &self.intended[axis] {
             Some((at, text)) if text.as_deref() == self.machine.last_text(register) => Some(*at),
             _ => self.machine.number(register),
         }

@@ -50,7 +50,7 @@ pub(super) struct Numbering {
 }
 
 impl Numbering {
-    /// Returns the first number, or the prefix of all, if they do not begin with N; `None` if they do.
+    /// Returns what line numbers begin with if it is not N: their prefix or, without a prefix, the first number. `None` if they begin with N.
     pub(super) fn other_number(&self) -> Option<String> {
         match &*self.prefix {
             "N" | "n" => None,

@@ -10,7 +10,7 @@ macro_rules! sections {
             $($variant,)*
             /// The value of a user macro, which is stored like a section although it has no element of its own.
             UserMacro,
-            /// The value of a user macro of the configuration, which is in no line of the definition.
+            /// The value of a user macro of the configuration, which has no position in the definition's file.
             ConfiguredMacro,
         }
 

@@ -66,8 +66,8 @@ impl Template {
             .all(|piece| matches!(piece, TemplatePart::Text { text, .. } if text.trim().is_empty()))
     }
 
-    /// Returns the texts in braces without a dollar sign, with their lines. `{units}` is a macro that lacks its `$`.
-    pub(super) fn in_braces(&self) -> impl Iterator<Item = (&str, u32)> {
+    /// Returns the texts in braces without a dollar sign, with their lines. Such a text may be a macro that lacks its `$`, as in `{units}`.
+    pub(super) fn texts_in_braces(&self) -> impl Iterator<Item = (&str, u32)> {
         let texts = self.pieces.iter().filter_map(|piece| match piece {
             TemplatePart::Text { text, line } => Some((text, *line)),
             TemplatePart::Macro { .. } => None,

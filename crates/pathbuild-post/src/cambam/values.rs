@@ -118,7 +118,7 @@ impl Writer<'_> {
         }
         self.line.has_register_word = true;
         if form == Form::Reversed {
-            self.line.turned.push(register);
+            self.line.reversed.push(register);
         }
         self.write_text(&format!("{}{text}", register.letter()))
     }
@@ -137,9 +137,9 @@ impl Writer<'_> {
         let Some(spindle) = operation.spindle.filter(|_| !self.plan.options.manual_spindle) else {
             return Ok(());
         };
-        let turns_so = self.machine.speed.is_some() || operation.speed.is_none();
+        let is_speed_known = self.machine.speed.is_some() || operation.speed.is_none();
         if self.machine.spindle == Some(spindle)
-            && turns_so
+            && is_speed_known
             && self.machine.speed == operation.speed.map(f64::round)
         {
             return Ok(());

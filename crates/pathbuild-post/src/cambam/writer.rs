@@ -44,14 +44,14 @@ pub(super) struct Writer<'a> {
     pub(super) line: Line,
     lines: Lines<'a>,
     marks: CommentMarks,
-    guard: TextInserter<'a>,
+    inserter: TextInserter<'a>,
     /// Translation of the lines written so far to the words of RS274.
-    shadow: Rs274Translation,
+    translation: Rs274Translation,
     /// For each axis, whether the definition reverses its sign; `None` until the axis has been written.
-    turned: [Option<bool>; 3],
-    /// For each axis, the position that the program intends, in the output unit, and the text last written for the axis when it was
-    /// reached.
-    pub(super) own: [Option<(f64, Option<Box<str>>)>; 3],
+    reversed: [Option<bool>; 3],
+    /// For each axis, the position that the program intends, in the output unit, and the text that was last written for the axis when the
+    /// tool reached this position.
+    pub(super) intended: [Option<(f64, Option<Box<str>>)>; 3],
     /// The part of the definition being written: a section and a line of its file.
     place: (Section, u32),
     origins: Vec<LineOrigin>,
@@ -82,11 +82,14 @@ impl<'a> Writer<'a> {
             warnings: Vec::new(),
             line: Line::default(),
             lines: Lines::new(&plan.definition.options),
-            guard: TextInserter::new(plan.target, marks.clone(), plan.options.charset),
+            inserter: TextInserter::new(plan.target, marks.clone(), plan.options.charset),
             marks,
-            shadow: Rs274Translation::new(plan.job.units, plan.definition.options.suppress_parser_errors),
-            turned: [None; 3],
-            own: [None, None, None],
+            translation: Rs274Translation::new(
+                plan.job.units,
+                plan.definition.options.suppress_parser_errors,
+            ),
+            reversed: [None; 3],
+            intended: [None, None, None],
             place: (Section::PostFile, 0),
             origins: Vec::new(),
             angles: None,
@@ -111,15 +114,15 @@ impl<'a> Writer<'a> {
             self.warn(Diagnostic::new(&posts::WRAPPED_FEED));
         }
         for (axis, _) in
-            Register::AXES.into_iter().zip(self.turned).filter(|(_, turned)| *turned == Some(true))
+            Register::AXES.into_iter().zip(self.reversed).filter(|(_, reversed)| *reversed == Some(true))
         {
             self.warn(Diagnostic::new(&posts::AXIS_REVERSED).quoting("axis", axis.letter().to_string()));
         }
-        let Self { lines, shadow, origins, warnings, .. } = self;
+        let Self { lines, translation, origins, warnings, .. } = self;
         let text = lines.finish().into_bytes();
         Ok(EngineOutput {
             text,
-            shadow: shadow.finish(),
+            translation: translation.finish(),
             origins,
             warnings,
             notes: Vec::new(),
@@ -190,7 +193,7 @@ impl<'a> Writer<'a> {
                 self.plan.user_macro(value.name()).map_or(Ok(()), |own| self.write_template(own))
             }
             Macro::Value(Value::ToolIndex) if !self.tool.is_named => {
-                self.line.names_no_tool = true;
+                self.line.lacks_tool_number = true;
                 Ok(())
             }
             Macro::Value(value) => match self.value(*value) {
@@ -319,7 +322,7 @@ impl<'a> Writer<'a> {
         section: Section,
         line: u32,
     ) -> WriteResult {
-        let Some(text) = self.guard.inserted_form(&self.line.text, text) else {
+        let Some(text) = self.inserter.inserted_form(&self.line.text, text) else {
             let diagnostic = Diagnostic::new(&posts::TEXT_AMONG_WORDS)
                 .quoting("macro", macro_in_braces(name))
                 .quoting("text", text);
@@ -346,7 +349,7 @@ impl<'a> Writer<'a> {
         let line = std::mem::take(&mut self.line);
         let text = collapse(&line.text);
         let is_idle = line.has_register_macro && !line.has_register_word && self.is_motion_alone(&line.rest);
-        if text.is_empty() || is_idle || line.names_no_tool {
+        if text.is_empty() || is_idle || line.lacks_tool_number {
             return;
         }
         let code = self.plan.target.map_or(text.len(), |target| target.code_length(&text));
@@ -354,17 +357,17 @@ impl<'a> Writer<'a> {
         self.check_replaced(&found, &text);
         self.machine.read(&found, line.code, self.number_format());
         let other_number = self.lines.is_numbered(&text).then(|| self.lines.options.numbering.other_number());
-        let meant = LineWords {
+        let program_words = LineWords {
             other_number: other_number.flatten().or(found.other_number),
             words: found.words.iter().map(|word| self.program_word(*word, &line)).collect(),
             ..found
         };
         let has_word = |(_, section): &Code| !self.plan.definition.section(*section).is_blank();
-        self.shadow.line(
+        self.translation.line(
             &text,
-            &meant,
+            &program_words,
             line.code.filter(has_word).map(|(number, _)| number),
-            self.turned[0] != self.turned[1],
+            self.reversed[0] != self.reversed[1],
         );
         let (section, line) = line.origin.unwrap_or(self.place);
         self.origins.push(LineOrigin { section: section.name(), line });
@@ -382,9 +385,9 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Converts a word back to the axis and sign that it had in the program before the template wrapped or reversed it. A definition must reverse an
-    /// axis, with the centres of arcs along it, in every line or in none, otherwise the machine would move to both sides. No machine has feeds,
-    /// dwells or pecks of the opposite sign.
+    /// Converts a word back to the axis and sign that it had in the program before the template wrapped or reversed it. The first line that writes an
+    /// axis decides whether the axis, with the centres of arcs along it, is reversed in all lines: a definition that reverses it only in some lines
+    /// would move the machine to both sides. Feeds, dwells and pecks are left as they are, because no machine has them with the opposite sign.
     fn program_word(&mut self, word: Word, line: &Line) -> Word {
         let Some(register) = Register::of(word.letter) else { return word };
         let rotary = self.plan.definition.options.rotary;
@@ -392,16 +395,16 @@ impl<'a> Writer<'a> {
             let across = word.number.to_radians() * self.scaled(self.operation().surface);
             return Word { letter: Register::AXES[1 - rotary.along].letter(), number: across };
         }
-        let is_turned = line.turned.contains(&register);
-        let is_turned = match register {
-            Register::X | Register::I => *self.turned[0].get_or_insert(is_turned),
-            Register::Y | Register::J => *self.turned[1].get_or_insert(is_turned),
-            Register::Z | Register::K => *self.turned[2].get_or_insert(is_turned),
+        let is_reversed = line.reversed.contains(&register);
+        let is_reversed = match register {
+            Register::X | Register::I => *self.reversed[0].get_or_insert(is_reversed),
+            Register::Y | Register::J => *self.reversed[1].get_or_insert(is_reversed),
+            Register::Z | Register::K => *self.reversed[2].get_or_insert(is_reversed),
             // In a cycle, R is a height.
-            Register::R => is_turned && self.turned[2] == Some(true),
+            Register::R => is_reversed && self.reversed[2] == Some(true),
             _ => false,
         };
-        Word { number: if is_turned { -word.number } else { word.number }, ..word }
+        Word { number: if is_reversed { -word.number } else { word.number }, ..word }
     }
 
     /// Whether `rest`, the part of a line outside code macros, contains nothing but motion words and feeds.
@@ -444,13 +447,13 @@ pub(super) struct Line {
     /// Whether a register macro wrote a word. If none did although one was expanded, the line moves nothing.
     pub(super) has_register_word: bool,
     /// Registers written with reversed sign.
-    pub(super) turned: Vec<Register>,
+    pub(super) reversed: Vec<Register>,
     /// The motion of a code macro in this line.
     pub(super) code: Option<Code>,
     /// Section and line of the definition's file where the line begins.
     pub(super) origin: Option<(Section, u32)>,
     /// Whether the line requires a tool number that the program does not have. Such lines are not written.
-    names_no_tool: bool,
+    lacks_tool_number: bool,
     /// Set if something was omitted at the end of `text`; the value is whether blanks preceded it.
     gap: Option<bool>,
 }
