@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::join;
+use pathbuild_db::system::{Names, join};
 use pathbuild_db::{SourceFile, Target};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
@@ -110,7 +110,7 @@ impl<'a> EarlierPrograms<'a> {
             let plain = plain_title(title);
             let drawing = native::drawing_of_title(&plain).unwrap_or_default();
             let beside = self.session.file_names_in(program.parent().unwrap_or(Utf8Path::new("")));
-            let mut beside = beside.iter().flat_map(|names| names.iter());
+            let mut beside = beside.iter().flat_map(Names::iter);
             lost.has_drawing || !beside.any(|name| plain_title(name) == drawing)
         };
         let mut programs = Vec::new();
