@@ -24,7 +24,7 @@ use crate::names::case_folded;
 use crate::placement::Placement;
 use crate::shapes::Polyline;
 use crate::shapes::curves::{ApproximationFailure, Tolerance};
-use crate::{Drawing, Entity, Fault, Geometry, Layer, OmittedCurve, Origin, Point3};
+use crate::{Circle, Drawing, Entity, Fault, Geometry, Label, Layer, OmittedCurve, Origin, Point3};
 
 pub(crate) struct Collector<'d> {
     drawing: &'d mut Drawing,
@@ -180,7 +180,7 @@ impl<'d> Collector<'d> {
             }
             Shape::Ellipse(ellipse) => ellipse.pieces(placement, tolerance),
             Shape::Spline(spline) => spline.pieces(placement, tolerance),
-            Shape::Plain(_) | Shape::Insert(_) | Shape::Hatch(_) => Ok(Vec::new()),
+            Shape::Plain(_) | Shape::Insert(_) | Shape::Hatch(_) | Shape::Label(_) => Ok(Vec::new()),
         };
         let parts = match parts {
             Ok(parts) if parts.iter().all(Geometry::is_sound) => parts,
@@ -284,6 +284,29 @@ impl<'d> Collector<'d> {
         Ok(())
     }
 
+    /// Records the text of a multileader or dimension, unless it is invisible. It does not count as an entity of its layer.
+    pub(crate) fn add_label(
+        &mut self,
+        placed: &PlacedEntity<'_>,
+        text: SmolStr,
+        tip: Circle,
+    ) -> Result<(), Fatal> {
+        if placed.is_invisible {
+            return Ok(());
+        }
+        self.count()?;
+        let place = place_of(placed, Some(Point::new(tip.centre.x, tip.centre.y)));
+        let mut tip = Geometry::Circle(tip);
+        if let Some(placement) = placed.placement {
+            placement.apply(&mut tip);
+        }
+        if let Geometry::Circle(tip) = tip {
+            let layer = self.layer(placed);
+            self.drawing.labels.push(Label { layer, text, tip, place });
+        }
+        Ok(())
+    }
+
     /// Skips an entity that PathDxf2GCode does not know, in compatible mode. This is reported once per drawing.
     pub(crate) fn ignore(&mut self, placed: &PlacedEntity<'_>) {
         let layer = self.layer(placed);
@@ -382,7 +405,9 @@ impl<'d> Collector<'d> {
         let drawing = &self.drawing;
         let troubles = drawing.faults.len() + drawing.left_out.len();
         let dear = (FAULT_WEIGHT - 1) * troubles.saturating_sub(MAX_CHEAP_FAULTS);
-        if drawing.entities.len() + drawing.hatches.len() + troubles + dear < self.limits.entities {
+        if drawing.entities.len() + drawing.hatches.len() + drawing.labels.len() + troubles + dear
+            < self.limits.entities
+        {
             return Ok(());
         }
         Err(self.entity_limit_error())

@@ -8,8 +8,8 @@ pub struct Options<'a> {
     /// Decides by a layer's name (trimmed, xref prefix dropped, `\U+` decoded) whether its entities are wanted. Numbers on other layers are
     /// not even parsed, so they cannot be wrong.
     pub keep_layer: &'a dyn Fn(&str) -> bool,
-    /// A test for the undecoded bytes of each TEXT, or last part of an MTEXT, on an unwanted layer. If one passes, [`Drawing::has_noted_text`] is
-    /// set.
+    /// A test for the undecoded bytes of each TEXT, or last part of an MTEXT, on an unwanted layer, and of each label on any layer. If one passes,
+    /// [`Drawing::has_noted_text`] is set.
     pub note_text: Option<TextTest<'a>>,
     /// The treatment of $INSUNITS.
     pub units: Units,
@@ -55,10 +55,13 @@ pub struct Drawing {
     /// The places of the hatches on wanted layers, which draw nothing themselves. The point of a place is on the hatch's boundary, or is the centre
     /// of one of its arcs.
     pub hatches: Vec<Place>,
+    /// The texts of multileaders and dimensions in model space on wanted layers.
+    pub labels: Vec<Label>,
     /// Findings about the file, and warnings that are given only once per layer, block or drawing. If one of them is an error, there are no
     /// entities.
     pub diagnostics: Vec<Diagnostic>,
-    /// Whether a text on an unwanted layer satisfied [`Options::note_text`]. If the drawing has insertions, the texts of all blocks are tested.
+    /// Whether a text on an unwanted layer, or a label, satisfied [`Options::note_text`]. If the drawing has insertions, the texts of all blocks are
+    /// tested.
     pub has_noted_text: bool,
 }
 
@@ -70,6 +73,7 @@ impl Drawing {
         self.faults.clear();
         self.left_out.clear();
         self.hatches.clear();
+        self.labels.clear();
         self.diagnostics.clear();
         self.has_noted_text = false;
     }
@@ -116,6 +120,19 @@ pub struct OmittedCurve {
     pub layers: sync::Arc<[SmolStr]>,
     /// PB111, with line and handle.
     pub diagnostic: Diagnostic,
+}
+
+/// The text of a multileader or dimension, which gives no parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// Index into [`Drawing::layers`].
+    pub layer: u32,
+    /// The text without its formatting; `%%c` and similar codes are not replaced yet.
+    pub text: SmolStr,
+    /// The tip of a multileader's arrow, with half the height of the text as radius. The radius is 0 for a dimension, which points at nothing.
+    pub tip: Circle,
+    /// The place of the multileader or dimension.
+    pub place: Place,
 }
 
 /// An entity that the drawing language knows.

@@ -17,7 +17,7 @@ use crate::groups::Records;
 use crate::layers::{LayerId, Layers, LineType, LineTypes};
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::shapes::{self, Ellipse, Insert, Polyline, PolylineBuilder, Spline};
-use crate::{Geometry, Options, Origin};
+use crate::{Circle, Geometry, Options, Origin};
 
 /// A reader of entities, with a cache of the layer and line-type names that it has resolved.
 pub(crate) struct EntityReader<'a, 'o> {
@@ -82,7 +82,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             let head = records.head;
             match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(None),
-                Some(kind) if !kind.is_part() => {
+                Some(kind) if !kind.is_part() && (space == Space::Model || !kind.is_label()) => {
                     if let Some(item) = self.item(records, kind, space)? {
                         return Ok(Some(item));
                     }
@@ -104,7 +104,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             match RecordKind::of(head.value) {
                 None if is_end(&head) => return Ok(Some(layers)),
                 None => records.skip()?,
-                Some(kind) if kind.is_part() => records.skip()?,
+                Some(kind) if kind.is_part() || kind.is_label() => records.skip()?,
                 Some(RecordKind::Insert | RecordKind::Text | RecordKind::MText) => return Ok(None),
                 Some(kind) => {
                     let layer =
@@ -154,8 +154,9 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         let Some(traits) = self.read_common_properties(records, kind, space)? else { return Ok(None) };
         let visibility = self.fields.check_visibility();
         let shape = match (kind, visibility) {
-            // The array of insertions keeps a bad visibility: whether it matters depends on the layers that the block draws on.
-            (RecordKind::Insert, _) => self.shape(kind),
+            // Labels draw nothing themselves. The array of insertions keeps a bad visibility: whether it matters depends on the layers that the block
+            // draws on.
+            (RecordKind::Insert | RecordKind::Label(_), _) => self.shape(kind),
             (_, Err(bad)) => Err(bad.into()),
             (RecordKind::Polyline, _) => self.polyline(records)?,
             _ => self.shape(kind),
@@ -193,6 +194,9 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
         if kind == RecordKind::Insert {
             self.note_text_in_blocks();
+        }
+        if kind.is_label() && self.notes_texts(kind) {
+            self.note_text();
         }
         Ok(Some(CommonProperties {
             layer,
@@ -241,7 +245,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
-    /// Notes the text on an unwanted layer that was just read.
+    /// Notes the text on an unwanted layer, or the label, that was just read.
     fn note_text(&mut self) {
         if let (Some(text), Some(is_noted)) = (self.fields.get(1), self.options.note_text) {
             self.has_noted_text = is_noted(text.bytes);
@@ -249,7 +253,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     }
 
     fn notes_texts(&self, kind: RecordKind) -> bool {
-        matches!(kind, RecordKind::Text | RecordKind::MText)
+        matches!(kind, RecordKind::Text | RecordKind::MText | RecordKind::Label(_))
             && !self.has_noted_text
             && self.options.note_text.is_some()
     }
@@ -271,7 +275,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     #[inline(always)]
     fn shape(&mut self, kind: RecordKind) -> Result<Shape<'a>, EntityError<'a>> {
         let Self { fields, decoder, options, .. } = self;
-        let may_be_cut_off = matches!(kind, RecordKind::MText | RecordKind::Hatch);
+        let may_be_cut_off = matches!(kind, RecordKind::MText | RecordKind::Hatch | RecordKind::Label(_));
         if !may_be_cut_off && kind.repeated_codes() != 0 && fields.is_full() {
             return Err(EntityError::TooManyParts);
         }
@@ -289,6 +293,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             RecordKind::Ellipse => Shape::Ellipse(Box::new(Ellipse::read(fields)?)),
             RecordKind::Spline => Shape::Spline(Box::new(Spline::read(fields)?)),
             RecordKind::Hatch => Shape::Hatch(shapes::hatch_point(fields)),
+            RecordKind::Label(_) => Shape::Label(shapes::label(fields, options.max_text).map(Box::new)),
             RecordKind::Insert => Shape::Insert(Box::new(Insert::read(fields, decoder)?)),
             RecordKind::Foreign(_) => return Err(EntityError::omitted(&FOREIGN, fields)),
             _ => Shape::Polyline(shapes::lightweight(fields)?),
@@ -358,22 +363,20 @@ pub(crate) enum RecordKind {
     Spline,
     Insert,
     Hatch,
+    /// A multileader or dimension.
+    Label(EntityKind),
     /// A type that cannot be part of a path.
     Foreign(EntityKind),
 }
 
-/// Records that only annotate a drawing. They may lie on the layer of a path, since they are clearly not to be milled.
-const ANNOTATIONS: [&str; 18] = [
+/// Records that only annotate a drawing and have no text that is read. They may lie on the layer of a path, since they are clearly not to be milled.
+const ANNOTATIONS: [&str; 14] = [
     "ACAD_TABLE",
-    "ARC_DIMENSION",
     "DGNUNDERLAY",
-    "DIMENSION",
     "DWFUNDERLAY",
     "IMAGE",
-    "LARGE_RADIAL_DIMENSION",
     "LEADER",
     "LIGHT",
-    "MULTILEADER",
     "OLE2FRAME",
     "OLEFRAME",
     "PDFUNDERLAY",
@@ -407,6 +410,8 @@ impl RecordKind {
             b"CIRCLE" => Self::Circle,
             b"INSERT" => Self::Insert,
             b"HATCH" => Self::Hatch,
+            b"DIMENSION" | b"ARC_DIMENSION" | b"LARGE_RADIAL_DIMENSION" => Self::Label(EntityKind::Dimension),
+            b"MULTILEADER" => Self::Label(EntityKind::MultiLeader),
             b"VERTEX" => Self::Vertex,
             b"SEQEND" => Self::SequenceEnd,
             b"SPLINE" => Self::Spline,
@@ -422,9 +427,13 @@ impl RecordKind {
         matches!(self, Self::Vertex | Self::SequenceEnd)
     }
 
-    /// Whether a record of this kind draws something other than a text or a hatch. Annotations have no kind.
+    /// Whether a record of this kind draws something other than a text or a hatch. Most annotations have no kind.
     fn is_element(self) -> bool {
-        !(self.is_part() || self.is_text() || self == Self::Hatch)
+        !(self.is_part() || self.is_text() || self.is_label() || self == Self::Hatch)
+    }
+
+    fn is_label(self) -> bool {
+        matches!(self, Self::Label(_))
     }
 
     /// Whether a record of this kind is a text.
@@ -448,8 +457,10 @@ impl RecordKind {
         const VERTICES: u64 = bits(&[10, 20, 40, 41, 42]);
         const BOUNDARY: u64 = bits(&[10, 20]);
         const CONTROL: u64 = bits(&[10, 20, 30, 40, 41]);
+        const TIP: u64 = bits(&[10, 20, 41]);
         match self {
             Self::MText => CHUNKS,
+            Self::Label(EntityKind::MultiLeader) => TIP,
             Self::LwPolyline => VERTICES,
             Self::Spline => CONTROL,
             Self::Hatch => BOUNDARY,
@@ -471,7 +482,7 @@ impl RecordKind {
             Self::Spline => EntityKind::Spline,
             Self::Insert => EntityKind::Insert,
             Self::Hatch => EntityKind::Hatch,
-            Self::Foreign(kind) => kind,
+            Self::Label(kind) | Self::Foreign(kind) => kind,
         }
     }
 }
@@ -506,6 +517,8 @@ pub(crate) enum Shape<'a> {
     Spline(Box<Spline>),
     /// A hatch, with a point of its boundary.
     Hatch(Option<Point>),
+    /// A multileader or dimension, with its text and tip, if it has a text of its own.
+    Label(Option<Box<(SmolStr, Circle)>>),
     /// An insertion, which draws the contents of a block.
     Insert(Box<Insert<'a>>),
 }

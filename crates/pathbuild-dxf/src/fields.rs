@@ -63,13 +63,15 @@ pub(crate) struct Fields<'a> {
 pub(crate) enum FillDecision {
     Keep,
     Skip,
-    /// The groups of the entity are skipped, but a text (code 1) is kept.
+    /// The groups of the entity are skipped, but its text is kept.
     Note,
 }
 
 /// Number of slots: one per role that keeps its value, one for all others, and one for the extension dictionary. That of code 101 has the number of
 /// columns of an embedded object.
 const SLOTS: usize = 89;
+
+const TEXT: Role = Role::of(1);
 
 const DICTIONARY_SLOT: usize = SLOTS - 1;
 
@@ -147,16 +149,19 @@ impl<'a> Fields<'a> {
                     FillDecision::Keep => {}
                     FillDecision::Skip => return Ok(Some((groups.next_zero()?, FillDecision::Skip))),
                     FillDecision::Note => {
-                        let text = Role::of(1);
-                        return Ok(Some((self.store_first(text, text, groups)?, FillDecision::Note)));
+                        let is_text = |role| role == TEXT || role == Role::LEADER_TEXT;
+                        return Ok(Some((self.store_first(is_text, TEXT, groups)?, FillDecision::Note)));
                     }
                 }
             }
             // An embedded object (in the MTEXT of R2018) extends to the end of the entity.
             Role::EMBEDDED => {
-                let next = self.store_first(COLUMN_COUNT, Role::EMBEDDED, groups)?;
+                let next = self.store_first(|role| role == COLUMN_COUNT, Role::EMBEDDED, groups)?;
                 return Ok(Some((next, FillDecision::Keep)));
             }
+            // The lines of the arrow, which follow the text, have the same code.
+            Role::LEADER_TEXT if self.get(1).is_none() => self.store(&group.with_role(TEXT)),
+            Role::LEADER_TEXT => {}
             _ if group.raw.trim_ascii().starts_with(b"{") => {
                 let is_dictionary = group.raw.trim_ascii() == b"{ACAD_XDICTIONARY";
                 let entity = self.entity;
@@ -173,15 +178,19 @@ impl<'a> Fields<'a> {
         Ok(None)
     }
 
-    /// Stores the first of the remaining groups of the entity that has the role `from`, if there is one, as the value of `to`. Returns the first
-    /// pair of the next entity.
-    fn store_first(&mut self, from: Role, to: Role, groups: &mut Groups<'a>) -> Result<Pair<'a>, Stop<'a>> {
-        let mut group = groups.pass_until(|role| role == from || role == Role::BEGIN, |_| {})?;
+    /// Stores the first of the remaining groups of the entity whose role satisfies `is_wanted`, if there is one, as the value of `to`. Returns the
+    /// first pair of the next entity.
+    fn store_first(
+        &mut self,
+        is_wanted: impl Fn(Role) -> bool,
+        to: Role,
+        groups: &mut Groups<'a>,
+    ) -> Result<Pair<'a>, Stop<'a>> {
+        let group = groups.pass_until(|role| is_wanted(role) || role == Role::BEGIN, |_| {})?;
         if group.role == Role::BEGIN {
             return Ok(group.pair());
         }
-        group.role = to;
-        self.store(&group);
+        self.store(&group.with_role(to));
         groups.next_zero()
     }
 

@@ -47,6 +47,11 @@ impl<'a> Group<'a> {
         without_cr(self.raw)
     }
 
+    /// Returns the group with another role for its value.
+    pub(crate) fn with_role(self, role: Role) -> Self {
+        Self { role, ..self }
+    }
+
     /// Converts the group to a pair. The pair's code is -1 if the role stands for several codes.
     pub(crate) fn pair(&self) -> Pair<'a> {
         Pair { code: self.role.code().unwrap_or(-1), line: self.line(), value: self.value() }
@@ -292,6 +297,8 @@ impl Role {
     pub(crate) const EMBEDDED: Self = Self(87);
     /// Code 102, which opens or closes a group of an application.
     pub(crate) const APPLICATION: Self = Self(88);
+    /// Code 304, the text of a multileader.
+    pub(crate) const LEADER_TEXT: Self = Self(89);
 
     pub(crate) const fn of(code: i32) -> Self {
         match code {
@@ -299,6 +306,7 @@ impl Role {
             8 => Self::LAYER,
             101 => Self::EMBEDDED,
             102 => Self::APPLICATION,
+            304 => Self::LEADER_TEXT,
             90 => Self(83),
             210 => Self(80),
             220 => Self(81),
@@ -361,6 +369,7 @@ impl Role {
             Self::LAYER => 8,
             Self::EMBEDDED => 101,
             Self::APPLICATION => 102,
+            Self::LEADER_TEXT => 304,
             Self(80) => 210,
             Self(81) => 220,
             Self(82) => 230,

@@ -26,8 +26,8 @@ mod placement;
 mod shapes;
 
 pub use drawing::{
-    Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Layer, LayoutObstacle, Line, MText,
-    OmittedCurve, Options, Origin, Point3, Text, TextTest, Units, VerticalAlign,
+    Arc, Circle, Drawing, Entity, Fault, Geometry, HorizontalAlign, Label, Layer, LayoutObstacle, Line,
+    MText, OmittedCurve, Options, Origin, Point3, Text, TextTest, Units, VerticalAlign,
 };
 
 /// Reads a drawing.

@@ -125,6 +125,15 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
                 let placed = place_entity(self.reader, &item.traits, layer, around)?;
                 self.collector.add_hatch(&placed, point)
             }
+            Ok(Shape::Label(label)) => {
+                let Some((text, tip)) =
+                    label.map(|label| *label).filter(|_| self.reader.layers.is_kept(layer))
+                else {
+                    return Ok(());
+                };
+                let placed = place_entity(self.reader, &item.traits, layer, around)?;
+                self.collector.add_label(&placed, text, tip)
+            }
             shape if self.reader.layers.is_kept(layer) => {
                 let is_compatible = self.reader.options.compatible;
                 let placed = place_entity(self.reader, &item.traits, layer, around)?;

@@ -283,6 +283,13 @@ messages! {
         help_en: "move it over {element} at {point}, on layer {path_layer}; if it is a remark, move it away from the element",
         help_de: "über das Element ({element} bei {point}) auf Layer {path_layer} legen; ist er eine Bemerkung, vom Element wegschieben",
     }
+    /// A parameter text in a multileader or dimension.
+    LABEL_WITHOUT_EFFECT: TextOnOtherLayer {
+        en: "the text \"{text}\" of this {entity} has no effect: only a TEXT or MTEXT gives parameters",
+        de: "der Text \"{text}\" des Objekts {entity} hat keine Wirkung: nur TEXT und MTEXT geben Parameter an",
+        help_en: "write it as a text over its element, on the layer of the element; if it is a remark, add words",
+        help_de: "als Text über das Element schreiben, auf dessen Layer; ist er eine Bemerkung, durch Wörter ergänzen",
+    }
     /// A Z-probe on a layer without a path.
     PROBE_ON_OTHER_LAYER: TextOnOtherLayer {
         en: "the circle of 6 mm at {point} with the text \"{text}\" is not a probe: layer {layer} belongs to no path",

@@ -18,7 +18,7 @@ pub(crate) use curves::Ellipse;
 pub(crate) use curves::Spline;
 pub(crate) use insert::{Array, Insert};
 pub(crate) use polyline::{Polyline, PolylineBuilder, lightweight};
-pub(crate) use text::{mtext, text};
+pub(crate) use text::{label, mtext, text};
 
 /// Whether object coordinates are mirrored: extrusion (0, 0, -1).
 fn is_mirrored<'a>(fields: &Fields<'a>) -> Result<bool, EntityError<'a>> {

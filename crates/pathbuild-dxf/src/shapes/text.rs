@@ -2,14 +2,14 @@
 
 use std::borrow::Cow;
 
-use smol_str::SmolStrBuilder;
+use smol_str::{SmolStr, SmolStrBuilder};
 
 use crate::encoding::{Decoder, control, without_carets};
 use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};
 use crate::placement::{angle_of, opposite};
-use crate::shapes::{from_object_coordinates, is_mirrored};
-use crate::{Geometry, HorizontalAlign, LayoutObstacle, MText, Options, Point3, Text, VerticalAlign};
+use crate::shapes::{from_object_coordinates, is_mirrored, repeated_number};
+use crate::{Circle, Geometry, HorizontalAlign, LayoutObstacle, MText, Options, Point3, Text, VerticalAlign};
 
 pub(crate) fn text<'a>(
     fields: &Fields<'a>,
@@ -74,6 +74,26 @@ pub(crate) fn mtext<'a>(
         obstacle,
         counts_blanks: options.compatible,
     }))
+}
+
+/// Reads the text of a multileader or dimension, without formatting, with its [tip](crate::Label::tip). `None` for an entity without a text of its own,
+/// or with a longer one than `max_text` bytes, which are no parameters.
+pub(crate) fn label(fields: &Fields<'_>, max_text: usize) -> Option<(SmolStr, Circle)> {
+    let text = fields.get(1).filter(|text| !text.bytes.is_empty() && text.bytes.len() <= max_text)?;
+    let numbers = |code: i32| {
+        let of_code = fields.repeated.iter().filter(move |pair| pair.code == code);
+        of_code.map(|pair| repeated_number(pair).ok())
+    };
+    let height = numbers(41).next().flatten().unwrap_or_default();
+    // The points of a multileader are the origin of its text, the end of the leader and the points of its lines, of which the first is the tip.
+    let tip = |code: i32| numbers(code).nth(2).flatten();
+    let tip = tip(10).zip(tip(20)).map(|(x, y)| Point3 { x, y, z: 0.0 });
+    // A dimension has no repeated groups. Its text is at 11.
+    let centre = tip.or_else(|| fields.point(if fields.repeated.is_empty() { 11 } else { 10 }).ok())?;
+    // A character that cannot be decoded is no finding, since no parameter has any.
+    let text = PlainText::read(&String::from_utf8_lossy(text.bytes), 1.0, HorizontalAlign::Left);
+    let radius = tip.map_or(0.0, |_| height / 2.0);
+    Some((text.plain.finish(), Circle { centre, radius }))
 }
 
 /// Whether a tab is before the last letter of a row.

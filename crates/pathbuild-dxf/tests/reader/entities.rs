@@ -228,3 +228,25 @@ fn annotations_are_passed_over() {
         assert_eq!(drawing, pathbuild_dxf::Drawing::default(), "{name}");
     }
 }
+
+#[test]
+fn labels_have_a_text_and_a_tip() {
+    let label = |pairs: &str| {
+        let drawing = read_all(entities(pairs));
+        assert_eq!((drawing.entities.len(), drawing.faults.len(), drawing.left_out.len()), (0, 0, 0));
+        drawing.labels.first().map(|label| (label.text.to_string(), label.tip.centre.x, label.tip.radius))
+    };
+    let leader = "0 MULTILEADER\n8 P\n300 CONTEXT_DATA{\n10 1\n20 1\n41 3\n304 {\\fArial|b0;B2}\n302 LEADER{\n10 2\n20 1\n\
+                  304 LEADER_LINE{\n10 7\n20 1\n10 8\n20 1\n305 }\n304 LEADER_LINE{\n10 9\n20 1\n305 }\n303 }\n301 }\n41 0.4";
+    assert_eq!(label(leader), Some(("B2".into(), 7.0, 1.5)));
+    assert_eq!(label(&format!("{leader}\n60 1")), None, "invisible");
+    assert_eq!(
+        label(&leader.replace("304 {\\fArial|b0;B2}", "290 0")),
+        Some(("LEADER_LINE".into(), 7.0, 1.5)),
+        "a block, which never means anything"
+    );
+    assert_eq!(label("0 DIMENSION\n8 P\n10 3\n20 3\n11 5\n21 3\n1 B2"), Some(("B2".into(), 5.0, 0.0)));
+    for pairs in ["10 3\n20 3\n11 5\n21 3", "11 5\n21 3\n1 ", "11 x\n21 3\n1 B2", "67 1\n11 5\n21 3\n1 B2"] {
+        assert_eq!(label(&format!("0 DIMENSION\n8 P\n{pairs}")), None, "{pairs}");
+    }
+}

@@ -40,3 +40,16 @@ fn texts_in_blocks_are_noted_where_a_block_is_inserted() {
     assert!(is_noted(&block.replace("0 TEXT\n8 0", "0 TEXT"), insertion), "without a layer");
     assert!(!is_noted_with(block, insertion, true), "blocks do not count");
 }
+
+#[test]
+fn labels_are_noted_on_any_layer() {
+    for layer in ["0", "P"] {
+        assert!(is_noted("", &format!("0 DIMENSION\n8 {layer}\n11 0\n21 0\n1 B2")), "{layer}");
+        let leader = format!(
+            "0 MULTILEADER\n8 {layer}\n300 CONTEXT_DATA{{\n10 0\n20 0\n304 B2\n304 LEADER_LINE{{\n305 }}\n301 }}"
+        );
+        assert!(is_noted("", &leader), "{layer}");
+        assert!(!is_noted("", &leader.replace("304 B2", "304 B1")), "{layer}");
+        assert!(!is_noted("", &leader.replace("304 B2", "305 B2")), "{layer}");
+    }
+}

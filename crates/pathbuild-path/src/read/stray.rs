@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::drawing as messages;
-use pathbuild_diagnostic::{Diagnostic, Value};
-use pathbuild_dxf::{Drawing, Geometry, OmittedCurve};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, Value};
+use pathbuild_dxf::{Drawing, Geometry, Label, OmittedCurve};
 
 use crate::element::{CircleMeaning, Shape, circle_meaning, diagnostic_point};
 use crate::language::Language;
@@ -15,7 +15,7 @@ use crate::look_alikes;
 use crate::names::PathName;
 use crate::read::candidates::{Candidate, Owner, SearchBudget, find_shape};
 use crate::read::collect::{self, PathCollector, PathLayers};
-use crate::read::entities::{AnyText, at_entity, begin, xy};
+use crate::read::entities::{AnyText, TextCircle, at_entity, begin, xy};
 use crate::read::keep_outs::unread_clamps;
 use crate::read::likely_parameters::{
     ESSENTIAL_LETTERS, is_parameter_text, looks_like_parameters, may_be_probe_text, without_mistakes,
@@ -63,6 +63,10 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
             findings.extend(stray.or_else(|| stray_probe(drawing, number, text, &probes, &budget)));
         }
     }
+    findings.extend(drawing.labels.iter().filter_map(|label| {
+        let layer = label.layer as usize;
+        unread_label(label, &drawing.layers[layer].name, is_other[layer], &paths, &budget)
+    }));
     let mut left_out: BTreeMap<u32, Vec<&OmittedCurve>> = BTreeMap::new();
     for curve in &drawing.left_out {
         left_out.entry(curve.layer).or_default().push(curve);
@@ -116,28 +120,11 @@ fn stray_text(
     paths: &[PathCollector<'_>],
     budget: &SearchBudget,
 ) -> Option<Diagnostic> {
-    let mut texts = ParameterTexts::default();
-    let [drawn, meant] =
-        [texts.push_drawn(text.string()), texts.push_drawn(&without_mistakes(text.string()))];
-    let (drawn, meant) = (texts.get(drawn)?, texts.get(meant)?);
-    let is_read = |read: &ParameterText<'_>| {
-        looks_like_parameters(*read) || may_be_probe_text(read.as_str().as_bytes())
-    };
-    let read = [drawn, meant].into_iter().find(is_read)?;
     let circle = text.circle();
-    let over = paths.iter().find_map(|path| {
-        let mut takers = path.texts.free_candidates(&circle, budget);
-        Some((path, takers.find(|(_, taker)| path.would_apply(read, taker))?))
-    });
-    let beside = || {
-        paths.iter().find_map(|path| {
-            let mut missed = path.texts.candidates_beside(&circle, circle.radius, budget);
-            let is_taker =
-                |taker: &Candidate| matches!(taker.owner, Owner::Element(_)) && path.would_apply(read, taker);
-            Some((path, missed.find(|(_, taker)| is_taker(taker))?))
-        })
-    };
-    let (path, (layer, candidate)) = over.or_else(beside)?;
+    let (path, (layer, candidate)) = intended_element(text.string(), &circle, paths, budget)?;
+    let mut texts = ParameterTexts::default();
+    let drawn = texts.push_drawn(text.string());
+    let drawn = texts.get(drawn)?;
     let problem = Diagnostic::new(&messages::TEXT_ON_OTHER_LAYER)
         .quoting("text", drawn.as_str().replace('\n', " "))
         .quoting("layer", &*drawing.layers[drawing.entities[entity].layer as usize].name)
@@ -146,6 +133,59 @@ fn stray_text(
         .with("point", diagnostic_point(candidate.shape.point()))
         .with_text(drawn.whole_text_fault());
     Some(at_entity(drawing, entity, text.anchor(), problem.in_path(path.name.as_str())))
+}
+
+/// Returns PB119 for the text of a multileader or dimension on the layer of a path, unless a text of the path says the same, and for that of a
+/// multileader on another layer if it would have an effect on the element at the tip of its arrow.
+fn unread_label(
+    label: &Label,
+    layer: &str,
+    is_other: bool,
+    paths: &[PathCollector<'_>],
+    budget: &SearchBudget,
+) -> Option<Diagnostic> {
+    let tip = TextCircle { centre: xy(label.tip.centre), radius: label.tip.radius };
+    let is_known =
+        |path: &PathCollector<'_>| path.texts.given.iter().any(|given| given.text.string() == label.text);
+    let path = match paths.iter().find(|path| path.texts.layers.iter().any(|own| own.name == layer)) {
+        Some(path) => Some(path).filter(|path| is_parameter_text(&label.text) && !is_known(path))?,
+        None if is_other && label.tip.radius > 0.0 => intended_element(&label.text, &tip, paths, budget)?.0,
+        None => return None,
+    };
+    let problem = Diagnostic::new(&messages::LABEL_WITHOUT_EFFECT)
+        .quoting("text", label.text.replace('\n', " "))
+        .quoting("entity", label.place.entity.map_or("?", EntityKind::name))
+        .in_path(path.name.as_str());
+    Some(Diagnostic { place: label.place.clone(), ..problem })
+}
+
+/// Returns the element on which a text with this circle would have an effect on the layer of a path, with its path and layer.
+fn intended_element<'p, 'd>(
+    text: &str,
+    circle: &'p TextCircle,
+    paths: &'p [PathCollector<'d>],
+    budget: &'p SearchBudget,
+) -> Option<(&'p PathCollector<'d>, (&'p str, &'p Candidate))> {
+    let mut texts = ParameterTexts::default();
+    let [drawn, meant] = [texts.push_drawn(text), texts.push_drawn(&without_mistakes(text))];
+    let (drawn, meant) = (texts.get(drawn)?, texts.get(meant)?);
+    let is_read = |read: &ParameterText<'_>| {
+        looks_like_parameters(*read) || may_be_probe_text(read.as_str().as_bytes())
+    };
+    let read = [drawn, meant].into_iter().find(is_read)?;
+    let over = paths.iter().find_map(|path| {
+        let mut takers = path.texts.free_candidates(circle, budget);
+        Some((path, takers.find(|(_, taker)| path.would_apply(read, taker))?))
+    });
+    let beside = || {
+        paths.iter().find_map(|path| {
+            let mut missed = path.texts.candidates_beside(circle, circle.radius, budget);
+            let is_taker =
+                |taker: &Candidate| matches!(taker.owner, Owner::Element(_)) && path.would_apply(read, taker);
+            Some((path, missed.find(|(_, taker)| is_taker(taker))?))
+        })
+    };
+    over.or_else(beside)
 }
 
 /// Returns the circles that would be probes on the layer of a path, each with its layer number.

@@ -1,5 +1,6 @@
 //! Tests elements that are drawn for a path but do not belong to it: PB119 and PB120.
 
+use pathbuild_diagnostic::{Lang, Point};
 use pathbuild_dxf::{Drawing, Options, Units};
 use pathbuild_path::{Language, LayerPattern, PartSettings, may_be_stray_text, stray_findings};
 use pathbuild_testkit::sheet;
@@ -453,7 +454,7 @@ fn a_polyline_on_a_nearly_named_layer_counts_once() {
     let drawing = format!("layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n{others}");
     let found = stray_findings(&drawn(&drawing), &language());
     let elements = found[0].arguments.iter().find(|(name, _)| *name == "elements").expect("elements");
-    assert_eq!(elements.1.render(pathbuild_diagnostic::Lang::En), "2 LINE, 2 LWPOLYLINE");
+    assert_eq!(elements.1.render(Lang::En), "2 LINE, 2 LWPOLYLINE");
 }
 
 #[test]
@@ -479,4 +480,61 @@ fn a_height_in_an_outline_on_an_unread_layer_is_told() {
     assert_eq!(found(&clamp("Clamp", "Z25", "20,40")), ["PB120"]);
     // Without `keep-out`, no layer contains clamps.
     assert_eq!(strays_beside("(", None, &clamp("Vise", "Z25", "20,40")), [""; 0]);
+}
+
+/// Returns a multileader on this layer whose arrow points at (20, `y`) from (26, 8).
+fn multileader(layer: &str, text: &str, y: f64) -> String {
+    format!(
+        "raw\n0 MULTILEADER\n5 AA\n8 {layer}\n100 AcDbMLeader\n300 CONTEXT_DATA{{\n40 1\n10 28\n20 8\n30 0\n41 2\n304 {text}\n12 28\n22 8\n\
+         302 LEADER{{\n290 1\n10 26\n20 8\n30 0\n304 LEADER_LINE{{\n10 20\n20 {y}\n30 0\n305 }}\n303 }}\n301 }}\n41 0.36\nendraw"
+    )
+}
+
+fn dimension(layer: &str, text: &str) -> String {
+    format!(
+        "raw\n0 DIMENSION\n5 AA\n8 {layer}\n2 *D1\n10 0\n20 3\n11 20\n21 3\n1 {text}\n13 0\n23 0\n14 40\n24 0\nendraw"
+    )
+}
+
+#[test]
+fn a_multileader_or_dimension_gives_no_parameters() {
+    for text in ["B2.5", "b2,5", "{\\fArial|b0|i0;B2.5}", "F120 B-0.3"] {
+        assert_eq!(
+            strays(&multileader("1234.1P", text, 30.0)),
+            ["PB119"],
+            "{text}: wherever the arrow points"
+        );
+        assert_eq!(strays(&dimension("1234.1P", text)), ["PB119"], "{text}");
+        assert_eq!(strays(&multileader("Notes", text, 0.2)), ["PB119"], "{text}");
+        assert_eq!(strays(&multileader("Notes", text, 2.1)), [""; 0], "{text}: the arrow points at nothing");
+        assert_eq!(strays(&dimension("Notes", text)), [""; 0], "{text}");
+        assert_eq!(strays(&multileader("Clamps", text, 0.2)), [""; 0], "{text}");
+    }
+    for text in ["", "<>", "25", "25 H7", "groove B2.5", "S20", "R5", "deep"] {
+        assert_eq!(strays(&multileader("1234.1P", text, 0.2)), [""; 0], "{text}");
+        assert_eq!(strays(&dimension("1234.1P", text)), [""; 0], "{text}");
+    }
+    // A text of the path that says the same is what counts.
+    let with = |text: &str| {
+        strays_with(&format!("mill 0,0 40,0 \"{text}\"\nend 40,0"), &multileader("1234.1P", "B2.5", 0.0))
+    };
+    assert_eq!(with("B2.5"), [""; 0]);
+    assert_eq!(with("B2"), ["PB119"]);
+    let path = "mill 0,0 40,0 \"B2\"\nend 40,0";
+    assert_eq!(strays_with(path, &multileader("Notes", "B2.5", 0.0)), [""; 0], "the line has a text");
+}
+
+#[test]
+fn a_label_names_its_kind_and_place() {
+    let drawing = format!(
+        "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0\"\nmill 0,0 40,0\nend 40,0\n{}",
+        multileader("1234.1P", "B2.5", 0.0)
+    );
+    let found = stray_findings(&drawn(&drawing), &language());
+    let [found] = &found[..] else { panic!("{found:?}") };
+    assert_eq!(found.place.point, Some(Point::new(20.0, 0.0)));
+    assert!(
+        found.text(Lang::En).starts_with("the text \"B2.5\" of this MULTILEADER has no effect"),
+        "{found:?}"
+    );
 }
