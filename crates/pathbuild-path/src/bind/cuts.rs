@@ -4,6 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{drawing, paths};
 
 use crate::approx::{above, at_least};
+use crate::bind::uncut_runs::missing_gap;
 use crate::bind::{Binder, FaultSite, Scope, push_indexed};
 use crate::element::{Cut, Element};
 use crate::geometry::{Curve, Xy};
@@ -40,9 +41,6 @@ impl Binder<'_> {
     ) -> CutParameters {
         let bottom = self.bottom(scope, cut);
         let bars = (cut == Cut::Support).then(|| self.bars(scope, curve.length(), tool)).flatten();
-        if let Some(bars) = &bars {
-            self.note_gap(scope, bars, curve.length());
-        }
         CutParameters {
             cut,
             feed: self.value(scope, Letter::F),
@@ -75,26 +73,6 @@ impl Binder<'_> {
         }
         Some(bars)
     }
-
-    fn note_gap(&mut self, scope: &Scope<'_>, bars: &Bars, length: f64) {
-        match missing_gap(bars, length) {
-            None => self.has_gap = true,
-            Some(problem) if self.gapless.is_none() => {
-                let problem = problem.in_path(self.raw.name.as_str());
-                self.gapless = Some(self.origin(scope.at).at(problem));
-            }
-            Some(_) => {}
-        }
-    }
-}
-
-fn missing_gap(bars: &Bars, length: f64) -> Option<Diagnostic> {
-    (bars.count(length) == 0.0).then(|| {
-        Diagnostic::new(&paths::NO_GAP_BETWEEN_BARS)
-            .with("length", length)
-            .with("pitch", bars.length + bars.distance)
-            .with("top", bars.top)
-    })
 }
 
 /// Order of a hole among the segments that meet at a point: holes come first, then circles from small to large. (book: language/chains-and-passes)
@@ -153,8 +131,8 @@ impl Binder<'_> {
         let (infeed, bottom) = (self.value(scope, Letter::I), self.bottom(scope, cut));
         let length = std::f64::consts::TAU * Helix::radius_of_axis(radius, tool);
         let bars = (cut == Cut::Support).then(|| self.bars(scope, length, Some(tool))).flatten();
-        if let Some(problem) = bars.as_ref().and_then(|bars| missing_gap(bars, length)) {
-            self.report(scope.at, problem);
+        if let Some(bars) = bars.filter(|bars| bars.count(length) == 0.0) {
+            self.report(scope.at, missing_gap(&bars, length));
         }
         let bottom = bottom.unwrap_or_default();
         Helix {

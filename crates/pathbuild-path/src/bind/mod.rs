@@ -13,8 +13,8 @@ use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_motion::{ChipLoad, check_cutting_length};
 use smol_str::SmolStr;
 
-use crate::approx::{above, is_negligible};
-use crate::bind::uncut_runs::{SupportSegment, uncut_runs};
+use crate::approx::{above, grid_square, is_negligible};
+use crate::bind::uncut_runs::{CutDepths, SupportSegment, first_uncut, uncut_runs};
 use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape, diagnostic_point};
 use crate::geometry::{Curve, PlaceKey};
@@ -76,10 +76,6 @@ struct Binder<'a> {
     named_subpaths: OnceCell<BTreeMap<PlaceKey, TextId>>,
     /// Keys of the messages that doubt values of the path itself: each is reported only once.
     doubted_at_start: Vec<&'static str>,
-    /// Whether any segment with support bars has a gap between them.
-    has_gap: bool,
-    /// The finding about the first segment without a gap.
-    gapless: Option<Diagnostic>,
     unknown: UnknownValues,
     /// Whether the text of some segment may have been meant to give N.
     may_hide_order: bool,
@@ -140,8 +136,6 @@ impl<'a> Binder<'a> {
             by_text: HashMap::new(),
             named_subpaths: OnceCell::new(),
             doubted_at_start: Vec::new(),
-            has_gap: false,
-            gapless: None,
             unknown: UnknownValues::default(),
             may_hide_order: false,
         }
@@ -671,19 +665,25 @@ impl Binder<'_> {
             return;
         }
         let elements = &self.raw.drawn.elements;
-        let segments = self.segments.iter().filter_map(|segment| {
+        let (mut segments, mut depths) = (Vec::new(), CutDepths::new());
+        for segment in &self.segments {
             let element = &elements[segment.element as usize];
             let (SegmentKind::Cut(cut), Shape::Curve(curve)) = (&segment.kind, element.shape) else {
-                return None;
+                continue;
             };
-            let bars = self.cuts[*cut as usize].bars?;
-            Some(SupportSegment { element, curve, bars })
-        });
-        let runs = uncut_runs(&segments.collect::<Vec<_>>());
-        let gapless = self.gapless.take().filter(|_| !self.has_gap && runs.is_empty());
-        self.problems.extend(gapless);
-        for run in runs {
-            self.report(FaultSite::Element(run.first.element), run.problem());
+            let CutParameters { cut, bottom, bars, .. } = self.cuts[*cut as usize];
+            segments.extend(bars.map(|bars| SupportSegment { element, curve, bottom, bars }));
+            for end in [curve.start(), curve.end()].iter().filter(|_| cut == Cut::Mill) {
+                let lowest = depths.entry(grid_square(*end)).or_insert(bottom);
+                *lowest = lowest.min(bottom);
+            }
+        }
+        let runs = uncut_runs(&segments);
+        let uncut = first_uncut(&segments, &depths).filter(|_| runs.is_empty());
+        let runs = runs.iter().map(|run| (run.first.element, run.problem()));
+        let uncut = uncut.map(|segment| (segment.element, segment.problem()));
+        for (element, problem) in runs.chain(uncut).collect::<Vec<_>>() {
+            self.report(FaultSite::Element(element), problem);
         }
     }
 

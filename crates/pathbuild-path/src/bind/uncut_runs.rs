@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::messages::paths;
 use pathbuild_diagnostic::{Diagnostic, EntityKind};
 
-use crate::approx::{at_least, grid_square};
+use crate::approx::{above, at_least, grid_square};
 use crate::disjoint_sets::{root, unite};
 use crate::element::Element;
 use crate::geometry::Curve;
@@ -15,8 +15,13 @@ use crate::path::Bars;
 pub(super) struct SupportSegment<'a> {
     pub(super) element: &'a Element,
     pub(super) curve: Curve,
+    /// Z of the gaps between the bars.
+    pub(super) bottom: f64,
     pub(super) bars: Bars,
 }
+
+/// Lowest Z of the cuts without bars that end at a place, by the place's [`grid_square`].
+pub(super) type CutDepths = BTreeMap<[i64; 2], f64>;
 
 /// Connected support segments, each too short for a gap.
 pub(super) struct UncutRun<'a> {
@@ -30,6 +35,11 @@ impl SupportSegment<'_> {
         self.bars.count(self.curve.length()) > 0.0
     }
 
+    /// Returns PB408 for a path of which no segment has a gap.
+    pub(super) fn problem(&self) -> Diagnostic {
+        missing_gap(&self.bars, self.curve.length())
+    }
+
     /// The segment's length as a multiple of P + U.
     fn pitches(&self) -> f64 {
         self.curve.length() / (self.bars.length + self.bars.distance)
@@ -40,6 +50,14 @@ impl SupportSegment<'_> {
         let kind = self.element.source.entity;
         (!matches!(kind, EntityKind::Line | EntityKind::Arc)).then_some(kind)
     }
+}
+
+/// Returns PB408 for a segment or circle of this length without a gap.
+pub(super) fn missing_gap(bars: &Bars, length: f64) -> Diagnostic {
+    Diagnostic::new(&paths::NO_GAP_BETWEEN_BARS)
+        .with("length", length)
+        .with("pitch", bars.length + bars.distance)
+        .with("top", bars.top)
 }
 
 impl UncutRun<'_> {
@@ -86,6 +104,31 @@ pub(super) fn uncut_runs<'a>(segments: &[SupportSegment<'a>]) -> Vec<UncutRun<'a
         .into_values()
         .map(|run| UncutRun { first: segments[run[0]], length: length(&run), count: run.len() })
         .collect()
+}
+
+/// Returns the first segment of a path of which no segment has a gap. A run does not count if cuts at least as deep as its gaps would be lead up to all
+/// of its ends: it is a bar as a whole.
+pub(super) fn first_uncut<'s, 'a>(
+    segments: &'s [SupportSegment<'a>],
+    depths: &CutDepths,
+) -> Option<&'s SupportSegment<'a>> {
+    if segments.iter().any(SupportSegment::has_gap) {
+        return None;
+    }
+    let is_bar = |run: &Vec<usize>| {
+        let mut ends: BTreeMap<_, Vec<f64>> = BTreeMap::new();
+        for segment in run.iter().map(|number| &segments[*number]) {
+            for end in [segment.curve.start(), segment.curve.end()] {
+                ends.entry(grid_square(end)).or_default().push(segment.bottom);
+            }
+        }
+        ends.retain(|_, bottoms| bottoms.len() == 1);
+        let is_cut =
+            |(end, bottoms): (_, &Vec<f64>)| depths.get(end).is_some_and(|depth| !above(*depth, bottoms[0]));
+        !ends.is_empty() && ends.iter().all(is_cut)
+    };
+    let uncut = runs(segments, |_| ()).into_iter().find(|run| !is_bar(run))?;
+    Some(&segments[uncut[0]])
 }
 
 /// Returns the groups of connected segments of the same kind, each as the segments' indices in ascending order.

@@ -291,3 +291,23 @@ fn a_run_of_short_support_segments_is_cut_through_somewhere() {
     // Ends that do not meet are two runs.
     assert_eq!(beside("bars 30,0 34,0\nsweep 34,0 34.01,0\nbars 34.01,0 34,6"), [""; 0]);
 }
+
+/// A short segment between cuts that go as deep as its gaps would is a bar as a whole.
+#[test]
+fn a_short_segment_between_cuts_is_a_bar() {
+    let between = |before: &str, bars: &str, after: &str| {
+        on(&format!("mill 0,0 16,0 \"{before}\"\n{bars}\nmill 20,0 40,0 \"{after}\""), "T5 O3 I1 B0 D2 P5 U8")
+    };
+    assert_eq!(between("N1", "bars 16,0 20,0", "N1"), [""; 0]);
+    assert_eq!(between("B-1", "bars 16,0 20,0", "B0"), [""; 0]);
+    assert_eq!(between("B0.1", "bars 16,0 20,0", "B0"), ["PB408"], "not as deep as a gap");
+    assert_eq!(between("N1", "bars 16,0 20,0 \"B-0.1\"", "N1"), ["PB408"], "the gap would be deeper");
+    assert_eq!(between("N1", "bars 16,0 18,2 20,0", "N1"), [""; 0], "a bar of two segments");
+    assert_eq!(between("N1", "bars 16,0 18,9 20,0", "N1"), ["PB408"], "longer than P + U");
+    let beside = |after: &str| {
+        on(&format!("mill 0,0 16,0\nbars 16,0 20,0\n{after} 20,0 40,0"), "T5 O3 I1 B0 D2 P5 U8")
+    };
+    assert_eq!(beside("mill"), [""; 0]);
+    assert_eq!(beside("sweep"), ["PB408"], "a cut at one end only");
+    assert_eq!(beside("mark"), ["PB408"]);
+}
