@@ -293,3 +293,14 @@ fn lines_that_overshoot_all_corners_form_an_outline() {
     let far = with_hole(1.7);
     assert!(far.len() == 1 && far[0].starts_with("PB220"), "{far:?}");
 }
+
+#[test]
+fn a_hidden_layer_of_parts_counts() {
+    let whole = beside(&format!("line 0,1 40,1\n{SIDES}"));
+    assert_eq!(codes(&whole), [""; 0]);
+    let found = messages(&whole.replace("layer Part\n", "layer Part frozen\n"));
+    assert_eq!(
+        found,
+        ["PB112 layer Part is frozen or off, but paths are still compared with the parts on it"]
+    );
+}

@@ -428,6 +428,13 @@ messages! {
         help_en: "make it visible, or move clamps that no longer exist to a layer that `keep-out` does not match",
         help_de: "sichtbar machen oder Spannmittel, die es nicht mehr gibt, auf einen Layer legen, auf den `keep-out` nicht passt",
     }
+    /// A layer with parts that is frozen or off.
+    PART_NOT_VISIBLE: LayerNotVisible {
+        en: "layer {layer} is frozen or off, but paths are still compared with the parts on it",
+        de: "Layer {layer} ist gefroren oder ausgeschaltet, die Pfade werden trotzdem mit den Teilen darauf verglichen",
+        help_en: "make it visible, or move outlines that no longer count to a layer that `part` does not match",
+        help_de: "sichtbar machen oder Umrisse, die nicht mehr gelten, auf einen Layer legen, auf den `part` nicht passt",
+    }
     /// An open outline of a clamp.
     OUTLINE_OPEN: InvalidKeepOut {
         en: "the outline of a clamp is not closed: it ends at {point} and at {other}, {distance} mm apart",

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use pathbuild_diagnostic::messages::{configuration, drawing as messages};
-use pathbuild_diagnostic::{Diagnostic, EntityKind, Place, Point, Value};
+use pathbuild_diagnostic::{Code, Diagnostic, EntityKind, Place, Point, Value};
 use pathbuild_dxf::{Drawing, Entity, Geometry, Layer, Point3};
 use rstar::primitives::GeomWithData;
 use rstar::{AABB, Envelope, RTree};
@@ -39,6 +39,11 @@ pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
         }
         found.problems.append(&mut reading.problems);
     }
+    let is_clamp = |layer: &str| pattern.is_layer(layer) && !language.path_pattern.is_layer(layer);
+    let hidden = drawing.diagnostics.iter().filter(|problem| problem.code() == Code::LayerNotVisible);
+    found
+        .problems
+        .extend(hidden.filter(|problem| problem.place.layer.as_deref().is_some_and(is_clamp)).cloned());
     // If an outline has an error, a hatch may belong to that outline.
     if !found.problems.iter().any(Diagnostic::is_error) {
         found.problems.extend(lone_hatches(drawing, language, &found.all));

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use pathbuild_diagnostic::messages::part as messages;
+use pathbuild_diagnostic::messages::{drawing, part as messages};
 use pathbuild_diagnostic::{Diagnostic, Place};
 use pathbuild_dxf::{Drawing, Geometry};
 use smol_str::SmolStr;
@@ -23,6 +23,7 @@ pub fn parts(drawing: &Drawing, language: &Language) -> DrawnParts {
     let mut found = DrawnParts::default();
     let Some(settings) = &language.part else { return found };
     let layers = OutlineLayers::read(drawing, language, &settings.pattern);
+    found.problems.extend(layers.hidden());
     found.problems.extend(layers.unreadable());
     for (paths, curves) in &layers.curves {
         let graph = Graph::new(curves.iter().map(|drawn| drawn.curve).collect());
@@ -99,6 +100,16 @@ impl<'d> OutlineLayers<'d> {
             }
         }
         Self { drawing, language, layers, curves }
+    }
+
+    /// Returns PB112 for layers that are frozen or off.
+    fn hidden(&self) -> impl Iterator<Item = Diagnostic> {
+        let layers = self.drawing.layers.iter().zip(&self.layers);
+        layers.filter(|(layer, is_part)| **is_part && layer.hidden).map(|(layer, _)| {
+            let place = Place { layer: Some(layer.name.clone()), ..Place::default() };
+            let problem = Diagnostic::new(&drawing::PART_NOT_VISIBLE).quoting("layer", &*layer.name);
+            Diagnostic { place, ..problem }
+        })
     }
 
     /// Returns PB219 for curves that may be part of an outline and could not be read.

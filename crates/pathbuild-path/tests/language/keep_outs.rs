@@ -227,6 +227,24 @@ fn a_hidden_layer_counts() {
     assert!(matches!(&problems[..], [problem] if problem.code() == Code::LayerNotVisible));
 }
 
+#[test]
+fn a_hidden_clamp_counts() {
+    let found = |drawing: &str| {
+        let KeepOuts { all, problems } = clamps_of(drawing);
+        let codes: Vec<String> = problems.iter().map(|problem| problem.code().to_string()).collect();
+        (all.len(), codes)
+    };
+    let block = format!("block A\n{SQUARE}endblock\n");
+    assert_eq!(found(&format!("{block}layer Notes\ninsert A at 0,0\n")), (1, vec![]));
+    assert_eq!(found(&format!("{block}layer Notes frozen\ninsert A at 0,0\n")).0, 1);
+    let codes = found(&format!("{block}layer Notes frozen\ninsert A at 0,0\n")).1;
+    assert!(!codes.is_empty() && codes.iter().all(|code| code == "PB112"), "{codes:?}");
+    let invisible =
+        "raw\n0 CIRCLE\n8 clamps\n60 1\n10 0\n20 0\n40 10\nendraw\nlayer clamps\ntext -3,-1 \"Z25\"\n";
+    assert_eq!(found(invisible), (1, vec!["PB112".to_owned()]));
+    assert_eq!(found(&invisible.replace("60 1", "60 0")), (1, vec![]));
+}
+
 /// At each height below the clamp's, the tool must clear the outline by half of O.
 #[test]
 fn the_tool_keeps_out_by_its_radius() {
