@@ -358,6 +358,13 @@ messages! {
         help_en: "delete one of the two; if the tool is to come back along it, draw a turn marker at its end (a PHANTOM circle of 1.5 mm)",
         help_de: "eines der beiden löschen; soll der Fräser darauf zurückkommen, am Ende eine Wendemarke zeichnen (PHANTOM-Kreis mit 1,5 mm)",
     }
+    /// Several milled lines and arcs drawn on top of others.
+    CURVES_TWICE: LeftoverElement {
+        en: "lines and arcs that are drawn twice: {count}, the first at {point}",
+        de: "doppelt gezeichnete Linien und Bögen: {count}, zuerst bei {point}",
+        help_en: "delete the copies; if all of the path is there twice, it was probably pasted twice",
+        help_de: "die Kopien löschen; ist alles doppelt, wurde der Pfad wahrscheinlich zweimal eingefügt",
+    }
     /// A milled line or arc drawn on top of another of a different line type.
     CURVE_TWICE_OTHERWISE: LeftoverElement {
         en: "{element} at {point} is drawn twice, as {one} and as {other}: the deeper cut removes the mark or the support bars of the other",

@@ -462,6 +462,17 @@ impl<'a> Curves<'a> {
         twice.into_iter().filter_map(|pair| self.problem(pair)).collect()
     }
 
+    /// Returns one PB121 for all milled segments that lie on others, for a path along which other errors prevent the walk.
+    pub(super) fn all_twice(&self) -> Option<Diagnostic> {
+        let found = self.milled_twice();
+        let count = found.len();
+        let first = found.into_iter().next()?;
+        if count == 1 {
+            return Some(first);
+        }
+        Some(Diagnostic { message: &drawing::CURVES_TWICE, ..first }.with("count", count))
+    }
+
     fn is_mistake(&self, pair: [usize; 2]) -> bool {
         pair.iter().any(|segment| self.element(*segment).text.is_none())
     }

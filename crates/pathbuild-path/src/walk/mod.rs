@@ -108,6 +108,7 @@ impl<'a> Walker<'a> {
         walked.open_end = open_end;
         let is_complete = result.is_ok();
         let is_complete = is_complete && gaps.is_empty();
+        let is_silent = matches!(result, Err(None)) && gaps.is_empty();
         if !is_complete {
             let problem = gaps.into_iter().chain(result.err().flatten().map(|problem| *problem));
             let missing =
@@ -124,6 +125,8 @@ impl<'a> Walker<'a> {
             walked.diagnostics.extend(idle);
             walked.diagnostics.extend(Curves::new(path, 0..path.segments.len()).milled_twice());
             walked.diagnostics.extend(embedded_twice(path, &walked.items));
+        } else if is_silent {
+            walked.diagnostics.extend(Curves::new(path, 0..path.segments.len()).all_twice());
         }
         walked
     }

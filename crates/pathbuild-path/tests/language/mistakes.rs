@@ -628,3 +628,31 @@ fn a_subpath_that_is_drawn_twice_is_one_error() {
         assert!(!found(second).concat().contains("PB501"), "{second}");
     }
 }
+
+/// The errors about the markers prevent the walk, which would find the lines.
+#[test]
+fn a_path_that_was_pasted_twice_is_one_finding_beside_its_markers() {
+    let lines = |count: usize| {
+        "mill 0,0 20,0\nmill 20,0 20,20\nmill 20,20 40,20\n"
+            .lines()
+            .take(count)
+            .collect::<Vec<_>>()
+            .join("\n")
+    };
+    let found = |copies: &str| {
+        let whole = path(P, &format!("{}\nend 40,20", lines(3)));
+        let mut found = messages_with_help(&compile(&format!("{whole}\n{copies}")).found);
+        found.retain(|found| found.starts_with("PB121"));
+        found
+    };
+    let markers = "start 0,0 \"T5 O3 I1 B0\"\nend 40,20";
+    let begin = "PB121 lines and arcs that are drawn twice: 3, the first at (0, 0)";
+    assert_one(&found(&format!("{markers}\n{}", lines(3))), begin, "pasted twice");
+    assert_one(&found(&format!("end 40,20\n{}", lines(3))), begin, "pasted twice");
+    assert_one(
+        &found(&format!("{markers}\n{}", lines(1))),
+        "PB121 a milling segment at (0, 0) is drawn twice",
+        "(a PHANTOM circle of 1.5 mm)",
+    );
+    assert_eq!(found(markers), [""; 0]);
+}
