@@ -409,3 +409,116 @@ fn parts_are_loose_where_a_grid_is_cut_off() {
     }
     assert!(severed >= 5 && held >= 20, "{loose} loose, {severed} of them by the second path, {held} held");
 }
+
+/// A window with rounded corners, milled from inside. One side of its path is `short` mm too far from the outline.
+struct Window {
+    size: Xy,
+    radius: f64,
+    /// The side that is too far: 0 to 3, counterclockwise from below.
+    side: usize,
+    short: f64,
+}
+
+impl Window {
+    fn new(random: &mut Random) -> Self {
+        let size = Xy::new(random.between(12.0, 30.0), random.between(12.0, 30.0));
+        let side = random.between(0.0, 4.0) as usize;
+        let length = if side.is_multiple_of(2) { size.y } else { size.x };
+        let radius = random.between(TOOL / 2.0 + 0.05, 4.0);
+        Self { size, radius, side, short: random.between(0.1, length - 2.5 * TOOL - 2.0 * radius) }
+    }
+
+    /// Returns the lower left and the upper right corner of the path's ring.
+    fn ring(&self, short: f64) -> [Xy; 2] {
+        let mut low = Xy::new(TOOL / 2.0, TOOL / 2.0);
+        let mut high = Xy::new(self.size.x - TOOL / 2.0, self.size.y - TOOL / 2.0);
+        match self.side {
+            0 => low.y += short,
+            1 => high.x -= short,
+            2 => high.y -= short,
+            _ => low.x += short,
+        }
+        [low, high]
+    }
+
+    /// Returns the drawing of a plate with the window. `roughing`: whether the path mills a short line in the middle of its ring first.
+    fn drawing(&self, short: f64, roughing: bool) -> String {
+        let [low, high] = self.ring(short);
+        let radius = self.radius - TOOL / 2.0;
+        let window = rounded("line", "arc", [Xy::origin(), self.size], self.radius);
+        let ring = rounded("mill", "mill arc", [low, high], radius);
+        let (x, y) = (f64::midpoint(low.x, high.x), f64::midpoint(low.y, high.y));
+        let (start, to) = (format!("{},{}", low.x + radius, low.y), format!("{},{y}", x + 0.5));
+        let roughing =
+            if roughing { format!("mill {x},{y} {to}\nsweep {to}") } else { format!("sweep {x},{y}") };
+        format!(
+            "layer 1234.1P\nstart {x},{y} \"T2 O{TOOL} I1 B-0.2 S5\"\n{roughing} {start}\n{ring}sweep {start} 60,60\nend 60,60\n\
+             layer Part\npolyline -5,-5 40,-5 40,40 -5,40 closed\n{window}"
+        )
+    }
+
+    /// Returns the largest distance in mm between the outline and the edge of the cuts, from samples. This is independent of the code under test.
+    fn thickness(&self, short: f64) -> f64 {
+        let outline = rounded_points([Xy::origin(), self.size], self.radius);
+        let ring = rounded_points(self.ring(short), self.radius - TOOL / 2.0);
+        let nearest = |at: &Xy| ring.iter().map(|cut| (cut - at).norm()).fold(f64::INFINITY, f64::min);
+        outline.iter().map(nearest).fold(0.0, f64::max) - TOOL / 2.0
+    }
+}
+
+/// Returns the corners of a rectangle's arcs, counterclockwise from the lower left: centre, and the angle at which the arc begins.
+fn corner_arcs([low, high]: [Xy; 2], radius: f64) -> [(Xy, f64); 4] {
+    let (left, right, below, above) = (low.x + radius, high.x - radius, low.y + radius, high.y - radius);
+    [(left, below, 180.0), (right, below, 270.0), (right, above, 0.0), (left, above, 90.0)]
+        .map(|(x, y, angle)| (Xy::new(x, y), angle))
+}
+
+/// Returns the statements of a rectangle with rounded corners, which begins at the lower left.
+fn rounded(line: &str, arc: &str, extent: [Xy; 2], radius: f64) -> String {
+    let corners = corner_arcs(extent, radius);
+    let mut text = String::new();
+    for number in 0..4 {
+        let ((from, angle), (to, next)) = (corners[number], corners[(number + 1) % 4]);
+        let from = from + direction(angle + 90.0) * radius;
+        let (begin, end) = (to + direction(next) * radius, to + direction(next + 90.0) * radius);
+        text += &format!("{line} {},{} {},{}\n", from.x, from.y, begin.x, begin.y);
+        text += &format!("{arc} {},{} {},{} centre {},{}\n", begin.x, begin.y, end.x, end.y, to.x, to.y);
+    }
+    text
+}
+
+/// Returns points at most 0.5 mm apart on a rectangle with rounded corners.
+fn rounded_points(extent: [Xy; 2], radius: f64) -> Vec<Xy> {
+    let corners = corner_arcs(extent, radius);
+    let mut points = Vec::new();
+    for number in 0..4 {
+        let ((from, angle), (to, next)) = (corners[number], corners[(number + 1) % 4]);
+        let (from, to_begin) = (from + direction(angle + 90.0) * radius, to + direction(next) * radius);
+        points.extend((0..=60).map(|step| from + (to_begin - from) * (f64::from(step) / 60.0)));
+        points.extend((0..=15).map(|step| to + direction(next + 6.0 * f64::from(step)) * radius));
+    }
+    points
+}
+
+/// A side of a window that its path passes is left, however far away the path is. Roughing lines within the ring make no difference.
+#[test]
+fn a_side_of_a_window_that_the_path_passes_is_left() {
+    let mut random = Random(4711);
+    for number in 0..60 {
+        let window = Window::new(&mut random);
+        let left = |short: f64| {
+            let mut found = findings(&window.drawing(short, number % 2 == 0));
+            // The rim of the plate is not cut.
+            found.retain(|found| found.code().to_string() != "PB220");
+            found
+        };
+        assert_eq!(left(0.0), [], "{number}");
+        let (found, thickness) = (left(window.short), window.thickness(window.short));
+        assert!(
+            found.iter().all(|found| found.code().to_string() == "PB215") && !found.is_empty(),
+            "{number}: {found:?}"
+        );
+        let thickest = found.iter().map(|found| number_of(found, "thickness")).fold(0.0, f64::max);
+        assert!((thickest - thickness).abs() < 0.1, "{number}: {} {thickness} {found:?}", window.short);
+    }
+}

@@ -13,7 +13,7 @@ use super::intervals::{
     JOIN_GAP, NEIGHBOUR_JOIN_GAP, Stretch, add_stretches_within, difference, gaps_between, intersection,
     join_ends, join_stretches, offset_curve,
 };
-use super::loose::is_surrounded;
+use super::loose::{first_enclosing, is_surrounded};
 use super::prepared::PreparedPart;
 use crate::geometry::{Arc, Curve, Line, Xy};
 use crate::keep_out::widened_box;
@@ -239,10 +239,8 @@ impl<'s> LeftoverSearch<'s> {
             }
         }
         all.never = join_stretches(all.never, NEIGHBOUR_JOIN_GAP);
-        if ring == 0 && is_near {
-            self.add_notches(&mut all, &mut uncut);
-        }
         if is_near {
+            self.add_notches(ring, &mut all, &mut uncut);
             self.add_swept_stretches(ring, &mut all, &mut uncut);
         }
         let is_long = |(from, to): &Stretch| to - from >= MIN_REPORTED_LENGTH;
@@ -320,19 +318,19 @@ impl<'s> LeftoverSearch<'s> {
         join_stretches(found, JOIN_GAP)
     }
 
-    /// Adds the material left in notches of the rim that the contour passes: long stretches that neither a cut nor a support bar comes near, if cuts
-    /// and bars close a ring round the part.
-    fn add_notches(&self, all: &mut RingStretches, uncut: &mut Vec<Stretch>) {
+    /// Adds the material left in notches that the contour passes: long stretches that neither a cut nor a support bar comes near, if cuts and bars
+    /// close a ring round the part, or round waste in the opening.
+    fn add_notches(&self, ring: usize, all: &mut RingStretches, uncut: &mut Vec<Stretch>) {
         let Some(radius) = self.smallest_radius() else { return };
         let is_notch = |(from, to): &Stretch| to - from >= 2.0 * radius;
         let long: Vec<Stretch> = all.never.iter().copied().filter(is_notch).collect();
-        if long.is_empty() || !self.is_ringed() {
+        if long.is_empty() || !self.is_ringed(ring) {
             return;
         }
-        let mut notches = difference(&long, &self.rim_near_bars());
+        let mut notches = difference(&long, &self.stretches_near_bars(ring));
         notches.retain(is_notch);
         all.never = difference(&all.never, &notches);
-        for curve in self.ring_curves(0) {
+        for curve in self.ring_curves(ring) {
             let here = intersection(&notches, &[(curve.start, curve.start + curve.curve.length())]);
             if !here.is_empty() {
                 let corners: Vec<Stretch> = curve.on_ring(self.unreachable_stretches(&curve)).collect();
@@ -400,10 +398,10 @@ impl<'s> LeftoverSearch<'s> {
         found.into_iter().map(|(from, to)| (from * scale, to * scale)).collect()
     }
 
-    /// Returns the stretches of the rim within O of support bars.
-    fn rim_near_bars(&self) -> Vec<Stretch> {
+    /// Returns the stretches of a ring within O of support bars.
+    fn stretches_near_bars(&self, ring: usize) -> Vec<Stretch> {
         let mut found = Vec::new();
-        for (start, curve) in self.part.ring_curves(0) {
+        for (start, curve) in self.part.ring_curves(ring) {
             let mut here = Vec::new();
             for (bar, radius) in self.bars() {
                 add_stretches_within(curve, &bar.foot, 2.0 * radius, &mut here);
@@ -413,13 +411,18 @@ impl<'s> LeftoverSearch<'s> {
         join_stretches(found, NEIGHBOUR_JOIN_GAP)
     }
 
-    fn is_ringed(&self) -> bool {
-        *self.is_ringed.get_or_init(|| {
-            let cuts = self.cuts.cuts.iter().filter(|cut| self.contours[cut.path]);
-            let sweeps = cuts.filter_map(|cut| Some((cut.through()?, cut.radius)));
-            let feet = self.bars().map(|(bar, radius)| (bar.foot, radius));
-            is_surrounded(self.part, &sweeps.chain(feet).collect::<Vec<_>>())
-        })
+    /// Whether cuts and bars close a ring round the part or, for an opening that lies alone, round waste in it.
+    fn is_ringed(&self, ring: usize) -> bool {
+        let sweeps = self.all_contour_cuts().filter_map(|cut| Some((cut.through()?, cut.radius)));
+        let ways = sweeps.chain(self.bars().map(|(bar, radius)| (bar.foot, radius)));
+        if ring == 0 {
+            return *self.is_ringed.get_or_init(|| is_surrounded(self.part, &ways.collect::<Vec<_>>()));
+        }
+        let rings = &self.part.part.rings;
+        let is_alone = rings.iter().filter(|other| other.nest == rings[ring].nest).count() == 1;
+        let embeds_others = self.cuts.paths.iter().any(|path| !path.embedded.is_empty());
+        let is_inside = |(way, _): &(Curve, f64)| self.part.side(way.middle()).is_beside(ring);
+        is_alone && !embeds_others && first_enclosing(&ways.filter(is_inside).collect::<Vec<_>>()).is_some()
     }
 
     /// Returns the stretches of a curve that a cutter cannot reach without entering the part elsewhere. The cutter is the smallest one beside the
