@@ -156,7 +156,7 @@ fn a_project_without_a_tool_is_named() {
     };
     let run = emitted("^7");
     assert!(
-        run.stderr.contains("PB754") && run.stderr.contains("for path 8001.1P: `paths` of each"),
+        run.stderr.contains("PB754") && run.stderr.contains("for path 8001.1P: each [tool] with"),
         "{run}"
     );
     assert!(emitted("^8").stdout.contains("M3 S9000"));
@@ -341,7 +341,7 @@ fn a_program_without_its_number_is_an_error_on_controls_that_know_it_by_that() {
             let run =
                 place.run(&format!("verify {name} --dialect {post} --against 1234.1P --format concise"));
             assert_eq!(run.status, Some(i32::from(is_found)), "{run}");
-            assert_eq!(run.stderr.contains("the program has no number"), is_found, "{run}");
+            assert_eq!(run.stderr.contains("the program lacks its number"), is_found, "{run}");
         }
     }
 }
@@ -1255,7 +1255,7 @@ fn native_programs_without_a_path_or_for_two_tools_are_refused() {
     };
     for (first, second) in [(&slot, &mill), (&mill, &slot), (&mill, &wide)] {
         let run = joined(first, second);
-        assert!(run.status == Some(1) && run.stderr.contains("error[PB765] here begins"), "{run}");
+        assert!(run.status == Some(1) && run.stderr.contains("error[PB765] a program for the tool"), "{run}");
     }
     let run = joined(&mill, &other);
     assert!(!run.stderr.contains("PB765"), "{run}");

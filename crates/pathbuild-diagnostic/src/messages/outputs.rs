@@ -140,8 +140,8 @@ messages! {
     NUMBER_RESERVED: ProgramNumber {
         en: "{name} has the program number O{number}, but O9000 to O9999 are macros of the control, which are locked or would be overwritten",
         de: "{name} hat die Programmnummer O{number}, aber O9000 bis O9999 sind Makros der Steuerung, die gesperrt sind oder überschrieben würden",
-        help_en: "give the path another name, or set `program-number` in `post` of pathbuild.toml",
-        help_de: "dem Pfad einen anderen Namen geben oder `program-number` in `post` von pathbuild.toml setzen",
+        help_en: "give the path another name, or set `program-number` under [post] in pathbuild.toml",
+        help_de: "dem Pfad einen anderen Namen geben oder `program-number` unter [post] in pathbuild.toml setzen",
     }
     /// A joined program with the file name of a path's program.
     JOINED_LIKE_PATH: SameOutput {
@@ -237,7 +237,7 @@ messages! {
     }
     /// An error that prevents a program although the configuration lowers its severity.
     LOWERED_ERROR: LoweredError {
-        en: "nothing was written: {code} prevents the program even where pathbuild.toml ignores it or makes it a warning",
+        en: "nothing was written: {code} prevents writing the program even where pathbuild.toml ignores it or makes it a warning",
         de: "nichts wurde geschrieben: {code} verhindert das Programm auch dann, wenn pathbuild.toml diesen Fehler übergeht oder zur Warnung macht",
         help_en: "remove {code} from `[severity]` or `[[severity-in]]` to see where it is, and correct it",
         help_de: "{code} aus `[severity]` oder `[[severity-in]]` entfernen, um die Stelle zu sehen, und den Fehler beheben",

@@ -329,8 +329,8 @@ messages! {
     }
     /// Note: the beam may be on during a rapid move.
     BEAM_ON: PostDiffers {
-        en: "the beam is still on during this rapid move, and the post writes no Z that would raise it",
-        de: "der Strahl ist während dieses Eilgangs noch an, und der Postprozessor hebt ihn nicht ab: er schreibt kein Z",
+        en: "the beam is still on during this rapid move, and the post writes no Z that would raise the head",
+        de: "der Strahl ist während dieses Eilgangs noch an, und der Postprozessor schreibt kein Z, das den Kopf anheben würde",
     }
     /// Note: a move to another point than in the program.
     GOES_ELSEWHERE: PostDiffers {
@@ -399,13 +399,13 @@ messages! {
     }
     /// Note: absolute centres of arcs in an output without G90.1.
     CENTRES_NOT_STATED: PostDiffers {
-        en: "the post writes absolute centres for arcs, but no line says G90.1, without which controls count I and J from the start of the arc: write G90.1 before the first arc (in a .cbpp with the macro $arccentermode), or centres relative to the arc's start",
-        de: "der Postprozessor schreibt absolute Bogenmittelpunkte, aber keine Zeile sagt G90.1; ohne das zählen Steuerungen I und J vom Anfang des Bogens: vor dem ersten Bogen G90.1 schreiben (in einer .cbpp mit dem Makro $arccentermode), oder Mittelpunkte relativ zum Bogenanfang",
+        en: "the post writes absolute centres for arcs, but G90.1 is missing, without which controls count I and J from the start of the arc: write G90.1 before the first arc (in a .cbpp with the macro $arccentermode), or write centres relative to the arc's start",
+        de: "der Postprozessor schreibt absolute Bogenmittelpunkte, aber G90.1 fehlt, und ohne G90.1 zählen Steuerungen I und J vom Anfang des Bogens: vor dem ersten Bogen G90.1 schreiben (in einer .cbpp mit dem Makro $arccentermode), oder Mittelpunkte relativ zum Bogenanfang schreiben",
     }
     /// A tool length in the output that does not come from an entry of the tool table, such as that of G43.1.
     LENGTH_CHOSEN: DoubtfulPost {
-        en: "the output applies a tool length with {word}, and whether it is that of the tool is not known",
-        de: "die Ausgabe setzt mit {word} eine Werkzeuglänge, und ob es die des Werkzeugs ist, ist nicht bekannt",
+        en: "the output applies a tool length with {word}, but it is not known whether this is the length of the tool",
+        de: "die Ausgabe setzt mit {word} eine Werkzeuglänge, es ist aber nicht bekannt, ob das die Länge des Werkzeugs ist",
         help_en: "write G43 with the tool's number as H, or check the length at the machine",
         help_de: "G43 mit der Nummer des Werkzeugs als H schreiben oder die Länge an der Maschine prüfen",
     }

@@ -66,8 +66,8 @@ messages! {
     }
     /// `verify --against`: additional moves at the end.
     NOT_DRAWN: MovesDiffer {
-        en: "the drawing has no such move: the tool goes to {found}",
-        de: "die Zeichnung hat keine solche Bewegung: das Werkzeug fährt nach {found}",
+        en: "the drawing's program ends before this move, but here the tool goes on to {found}",
+        de: "das Programm der Zeichnung endet vor dieser Bewegung, hier fährt das Werkzeug aber noch nach {found}",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -145,8 +145,8 @@ messages! {
     LENGTHS_DIFFER: MovesDiffer {
         en: "the tool length in effect is not that of the tool in the spindle",
         de: "es gilt nicht die Länge des eingewechselten Werkzeugs",
-        help_en: "write G43 H with the number of the tool in the spindle; native programs have no G43",
-        help_de: "G43 H mit der Nummer des mit M6 eingewechselten Werkzeugs schreiben; in nativen Programmen steht kein G43",
+        help_en: "write G43 H with the number of the tool in the spindle; in a native program, remove G43",
+        help_de: "G43 H mit der Nummer des mit M6 eingewechselten Werkzeugs schreiben; aus einem nativen Programm G43 entfernen",
     }
     /// `verify --against`: a spindle direction or speed other than that for the drawing's cutter.
     SPINDLES_DIFFER: MovesDiffer {

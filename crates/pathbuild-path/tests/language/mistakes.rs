@@ -157,7 +157,7 @@ fn a_variable_that_no_path_defines_is_not_recommended() {
     let found =
         |start: &str| messages_with_help(&compile(&path(start, "mill 0,0 20,0 \"B=X\"\nend 20,0")).found);
     assert_one(&found("T5 O3 I1"), "PB303 ", "for example :A-0.5~1.2 for =A");
-    assert!(found("T5 O3 I1 :A0~1").concat().contains("start marker defines A; a reference is ="));
+    assert!(found("T5 O3 I1 :A0~1").concat().contains("start marker defines (A); a reference is ="));
     let number = messages_with_help(&compile(&path("T5 O3 I1", "mill 0,0 20,0 \"B=2\"\nend 20,0")).found);
     assert!(number.concat().contains("write \"B2\" for the number"), "{number:?}");
     let definition =

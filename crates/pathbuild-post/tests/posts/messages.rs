@@ -266,7 +266,7 @@ fn absolute_centres_must_be_stated_in_both_languages() {
     for post in [cbpp("", "Absolute"), toml("", absolute), toml("G91.1", absolute)] {
         for dialect in ["", "linuxcnc"] {
             let found = result(post.clone(), dialect).unwrap_err();
-            assert!(found.1.iter().any(|note| note.contains("no line says G90.1")), "{found:?}");
+            assert!(found.1.iter().any(|note| note.contains("but G90.1 is missing")), "{found:?}");
         }
     }
     for post in [
