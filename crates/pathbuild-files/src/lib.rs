@@ -35,7 +35,7 @@ pub trait System: Debug + Send + Sync {
     ///
     /// # Errors
     /// If there is no such regular file, it cannot be read, or it has more bytes than `limit`. The content of the buffer is then undefined.
-    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError>;
+    fn read_into(&self, path: &Utf8Path, limit: u64, buffer: &mut Vec<u8>) -> Result<Stamp, ReadError>;
 
     /// Reads a whole file of at most `limit` bytes.
     ///
@@ -66,7 +66,7 @@ pub trait System: Debug + Send + Sync {
     /// Calls `take` for each entry of a directory, in no particular order, until `take` asks to stop. Links are not resolved.
     ///
     /// # Errors
-    /// The errors of [`read`](Self::read), possibly after some entries.
+    /// The errors of [`read`](Self::read), possibly after `take` was called for some entries.
     fn each_entry(
         &self,
         directory: &Utf8Path,

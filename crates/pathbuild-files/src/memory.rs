@@ -35,9 +35,9 @@ impl MemorySystem {
 }
 
 impl System for MemorySystem {
-    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+    fn read_into(&self, path: &Utf8Path, limit: u64, buffer: &mut Vec<u8>) -> Result<Stamp, ReadError> {
         let files = self.files();
-        copy_limited(files.get(path).ok_or(ReadError::Missing)?, limit, room)
+        copy_limited(files.get(path).ok_or(ReadError::Missing)?, limit, buffer)
     }
 
     fn list(&self, directory: &Utf8Path) -> Result<Listing, ReadError> {
@@ -82,13 +82,13 @@ impl System for MemorySystem {
 }
 
 /// Copies the content of a file into a buffer. Returns an unknown stamp, because files in memory have none.
-fn copy_limited(bytes: &[u8], limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+fn copy_limited(bytes: &[u8], limit: u64, buffer: &mut Vec<u8>) -> Result<Stamp, ReadError> {
     let size = bytes.len() as u64;
     if size > limit {
         return Err(ReadError::TooLarge { size });
     }
-    room.clear();
-    room.extend_from_slice(bytes);
+    buffer.clear();
+    buffer.extend_from_slice(bytes);
     Ok(Stamp::UNKNOWN)
 }
 
@@ -122,11 +122,11 @@ impl OverlaySystem {
 }
 
 impl System for OverlaySystem {
-    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+    fn read_into(&self, path: &Utf8Path, limit: u64, buffer: &mut Vec<u8>) -> Result<Stamp, ReadError> {
         if path == self.path {
-            copy_limited(&self.bytes, limit, room)
+            copy_limited(&self.bytes, limit, buffer)
         } else {
-            self.below.read_into(path, limit, room)
+            self.below.read_into(path, limit, buffer)
         }
     }
 

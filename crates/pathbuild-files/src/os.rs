@@ -28,10 +28,10 @@ impl OsSystem {
 }
 
 impl System for OsSystem {
-    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+    fn read_into(&self, path: &Utf8Path, limit: u64, buffer: &mut Vec<u8>) -> Result<Stamp, ReadError> {
         let file = open(path)?;
         let before = Stamp::of_open(&file);
-        read_whole(&file, limit, room)?;
+        read_whole(&file, limit, buffer)?;
         Ok(if Stamp::of_open(&file) == before { before } else { Stamp::UNKNOWN })
     }
 
@@ -60,7 +60,7 @@ impl System for OsSystem {
             if is_temporary(name, |name| !name.is_empty()) {
                 temporary.push(directory.join(name));
             }
-            // A link is listed as its target is; a dangling link is listed as a file, which then cannot be read.
+            // The type of a link is that of its target; a dangling link is listed as a file, which then cannot be read.
             let is_directory = match kind {
                 EntryKind::Directory => true,
                 EntryKind::Link => fs::metadata(directory.join(name)).is_ok_and(|data| data.is_dir()),

@@ -3,7 +3,8 @@
 
 use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 
-/// Returns a path with `/` as the separator. Paths that begin with `\\?\` are left alone: in these, Windows treats `/` as an ordinary character.
+/// On Windows, returns a path with `/` as the separator. Paths that begin with `\\?\` stay unchanged: in these, Windows treats `/` as an ordinary
+/// character. On other systems, all paths stay unchanged, because a backslash may be part of a name.
 pub fn with_forward_slashes(path: Utf8PathBuf) -> Utf8PathBuf {
     if cfg!(windows) { replace_backslashes(path) } else { path }
 }
@@ -18,7 +19,8 @@ pub fn is_drawing(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
 }
 
-/// Whether an entry of a directory is hidden, as files of file managers, version control and interrupted transfers are.
+/// Whether a file or directory of this name is hidden: the name begins with a dot. File managers, version control and interrupted transfers leave
+/// such files behind.
 pub fn is_hidden(name: &str) -> bool {
     name.starts_with('.')
 }
@@ -32,8 +34,8 @@ pub fn join(directory: &Utf8Path, name: impl AsRef<Utf8Path>) -> Utf8PathBuf {
     with_forward_slashes(path)
 }
 
-/// Removes `.` and `..` and normalises separators, without resolving links, so that a linked drawing belongs to the directory where it
-/// appears.
+/// Removes `.`, removes `..` together with the name before it, and normalises separators. Links are not resolved, so that a linked drawing belongs to
+/// the directory where it appears. A `..` at the beginning of a relative path remains.
 pub fn clean(path: &Utf8Path) -> Utf8PathBuf {
     let mut clean = Utf8PathBuf::new();
     for component in path.components() {

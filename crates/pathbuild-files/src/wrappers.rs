@@ -91,7 +91,8 @@ impl ConfinedSystem {
         self.real(path).is_none_or(|real| real.is_ok_and(|target| target.starts_with(&root.real)))
     }
 
-    /// Returns the path with links resolved. If nothing exists at the path yet, resolves the nearest existing parent directory instead.
+    /// Returns the path with links resolved. If nothing exists at the path yet, resolves the nearest existing parent directory instead; `None` if no
+    /// parent exists.
     fn real(&self, path: &Utf8Path) -> Option<io::Result<Utf8PathBuf>> {
         let path = self.working_directory.join(path);
         let mut ancestors = path.ancestors();
@@ -117,8 +118,8 @@ impl ConfinedSystem {
 }
 
 impl System for ConfinedSystem {
-    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
-        self.check_allowed(path)?.read_into(path, limit, room)
+    fn read_into(&self, path: &Utf8Path, limit: u64, buffer: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+        self.check_allowed(path)?.read_into(path, limit, buffer)
     }
 
     fn read_head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
@@ -186,8 +187,8 @@ impl BasedSystem {
 }
 
 impl System for BasedSystem {
-    fn read_into(&self, path: &Utf8Path, limit: u64, room: &mut Vec<u8>) -> Result<Stamp, ReadError> {
-        self.below.read_into(&self.resolve(path), limit, room)
+    fn read_into(&self, path: &Utf8Path, limit: u64, buffer: &mut Vec<u8>) -> Result<Stamp, ReadError> {
+        self.below.read_into(&self.resolve(path), limit, buffer)
     }
 
     fn read_head(&self, path: &Utf8Path, length: usize) -> Result<Vec<u8>, ReadError> {
