@@ -27,15 +27,15 @@ fn build_id() -> u128 {
         "CARGO_CFG_TARGET_FEATURE",
         "RUSTC_VERSION",
     ] {
-        hash = with(hash, std::env::var(variable).unwrap_or_default().as_bytes());
+        hash = add_to_hash(hash, std::env::var(variable).unwrap_or_default().as_bytes());
     }
     let compiler = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let version = std::process::Command::new(compiler).arg("-vV").output();
-    hash = with(hash, &version.map(|output| output.stdout).unwrap_or_default());
+    hash = add_to_hash(hash, &version.map(|output| output.stdout).unwrap_or_default());
     for file in &files {
         let name = file.strip_prefix(&workspace).unwrap_or(file);
-        hash = with(hash, name.to_string_lossy().as_bytes());
-        hash = with(hash, &fs::read(file).unwrap_or_default());
+        hash = add_to_hash(hash, name.to_string_lossy().as_bytes());
+        hash = add_to_hash(hash, &fs::read(file).unwrap_or_default());
     }
     hash
 }
@@ -46,12 +46,12 @@ fn workspace_files(workspace: &Path) -> Vec<PathBuf> {
     for name in CRATES {
         let directory = workspace.join("crates").join(name);
         files.push(directory.join("Cargo.toml"));
-        sources(&directory.join("src"), &mut files);
+        add_files(&directory.join("src"), &mut files);
         println!("cargo:rerun-if-changed={}", directory.join("src").display());
     }
     // Setup sheets use these fonts.
     let fonts = workspace.join("crates/pathbuild-view/fonts");
-    sources(&fonts, &mut files);
+    add_files(&fonts, &mut files);
     println!("cargo:rerun-if-changed={}", fonts.display());
     println!("cargo:rerun-if-changed={}", workspace.join("Cargo.lock").display());
     files.sort();
@@ -74,11 +74,11 @@ const CRATES: [&str; 12] = [
     "pathbuild-workspace",
 ];
 
-fn sources(directory: &Path, files: &mut Vec<PathBuf>) {
+fn add_files(directory: &Path, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(directory).into_iter().flatten().filter_map(Result::ok) {
         let path = entry.path();
         if path.is_dir() {
-            sources(&path, files);
+            add_files(&path, files);
         } else {
             files.push(path);
         }
@@ -89,7 +89,7 @@ const FNV_BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
 const FNV_PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 
 /// Adds some bytes and their length to an FNV-1a hash. Collisions need not be prevented: an attacker could edit the cache itself.
-fn with(hash: u128, bytes: &[u8]) -> u128 {
+fn add_to_hash(hash: u128, bytes: &[u8]) -> u128 {
     let length = bytes.len().to_le_bytes();
     bytes.iter().chain(&length).fold(hash, |hash, byte| (hash ^ u128::from(*byte)).wrapping_mul(FNV_PRIME))
 }

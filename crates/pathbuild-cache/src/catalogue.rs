@@ -1,4 +1,4 @@
-//! Data structures for cached results and the inputs that they depend on, and their encoding. (`postcard`)
+//! Data structures for cached results and the inputs that they depend on, and their encoding in the `postcard` format.
 
 use camino::Utf8PathBuf;
 use pathbuild_files::Stamp;
@@ -24,10 +24,10 @@ pub struct Catalogue {
 pub struct FileFact {
     /// Path of the file, spelled as in the run that read or wrote it.
     pub path: Utf8PathBuf,
-    /// The file's metadata at a moment when it had the content of `hash`; [`Stamp::UNKNOWN`] if there is no such stamp to be trusted.
+    /// The file's metadata at a moment when it had the content of `hash`; [`Stamp::UNKNOWN`] if no stamp identifies that content reliably.
     pub stamp: Stamp,
     /// The blake3 hash of the bytes that were read; for an output, of the bytes that it should have, without the parts that users may edit. `None` if
-    /// the file could not be read, or if it is unclear which of its contents the results are of.
+    /// the file could not be read, or if its content changed and it is unclear which content led to the results.
     pub hash: Option<[u8; 32]>,
 }
 
@@ -62,7 +62,7 @@ pub struct Record {
     pub payload: Vec<u8>,
 }
 
-/// A search in directories for the files that may contain the path of this name.
+/// A search in directories for the files that may contain a path with a given name.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Lookup {
     /// Index into [`Catalogue::directory_lists`].

@@ -107,7 +107,7 @@ impl TreeStore {
     /// Creates the directory, and the tag that keeps it out of backups. Returns whether the directory is new.
     ///
     /// # Errors
-    /// If the directory cannot be created.
+    /// If the directory or a file in it cannot be created, or if an existing tag cannot be read.
     pub fn create(&self) -> io::Result<bool> {
         let is_new = private::make_directory(&self.directory)?;
         let tag = private::read(&self.directory.join(TAG_FILE), MAX_TAG_BYTES);
@@ -221,10 +221,10 @@ impl TreeStore {
 }
 
 impl CacheLocation {
-    /// Removes the results of trees that no longer exist. Returns the number of trees.
+    /// Removes the results of trees that no longer exist. Returns the number of these trees, which is 0 for a directory that the user named.
     ///
     /// # Errors
-    /// If the results of a tree cannot be removed.
+    /// If the results of a tree cannot be removed. Those of the other trees are removed nevertheless.
     pub fn prune(&self) -> Result<usize, RemoveError> {
         let Self::User(caches) = self else { return Ok(0) };
         let (mut removed, mut not_removed) = (0, None);

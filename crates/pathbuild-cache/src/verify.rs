@@ -25,7 +25,7 @@ pub type StampedBytes = (Vec<u8>, Stamp);
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// For each record, whether it was requested and is still valid; missing outputs do not matter.
-    pub holds: Vec<bool>,
+    pub is_valid: Vec<bool>,
     /// For each record, requested or not, whether no input is known to have changed.
     pub is_sound: Vec<bool>,
     /// State of each file of the catalogue.
@@ -74,15 +74,16 @@ pub fn verify(catalogue: &Catalogue, context: VerifyContext<'_>, mut listings: L
     } else {
         sound_records(catalogue, &files, &changes, context.covers)
     };
-    let holds = is_requested
+    let is_valid = is_requested
         .iter()
         .zip(&is_sound)
         .map(|(is_requested, is_sound)| *is_requested && *is_sound)
         .collect();
-    Verdict { holds, is_sound, files, directories, is_current }
+    Verdict { is_valid, is_sound, files, directories, is_current }
 }
 
-/// Determines the states of the files of the requested records. Querying the metadata of ten thousand files takes most of a run without changes.
+/// Determines the states of the files of the requested records, in parallel: querying the metadata of ten thousand files takes most of a run without
+/// changes.
 fn file_states(catalogue: &Catalogue, is_requested: &[bool], context: VerifyContext<'_>) -> Vec<FileState> {
     let mut roles = vec![FileRole::None; catalogue.files.len()];
     let requested = catalogue.records.iter().zip(is_requested).filter(|(_, is_requested)| **is_requested);

@@ -137,10 +137,10 @@ fn a_file_that_has_not_rested_is_compared_by_its_bytes() {
     let snapshot = catalogue(&base, stamp, b"one");
     let verdict = verify(&snapshot, &base, &covers);
     let expected = (FileState::Touched(Stamp::of(&file)), true, false);
-    assert_eq!((verdict.files[0], verdict.holds[0], verdict.is_current), expected);
+    assert_eq!((verdict.files[0], verdict.is_valid[0], verdict.is_current), expected);
     // The new content has the same size, and is perhaps written within the same tick of the clock.
     fs::write(&file, "two").unwrap();
-    assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
+    assert_eq!(verify(&snapshot, &base, &covers).is_valid, [false]);
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn a_file_that_has_rested_is_known_by_its_stamp() {
     fs::write(&file, "one").unwrap();
     assert_eq!(verify(&snapshot, &base, &covers).files, [FileState::Touched(Stamp::of(&file))]);
     fs::remove_file(&file).unwrap();
-    assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
+    assert_eq!(verify(&snapshot, &base, &covers).is_valid, [false]);
 }
 
 /// Setting a file's time back must not make a new file look old: the stamp belongs to the bytes that were read.
@@ -192,9 +192,9 @@ fn only_names_that_may_hold_what_was_looked_for_are_an_answer() {
     let snapshot = catalogue(&base, Stamp::UNKNOWN, b"one");
     fs::write(base.join("5678.dxf"), "").unwrap();
     fs::write(base.join("1234.txt"), "").unwrap();
-    assert_eq!(verify(&snapshot, &base, &covers).holds, [true]);
+    assert_eq!(verify(&snapshot, &base, &covers).is_valid, [true]);
     fs::write(base.join("1234 gear.DXF"), "").unwrap();
-    assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
+    assert_eq!(verify(&snapshot, &base, &covers).is_valid, [false]);
 }
 
 #[cfg(unix)]
@@ -204,7 +204,7 @@ fn where_links_decide_what_is_what_everything_is_asked_again() {
     fs::write(base.join("a.dxf"), "one").unwrap();
     let snapshot = catalogue(&base, Stamp::UNKNOWN, b"one");
     std::os::unix::fs::symlink("a.dxf", base.join("5678.dxf")).unwrap();
-    assert_eq!(verify(&snapshot, &base, &covers).holds, [false]);
+    assert_eq!(verify(&snapshot, &base, &covers).is_valid, [false]);
 }
 
 /// A result holds even if its output files have changed. Files of results that are not requested are not verified.
@@ -234,9 +234,9 @@ fn outputs_are_looked_at_with_the_records_that_are_asked_for() {
     let states = || pathbuild_cache::verify(&snapshot, context, Listings::new());
     let restored = |name: &str| FileState::Touched(Stamp::of(&base.join(name)));
     assert_eq!(states().files, [restored("a.dxf"), restored("a.gcode"), FileState::Unchecked]);
-    assert_eq!(states().holds, [true, false]);
+    assert_eq!(states().is_valid, [true, false]);
     fs::write(base.join("a.gcode"), "two").unwrap();
-    assert_eq!((states().files[1], states().holds[0]), (FileState::Changed, true));
+    assert_eq!((states().files[1], states().is_valid[0]), (FileState::Changed, true));
     let people = VerifyContext { hash_output: &|_, _| *blake3::hash(b"one").as_bytes(), ..context };
     assert_eq!(pathbuild_cache::verify(&snapshot, people, Listings::new()).files[1], restored("a.gcode"));
 }
@@ -338,7 +338,7 @@ fn numbers_out_of_bounds_are_refused() {
                     let catalogue = catalogue.unwrap();
                     let verdict =
                         pathbuild_cache::verify(&catalogue, context(&base, &covers), Listings::new());
-                    assert_eq!(verdict.holds.len(), catalogue.records.len());
+                    assert_eq!(verdict.is_valid.len(), catalogue.records.len());
                     for record in 0..catalogue.records.len() {
                         pathbuild_cache::reasons(&catalogue, &verdict, record, &covers);
                     }
@@ -358,7 +358,7 @@ fn a_directory_that_was_listed_is_not_listed_again() {
     let holds = |names: &[&str], is_doubtful| {
         let names = names.iter().map(|name| (*name).into()).collect();
         let listings = Listings::from([(base.clone(), Listing { names, is_doubtful, ..Listing::default() })]);
-        pathbuild_cache::verify(&snapshot, context(&base, &covers), listings).holds[0]
+        pathbuild_cache::verify(&snapshot, context(&base, &covers), listings).is_valid[0]
     };
     assert!(holds(&["a.dxf"], false));
     assert!(holds(&["5678.dxf", "a.dxf"], false));

@@ -86,8 +86,8 @@ impl Baseline {
         self.entries.is_empty()
     }
 
-    /// Whether a baseline may accept a finding. Errors that say that something was not checked are never accepted: those of a file, of a directory and
-    /// of a limit, and those about the arguments, which name no file.
+    /// Whether a baseline may accept a finding. Errors because of which something was not checked are never accepted: unreadable files, an invalid
+    /// configuration, empty searches, exceeded limits, and errors that name no file, such as those about the arguments.
     pub fn may_accept(finding: &Diagnostic) -> bool {
         let is_unchecked = match finding.code() {
             Code::UnreadableFile => true,
@@ -189,7 +189,8 @@ impl Baseline {
     /// Returns the fingerprints of the findings, in the order of the findings. `base` is the directory that the findings' file names are relative to.
     fn keys(&self, findings: &[Diagnostic], base: &Utf8Path) -> Vec<FindingKey> {
         let place = |file: &Utf8Path| match self.name_below(file, base) {
-            // Different programs often have the same name. A drawing's findings stay the same when it is moved.
+            // Programs in different directories often have the same name, so the directory counts. For drawings it does not, so that their entries
+            // still match after a drawing is moved.
             Some(below) if !is_drawing(file) => format!("./{below}"),
             _ => file.file_name().unwrap_or_default().to_owned(),
         };
@@ -204,7 +205,8 @@ impl Baseline {
         keys.map(key).collect()
     }
 
-    /// Returns the path of a file from the directory of the baseline, with slashes; `None` if the file is outside of it.
+    /// Returns the path of a file relative to the directory of the baseline, with slashes; `None` if the file is outside of it. `file` is relative to
+    /// `base`.
     fn name_below(&self, file: &Utf8Path, base: &Utf8Path) -> Option<String> {
         let directory = clean(self.file.parent().unwrap_or(base));
         let full = clean(&base.join(file));
@@ -212,7 +214,7 @@ impl Baseline {
     }
 
     /// Returns the entries for a finding; the last one applies. A fingerprint that contains only the name of a file could be that of another file, so
-    /// an entry with it applies to the file that its description names, or, once that one is missing, to a file of the same name.
+    /// an entry with it applies to the file that its description names, or, if that file no longer exists, to any file of the same name.
     fn entries(&self, diagnostic: &Diagnostic, key: &FindingKey, workspace: &Workspace) -> Vec<&Entry> {
         let find = |fingerprint: &String| self.entries.get(fingerprint).into_iter().flatten();
         let Some(file) = &diagnostic.file else { return find(&key.fingerprint).collect() };
@@ -322,7 +324,7 @@ impl Workspace {
         }
         let mut coverage = coverage();
         if !findings.diagnostics.iter().all(Baseline::may_accept) {
-            // Files may be missing only because their directory is.
+            // Something was not checked, so a file that was not found may still exist: only the checked files count as covered.
             coverage = Coverage { files: coverage.files, ..Coverage::default() };
         }
         let mut unused = self.unused_waivers(&findings, &coverage);
@@ -384,8 +386,8 @@ impl Entry {
         }
     }
 
-    /// Returns the depth up to which the entry accepts a finding. Versions up to 0.2.0 wrote that of a cut into a part only in the description, and
-    /// whether it was a warning depended on it.
+    /// Returns the depth up to which the entry accepts a finding. Versions up to 0.2.0 wrote the depth of a cut into a part only in the description.
+    /// It must not be ignored, because it decided whether the finding was a warning.
     fn accepted_depth(&self) -> Option<f64> {
         let described = || {
             let (depth, _) = self.description.split_once(" mm into the part")?;
@@ -410,9 +412,9 @@ const HEADER_TEXT: &str = "\
 # Only the fingerprint at the beginning of a line counts, with until=DATE and reason=\"TEXT\" after it; the rest describes the finding.
 ";
 
-/// Returns the measure in mm by which a finding can become worse at the same place, rounded up to 0.01 mm: the depth of the tool in the material, in a
-/// part or in a clamp, the way beyond the machine's travel, the lost part of a support bar, the material that remains at a part, or the excess over
-/// the length of the cutting edges. `None` for other findings.
+/// Returns the measure in mm by which a finding can become worse at the same place, rounded up to 0.01 mm: the depth of the tool in the material, in
+/// a part or in a clamp, the distance beyond the machine's travel, the lost part of a support bar, the material that remains at a part, or the excess
+/// over the length of the cutting edges. `None` for other findings.
 fn depth(diagnostic: &Diagnostic) -> Option<f64> {
     let number = |name| Some(diagnostic.argument(name)?.number()?.0);
     let depth = match diagnostic.code() {
@@ -441,7 +443,8 @@ fn rounded_up(depth: f64) -> f64 {
     ((depth * 1000.0).round() / 10.0).ceil() / 100.0
 }
 
-/// Whether entries for a finding with this code must state its depth. For other findings, versions up to 0.2.0 wrote no depth.
+/// Whether entries for a finding with this code must state its depth. Entries for other findings may lack it, because versions up to 0.2.0 did not
+/// write it.
 fn must_state_depth(code: Code) -> bool {
     matches!(
         code,
@@ -510,8 +513,8 @@ fn entry(line: &str) -> Result<(&str, Entry), LineFault> {
     }
 }
 
-/// Returns the message about a word that begins with the name of a field, but is none, such as `until:2026-12-31`. Otherwise it would pass for the
-/// beginning of the description, and the waiver would never end.
+/// Returns the message about a word that begins with the name of a field but is not a valid field, such as `until:2026-12-31`. Without this check,
+/// the word would count as the beginning of the description, and the waiver would never end.
 fn misspelt_field(word: &str) -> Option<&'static Message> {
     let name = word.split(['=', ':']).next().unwrap_or_default();
     let fields = [

@@ -47,7 +47,8 @@ pub struct CheckOutcome {
     pub diagnostics: Vec<Diagnostic>,
     /// The checked drawings, sorted by path.
     pub files: Vec<CheckedFile>,
-    /// The checked drawings whose findings are all known. Those of an unchanged drawing may be in results that are not shown.
+    /// The checked drawings all of whose findings are in `diagnostics`. If only changed drawings are shown, findings of an unchanged drawing may
+    /// belong to results that are left out.
     pub covered: Vec<Utf8PathBuf>,
 }
 
@@ -74,8 +75,8 @@ impl CheckTarget {
 }
 
 impl Request<'_> {
-    /// Runs the check. Results are taken from the cache if they still hold, and new ones are stored. The session must trace inputs if results are to
-    /// be cached, or if they are limited to changed drawings.
+    /// Runs the check. Results are taken from the cache if they are still valid, and new ones are stored. The session must trace inputs if results
+    /// are to be cached, or if they are limited to changed drawings.
     ///
     /// # Errors
     /// If the request is limited to changed drawings and the inputs are not all directories.
@@ -121,7 +122,7 @@ impl Request<'_> {
         matches: &ArgumentMatches,
         memo: &Memo,
     ) -> Result<CheckOutcome, Failure> {
-        let Results { selection, named, each } =
+        let Results { selection, named, selected } =
             session.with_stable_files(|session| self.check_or_take_cached(session, matches, memo));
         if self.changed.is_some() && !(selection.named.is_empty() && selection.paths.is_empty()) {
             // A drawing that depends on a changed one is only found if whole directories are checked.
@@ -132,33 +133,33 @@ impl Request<'_> {
             return Err(Failure::Usage(reason.to_owned()));
         }
         let q_projects = session.with_stable_files(|session| compare_q_projects(session, memo, &selection));
-        let answers = named.iter().chain(&each).chain(&q_projects);
+        let answers = named.iter().chain(&selected).chain(&q_projects);
         session
             .timings
             .measure(&STORING_RESULTS, || memo.store_results(session, answers.filter_map(Answer::fresh)));
         let past = self.changes_since(session, matches);
-        let filter = ChangeFilter::new(session, memo, past, each.iter().chain(&q_projects));
+        let filter = ChangeFilter::new(session, memo, past, selected.iter().chain(&q_projects));
         let mut checked = CheckOutcome { diagnostics: matches.problems.clone(), ..CheckOutcome::default() };
         checked.diagnostics.extend(selection.problems);
         checked.diagnostics.extend(unused_configurations(session, &selection.below));
         if !session.is_compatible() {
-            let named = each.iter().skip(selection.drawings.len()).take(selection.named.len());
+            let named = selected.iter().skip(selection.drawings.len()).take(selection.named.len());
             checked.diagnostics.extend(named.filter_map(|answer| {
                 session.no_path(answer.drawing(), &answer.value.names, &answer.value.diagnostics)
             }));
         }
         if !checked.diagnostics.iter().any(Diagnostic::is_error) {
-            let parts = each.iter().map(|answer| answer.value.parts());
+            let parts = selected.iter().map(|answer| answer.value.parts());
             checked.diagnostics.extend(session.no_path_anywhere(parts));
         }
-        checked.diagnostics.extend(second_definitions(session, &each, &filter));
+        checked.diagnostics.extend(second_definitions(session, &selected, &filter));
         if self.inputs.inputs.is_empty() {
-            let results = each.iter().map(|answer| &answer.value);
+            let results = selected.iter().map(|answer| &answer.value);
             checked.diagnostics.extend(patterns_without_layer(session, results));
-            let drawings = each.iter().map(Answer::drawing);
+            let drawings = selected.iter().map(Answer::drawing);
             checked.diagnostics.extend(globs_without_file(session, drawings));
         }
-        for answer in each.into_iter().filter(|answer| filter.contains(answer)) {
+        for answer in selected.into_iter().filter(|answer| filter.contains(answer)) {
             let (file, DrawingResult { names, diagnostics, .. }) =
                 (answer.drawing().to_owned(), answer.value);
             checked.covered.extend(filter.knows_all_findings(&file).then(|| file.clone()));
@@ -196,8 +197,8 @@ impl Request<'_> {
             let checked = check_drawings(session, &paths, self.with_all_values);
             checked.into_iter().map(|(result, traces)| result.with_inputs(traces)).collect()
         };
-        let each = memo.get_or(&targets, CheckTarget::subject, |_, result| Some(result), check);
-        Results { selection, named, each }
+        let selected = memo.get_or(&targets, CheckTarget::subject, |_, result| Some(result), check);
+        Results { selection, named, selected }
     }
 
     /// Returns the earlier state with which drawings are compared. `None` if all drawings are selected, because the request does not ask for changed
@@ -222,7 +223,7 @@ struct Results {
     /// Results of the drawings that may define a path named in the arguments.
     named: Vec<Answer<DrawingResult>>,
     /// Results of the drawings and paths that the arguments select.
-    each: Vec<Answer<DrawingResult>>,
+    selected: Vec<Answer<DrawingResult>>,
 }
 
 /// Returns the targets to check: each drawing as a whole, and the drawings that define individually named paths, unless these are checked as a
@@ -271,15 +272,15 @@ fn compare_q_projects(
 /// Returns PB504 for each path that two of the checked drawings define, if the filter selects either drawing.
 fn second_definitions(
     session: &Session<'_>,
-    each: &[Answer<DrawingResult>],
+    selected: &[Answer<DrawingResult>],
     filter: &ChangeFilter<'_>,
 ) -> Vec<Diagnostic> {
-    let drawings = each.iter().map(|answer| (answer.drawing(), &*answer.value.names));
+    let drawings = selected.iter().map(|answer| (answer.drawing(), &*answer.value.names));
     let found = pathbuild_db::second_definitions(session.db(), drawings);
     if found.is_empty() {
         return Vec::new();
     }
-    let shown = each.iter().filter(|answer| filter.contains(answer)).map(Answer::drawing);
+    let shown = selected.iter().filter(|answer| filter.contains(answer)).map(Answer::drawing);
     let shown: HashSet<&Utf8Path> = shown.collect();
     let found = found.iter().filter(|found| found.files.iter().any(|file| shown.contains(&**file)));
     found.map(SecondDefinition::diagnostic).collect()
@@ -494,7 +495,8 @@ impl<'a> ChangeFilter<'a> {
         inputs.is_none_or(|inputs| changed.affects(&inputs))
     }
 
-    /// Whether all results with findings of a drawing pass, because they depend on a change of it.
+    /// Whether every result that may contain findings of this drawing passes the filter. If the drawing has changed, they all do, because they depend
+    /// on the drawing.
     fn knows_all_findings(&self, drawing: &Utf8Path) -> bool {
         self.changed.as_ref().is_none_or(|changed| changed.files.contains(drawing))
     }

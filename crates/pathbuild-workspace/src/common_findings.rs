@@ -39,11 +39,11 @@ pub(crate) fn unused_configurations(session: &Session<'_>, directories: &[Utf8Pa
     files.filter(is_unused).map(warning).collect()
 }
 
-/// The numbers of macros on controls with program numbers.
+/// The program numbers that controls with numbered programs reserve for macros.
 const MACRO_NUMBERS: RangeInclusive<u32> = 9000..=9999;
 
-/// Returns PB530 for programs with the same number, and for numbers of macros. Each program is given by its number, its name, and the file of its
-/// finding.
+/// Returns PB530 for programs with the same number, and for programs with a number that is reserved for macros. Each program is given by its number,
+/// its name, and the file to which its finding refers.
 pub(crate) fn number_warnings(programs: &[(u32, String, Utf8PathBuf)]) -> Vec<Diagnostic> {
     let mut by_number: BTreeMap<u32, Vec<&(u32, String, Utf8PathBuf)>> = BTreeMap::new();
     for program in programs {
@@ -104,15 +104,15 @@ pub(crate) fn globs_without_file<'a>(
     if open.is_empty() {
         return Vec::new();
     }
-    let library: Vec<String> = library.map(|drawing| severities.configured(drawing)).collect();
+    let library: Vec<String> = library.map(|drawing| severities.configured_name(drawing)).collect();
     open.retain(|(_, glob)| !library.iter().any(|drawing| glob.matches(drawing)));
     if open.is_empty() {
         return Vec::new();
     }
     let found = session.drawings_and_programs_below(directory);
     let has_programs = found.iter().any(|file| files::is_program(file));
-    let found: Vec<String> = found.iter().map(|file| severities.configured(file)).collect();
-    let out_dir = session.out_dir().map(|directory| severities.configured(&directory));
+    let found: Vec<String> = found.iter().map(|file| severities.configured_name(file)).collect();
+    let out_dir = session.out_dir().map(|directory| severities.configured_name(&directory));
     let is_for_programs = |glob: &Pattern| {
         let is_in_out_dir = |directory: &String| glob.text().starts_with(directory.as_str());
         files::is_program(Utf8Path::new(glob.text())) || out_dir.as_ref().is_some_and(is_in_out_dir)

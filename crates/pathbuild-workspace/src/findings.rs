@@ -93,9 +93,10 @@ impl Workspace {
         let severities = self.severities();
         let found: Vec<(Code, String)> = findings
             .all()
-            .filter_map(|found| Some((found.code(), severities.configured(found.file.as_deref()?))))
+            .filter_map(|found| Some((found.code(), severities.configured_name(found.file.as_deref()?))))
             .collect();
-        let covered: Vec<String> = coverage.files.iter().map(|file| severities.configured(file)).collect();
+        let covered: Vec<String> =
+            coverage.files.iter().map(|file| severities.configured_name(file)).collect();
         let entries = self.settings.tables.severity_in.value.iter().filter(|entry| entry.waiver.is_stated());
         let is_covered = |pattern: &Pattern| match pattern.literal() {
             Some(file) if covered.iter().any(|covered| covered == file) => true,
@@ -192,7 +193,7 @@ impl Severities<'_> {
     pub(crate) fn apply_severity(&self, diagnostic: Diagnostic) -> Verdict {
         let code = diagnostic.code();
         let run = self.settings.date;
-        let file = diagnostic.file.as_deref().map(|file| self.configured(file));
+        let file = diagnostic.file.as_deref().map(|file| self.configured_name(file));
         let entries = file.iter().flat_map(|file| self.levels_in(code, file));
         let mut ended = Vec::new();
         let mut level = level_in(&self.settings.tables.severity.value, code).map(|level| (level, None));
@@ -225,7 +226,7 @@ impl Severities<'_> {
     }
 
     /// Returns the name of a file as patterns in the configuration see it: relative to the configuration's directory, with slashes.
-    pub(crate) fn configured(&self, file: &Utf8Path) -> String {
+    pub(crate) fn configured_name(&self, file: &Utf8Path) -> String {
         let file = clean(&self.working_directory.join(file));
         let below = self.settings.directory().and_then(|directory| file.strip_prefix(directory).ok());
         below.unwrap_or(&file).as_str().replace('\\', "/")
@@ -297,7 +298,7 @@ fn fnv(diagnostic: &Diagnostic, file: &str) -> Fnv {
     if diagnostic.code() != Code::LayerNotVisible {
         return hash;
     }
-    // One layer may be accepted, and another one then hidden by mistake.
+    // The layer's name counts as well: accepting the finding about one hidden layer must not accept that about another one, hidden by mistake.
     let layers = [diagnostic.quoted("layer"), place.layer.as_deref()];
     layers.into_iter().flatten().fold(hash, |hash, layer| hash.add_bytes(layer.to_uppercase().as_bytes()))
 }

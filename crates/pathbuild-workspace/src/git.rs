@@ -266,10 +266,10 @@ impl<'a> Repository<'a> {
             scope.spawn(move || stdin.map(|mut stdin| stdin.write_all(lines.as_bytes())));
             stdout.map(|stdout| take(BufReader::new(stdout)))
         });
-        let is_well = child.wait().is_ok_and(|status| status.success());
+        let has_succeeded = child.wait().is_ok_and(|status| status.success());
         answer
             .unwrap_or_else(|| Err(io::ErrorKind::BrokenPipe.into()))
-            .map(|answer| (answer, is_well))
+            .map(|answer| (answer, has_succeeded))
             .map_err(|error| format!("git: {error}"))
     }
 

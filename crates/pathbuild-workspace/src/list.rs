@@ -106,9 +106,9 @@ impl ListArguments {
             paths.extend(names.map(|name| (*file, name.clone())));
         }
         listed.drawings = files.len();
-        let unmade;
-        (listed.paths, unmade) = list_paths(session, &paths, post_processor);
-        listed.diagnostics.extend(unmade);
+        let build_errors;
+        (listed.paths, build_errors) = list_paths(session, &paths, post_processor);
+        listed.diagnostics.extend(build_errors);
         let unmatched = self
             .unmatched_patterns(&listed.paths)
             .map(|text| Diagnostic::new(&messages::NO_PATH_LIKE).quoting("name", text));
@@ -150,8 +150,8 @@ fn list_paths(
 ) -> (Vec<ListedPath>, Vec<Diagnostic>) {
     let size = session.programs_per_batch(paths.len());
     let mut listed = session.in_batches(paths, size, list_without_programs);
-    let unmade = compare_programs_on_disk(session, post_processor, paths, &mut listed);
-    (listed, unmade)
+    let build_errors = compare_programs_on_disk(session, post_processor, paths, &mut listed);
+    (listed, build_errors)
 }
 
 /// Compares the programs on disk with the paths. Returns the errors that kept programs from being generated but that `check` does not report.
@@ -472,10 +472,10 @@ pub fn drawing_json(found: &Findings) -> Option<Json> {
 pub fn stats_json(stats: &Stats) -> Json {
     let states =
         stats.states.iter().map(|(state, count): (&State, _)| (state.key().to_owned(), json!(count)));
-    let materials = stats.materials.iter().map(|(name, total)| with(total, "material", json!(name)));
+    let materials = stats.materials.iter().map(|(name, total)| total_json(total, "material", json!(name)));
     #[expect(clippy::cast_precision_loss, reason = "a diameter within a drawing's limits")]
     let tool = |tool: &Option<u64>| tool.map(|tool| tool as f64 / 1000.0);
-    let cutters = stats.cutters.iter().map(|(tool_, total)| with(total, "tool", json!(tool(tool_))));
+    let cutters = stats.cutters.iter().map(|(tool_, total)| total_json(total, "tool", json!(tool(tool_))));
     json!({
         "drawings": stats.drawings,
         "paths": stats.all.paths,
@@ -488,7 +488,7 @@ pub fn stats_json(stats: &Stats) -> Json {
     })
 }
 
-fn with(total: &Total, key: &str, value: Json) -> Json {
+fn total_json(total: &Total, key: &str, value: Json) -> Json {
     let mut object = json!({ "paths": total.paths, "length": total.length, "minutes": total.minutes() });
     object[key] = value;
     object

@@ -353,10 +353,10 @@ impl PostProcessor {
 pub fn known_words(
     settings: &Settings,
     system: &Arc<dyn System>,
-    wrote: Option<&PostProcessor>,
+    writer: Option<&PostProcessor>,
     dialect: Dialect,
 ) -> PostWords {
-    if let Some(post_processor) = wrote {
+    if let Some(post_processor) = writer {
         return post_processor.words(dialect);
     }
     if dialect == Dialect::Native {

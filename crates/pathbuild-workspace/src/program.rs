@@ -118,8 +118,8 @@ impl ProgramReader<'_> {
         Ok(program)
     }
 
-    /// Interprets the text of a file and passes each step to `each` without storing it. A caller that needs the steps of a large program twice
-    /// interprets it again.
+    /// Interprets the text of a file and passes each step to `each` without storing it. A caller that needs the steps of a large program twice calls
+    /// this twice.
     pub(crate) fn each(self, file: &Utf8Path, text: Vec<u8>, each: &mut dyn FnMut(Step)) -> Program {
         self.interpret(file, text, &mut |step| {
             each(step);
@@ -165,7 +165,8 @@ impl ProgramReader<'_> {
 }
 
 impl DefinitionTranslation {
-    /// Makes the problems of the translated text those of the program.
+    /// Turns the problems of the translated text into problems of the program: adds those of the translation itself, and removes what applies only to
+    /// the translated text.
     fn complete_problems(&self, problems: &mut Vec<Diagnostic>) {
         problems.extend(self.translated.problems.iter().cloned());
         // The definition does not say when M5 takes effect, which this problem depends on.
@@ -337,7 +338,7 @@ fn unnamed_dialect_warning(disputes: &DisputedWords, dialect: Dialect) -> Option
     Some(found.quoting("dialect", dialect.name()).at_line(line, None))
 }
 
-/// Returns PB005 for a program with more steps than an emitted program may have moves.
+/// Returns PB005 for a program of which `count` steps are stored, if a further step would exceed `limit`, the memory in bytes for one program.
 fn too_much_memory(count: usize, limit: u64) -> Diagnostic {
     let count = count as u64;
     Diagnostic::new(&files::PROGRAM_TOO_LONG)

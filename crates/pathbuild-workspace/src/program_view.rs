@@ -82,7 +82,7 @@ pub fn program_scene(
     // The surface with which rapid moves were checked, if it is level.
     let checked_surface = rapids.filter(|values| values.is_level).map(|values| values.surface);
     let mut path = program.scene_path(workspace);
-    // With the cutter of another tool, grooves would have a wrong width.
+    // If a tool states no cutter, show none: with the cutter of another tool, grooves would have a wrong width.
     let are_stated = header.tools.iter().all(|tool| tool.cutter.is_some());
     set_cutters(&mut path, cutter, if are_stated { &cutters } else { &[] }, rapids);
     if let Some(stock) = verifier.stock(program, &header) {

@@ -36,9 +36,9 @@ pub(crate) fn reason_to_keep(
     reason_to_keep_source(context, post, file).or_else(|| is_named().then_some(&NAME_OF_PROGRAM))
 }
 
-/// Returns the reason why an output must not replace a file: it is a drawing, a configuration, a post's definition, an ignore file, measured values or
-/// the baseline, or belongs to `post` or to the configured post. `None` if it is none of these. For most of them the name decides, whether or not the
-/// file exists; a link counts as the file to which it leads.
+/// Returns the reason why an output must not replace a file: it is a drawing, a configuration, a post's definition, an ignore file, measured values
+/// or the baseline, or belongs to `post` or to the configured post. `None` if it is none of these. For most of them the name decides, whether or not
+/// the file exists; a link counts as the file to which it leads.
 pub(crate) fn reason_to_keep_source(
     context: &Workspace,
     post: Option<&PostProcessor>,
@@ -61,7 +61,8 @@ pub(crate) fn reason_to_keep_source(
     sources.any(|source| is_target(&source)).then_some(&SOURCE_OF_POST)
 }
 
-/// Returns the reason if a file is the program that `post` reads; a link counts as the file to which it leads.
+/// Returns the reason why an output must not replace a file: it is `input`, the program that the command `post` reads. A link counts as the file to
+/// which it leads. `None` for other files.
 pub(crate) fn reason_to_keep_input(
     context: &Workspace,
     input: &Utf8Path,

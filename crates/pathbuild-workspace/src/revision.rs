@@ -26,7 +26,7 @@ pub struct RevisionFiles<'a> {
 }
 
 /// Maximum number of symbolic links that are followed in a row, as in operating systems.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 impl<'a> RevisionFiles<'a> {
     /// Reads a revision from the repository of the inputs, for a run with this baseline; `None` is the default one.
@@ -101,7 +101,7 @@ impl<'a> RevisionFiles<'a> {
             return true;
         }
         let mut open = vec![spelt];
-        for _ in 0..MOST_LINKS {
+        for _ in 0..MAX_LINKS {
             let Some(path) = open.pop() else { return true };
             for link in path.ancestors() {
                 let Ok(target) = link.read_link_utf8() else { continue };

@@ -70,7 +70,7 @@ impl Request<'_> {
     /// Reads the program and generates its new version. Adds warnings to `diagnostics`.
     ///
     /// # Errors
-    /// The errors of the program or of its new version; none besides `diagnostics` if one of these is an error.
+    /// The errors of the program or of its new version; an empty list if `diagnostics` already contains the error.
     pub fn run(
         &self,
         workspace: &Workspace,
@@ -240,7 +240,7 @@ fn native_cutters(steps: &[Step]) -> Vec<NativeCutter> {
 }
 
 /// Completes the tools of a job from the tool table: by their numbers, or for a native program by the path and the cutter O in its header. Tools that
-/// the table lacks are as the program states them. Returns warnings about the tools.
+/// the table lacks keep the diameter that the program states. Returns warnings about the tools.
 ///
 /// # Errors
 /// PB765 if the tool of a native program is unclear.

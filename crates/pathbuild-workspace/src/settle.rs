@@ -82,8 +82,8 @@ impl Workspace {
         }
     }
 
-    /// Rewrites the baseline. Lines without a fingerprint are dropped, but a file with only such lines is not a baseline. A baseline, depth, reason or
-    /// date that cannot be read is an error.
+    /// Rewrites the baseline. Lines without a fingerprint are dropped, but a file with only such lines is not a baseline and is not overwritten. A
+    /// baseline, depth, reason or date that cannot be read is an error.
     fn update_baseline(
         &self,
         file: &Utf8Path,

@@ -429,8 +429,9 @@ fn a_hole_beside_its_sweep_is_told_with_the_distance() {
         ("20.5,0", "(20.5, 0)", "0.5"),
     ] {
         let first = first(&hole(at));
-        let text =
-            format!("is {distance} mm away from (20, 0), where a sweep ends; snap one of these ends to the other");
+        let text = format!(
+            "is {distance} mm away from (20, 0), where a sweep ends; snap one of these ends to the other"
+        );
         assert!(first.starts_with("PB402 segments not reached: 1; a helical circle at "), "{first}");
         assert!(first.contains(&text), "{point}: {first}");
     }

@@ -605,7 +605,8 @@ fn arcs_that_cannot_be_written_become_lines() {
     assert_eq!([&*lines[3], &*lines[10]], ["Z-1.125 line 9.808 1.951 F9 10", "Z-2 line 0 10 F9 01"]);
     let no_z = output(CALLS, &job(steps), &PostOptions::default()).unwrap_err();
     assert!(
-        texts(&no_z)[0].starts_with("PB759 mill has a helix from Z -1 to Z -2, but the text `arc` has no ~Z1~"),
+        texts(&no_z)[0]
+            .starts_with("PB759 mill has a helix from Z -1 to Z -2, but the text `arc` has no ~Z1~"),
         "{:?}",
         texts(&no_z)
     );

@@ -158,7 +158,7 @@ pub(super) fn has_thousands(written: &str, speed: f64) -> bool {
     decimals == 3 && SPEEDS_WITH_THOUSANDS.contains(&speed)
 }
 
-/// Speeds of which three decimals were probably meant as thousands.
+/// Speeds that are so low that three decimals were probably meant as thousands, in mm/min or 1/min.
 const SPEEDS_WITH_THOUSANDS: Range<f64> = 1.0..100.0;
 
 /// Parses a number as written in drawings: an optional sign, digits, at most one decimal point or comma. (book: language/letters)

@@ -248,7 +248,7 @@ pub fn repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> Option<&'
 }
 
 /// Returns the repository outside which an untrusted run must not access files. If the path of the directory goes through symbolic links, this is the
-/// repository that contains the outermost of these links, if there is one.
+/// repository that contains the outermost of these links, if there is one. Without any repository, returns the directory itself.
 pub(super) fn confining_repository<'a>(system: &dyn System, directory: &'a Utf8Path) -> &'a Utf8Path {
     let is_link = |place: &&Utf8Path| {
         let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else { return false };

@@ -152,8 +152,8 @@ impl<'a> TomlReader<'a> {
         beyond == 0
     }
 
-    /// Reports a key of a table with user-defined keys that belongs before all tables: in a file that ends with such a table, it was appended.
-    /// Returns whether it is such a key.
+    /// Reports a name in a table with user-defined keys if it is that of a key that belongs before all tables. This happens when a key is appended to
+    /// a file that ends with such a table. Returns whether the name was reported.
     pub(super) fn report_key_of_top(&mut self, name: &Spanned<DeString<'_>>) -> bool {
         let home = self.key_index.as_ref().and_then(|index| index.find(name.get_ref()));
         let is_of_top = home.is_some_and(|home| home.is_exact && home.header.is_none());

@@ -113,7 +113,7 @@ pub(in crate::config) const TOOLS: ValueType<Vec<Tool>> = ValueType {
     read: |value, reader| {
         let mut tools: Vec<Tool> = Vec::new();
         let mut entries = own_entries(value, reader)?;
-        // Their order decides which one is used and which numbers they get. The parser sorts them by name.
+        // The order of the tools in the file decides which one is used and which numbers they get, but the parser sorts them by name.
         entries.sort_by_key(|(name, _)| name.span().start);
         for entry in entries {
             tools.extend(reader.read_within(entry.0.get_ref(), |reader| {

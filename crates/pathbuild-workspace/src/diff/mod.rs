@@ -98,7 +98,7 @@ pub struct ProgramDiff {
     pub groups: Vec<Group>,
     /// Whether moves were compared as a whole, because there are too many pieces. The groups may then include more than what changed.
     pub has_undivided_moves: bool,
-    /// Whether a post-processor cannot write one of the programs, so that only what is drawn was compared.
+    /// Whether a post-processor cannot write one of the programs. Then only what the drawings define was compared, not the words of the programs.
     pub is_unwritten: bool,
     /// Changes of cutters, tools, spindle, work offsets, stops and the like, as far as they are known on both sides.
     pub states: Vec<StateChange>,
@@ -162,10 +162,10 @@ pub fn compare_trees(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: O
 }
 
 fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Option<Lang>) -> Comparison {
-    let [was, is] = [old.paths(), new.paths()];
-    let path_count = is.paths.len();
-    let unreadable = [was.unreadable, is.unreadable];
-    let mut problems = [was.problems, is.problems];
+    let [old_paths, new_paths] = [old.paths(), new.paths()];
+    let path_count = new_paths.paths.len();
+    let unreadable = [old_paths.unreadable, new_paths.unreadable];
+    let mut problems = [old_paths.problems, new_paths.problems];
     let [old_post, new_post] = [&*old.session, &*new.session]
         .map(|session| PostProcessor::for_run(session.workspace(), None, PostArguments::default()));
     let sides = [(&*old.session, old_post), (&*new.session, new_post)];
@@ -176,8 +176,8 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
         CompiledSide { session, post_processor: post_processor.ok().and_then(Option::as_ref) }
     });
     let [old, new] = sides;
-    let is_written_alike = written_by(old) == written_by(new) && correction(old) == correction(new);
-    let mut paths: Vec<PathDiff> = pair_up(was.paths, is.paths)
+    let is_written_alike = writer_identity(old) == writer_identity(new) && correction(old) == correction(new);
+    let mut paths: Vec<PathDiff> = pair_up(old_paths.paths, new_paths.paths)
         .into_iter()
         .map(|pair| pair.with_unreadable(&unreadable))
         .filter_map(|pair| pair.compare(sides, is_written_alike, pictures, &mut problems))
@@ -188,7 +188,7 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
 
 /// Returns everything that the programs of a post-processor depend on besides the drawings, and the machine whose travel they must not exceed; `None`
 /// for native programs.
-fn written_by(side: CompiledSide<'_>) -> Option<(Vec<u8>, Option<Machine>)> {
+fn writer_identity(side: CompiledSide<'_>) -> Option<(Vec<u8>, Option<Machine>)> {
     Some((side.post_processor?.identity(), machine(&side.session.workspace().settings)))
 }
 
@@ -268,11 +268,11 @@ impl PathPair {
 fn pair_up(old: Vec<HashedPath>, new: Vec<HashedPath>) -> Vec<PathPair> {
     let mut by_file: HashMap<(Utf8PathBuf, PathName), HashedPath> =
         old.into_iter().map(|known| ((known.place.clone(), known.name.clone()), known)).collect();
-    let mut pair_up = Vec::new();
+    let mut pairs = Vec::new();
     let mut alone = Vec::new();
     for known in new {
         match by_file.remove(&(known.place.clone(), known.name.clone())) {
-            Some(old) => pair_up.push(PathPair { old: Some(old), new: Some(known) }),
+            Some(old) => pairs.push(PathPair { old: Some(old), new: Some(known) }),
             None => alone.push(known),
         }
     }
@@ -287,10 +287,10 @@ fn pair_up(old: Vec<HashedPath>, new: Vec<HashedPath>) -> Vec<PathPair> {
     for known in alone {
         let is_only = count[&known.name] == 1;
         let old = by_name.get_mut(&known.name).filter(|old| is_only && old.len() == 1).and_then(Vec::pop);
-        pair_up.push(PathPair { old, new: Some(known) });
+        pairs.push(PathPair { old, new: Some(known) });
     }
-    pair_up.extend(by_name.into_values().flatten().map(|old| PathPair { old: Some(old), new: None }));
-    pair_up
+    pairs.extend(by_name.into_values().flatten().map(|old| PathPair { old: Some(old), new: None }));
+    pairs
 }
 
 impl PathPair {
@@ -357,7 +357,7 @@ fn compare_programs(
             }
             (!changes.groups.is_empty() || !states.is_empty()).then(|| {
                 let reasons = explain_change(sides.map(|side| side.session), paths, problems);
-                // If only states changed and no reason was found, they show by themselves what changed in pathbuild.toml.
+                // If only states changed and no reason was found, the states themselves show what changed in pathbuild.toml.
                 let reasons = reasons.filter(|reasons| !reasons.is_empty() || !changes.groups.is_empty());
                 let is_unwritten = has_errors.contains(&true);
                 Outcome::Changed(Box::new(ProgramDiff { is_unwritten, states, reasons, ..changes }))
@@ -398,7 +398,7 @@ struct CompiledPath {
     /// The scene of the path, with its native moves.
     path: ScenePath,
     states: MachineStates,
-    /// The text that the post-processor writes, if it does.
+    /// The text that the post-processor writes; `None` for a native program, and if the post-processor refuses to write it.
     posted: Option<Vec<u8>>,
     /// Errors that keep the post-processor from writing the program.
     refusals: Vec<Diagnostic>,

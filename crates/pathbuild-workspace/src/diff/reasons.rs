@@ -196,16 +196,18 @@ impl<'o, 'n> Explainer<'o, 'n> {
         let (alike, others): (Vec<_>, Vec<_>) =
             children(self.new, new).into_iter().partition(|child| were.iter().any(|was| was.is_same(child)));
         for child in alike.iter().chain(&others) {
-            let is_other = |was: &Child<'_>| was.name == child.name;
-            let place =
-                were.iter().position(|was| was.is_same(child)).or_else(|| were.iter().position(is_other));
+            let has_same_name = |was: &Child<'_>| was.name == child.name;
+            let place = were
+                .iter()
+                .position(|was| was.is_same(child))
+                .or_else(|| were.iter().position(has_same_name));
             let Some(was) = place.map(|place| were.remove(place)) else { continue };
-            reasons.extend(self.child(&was, child));
+            reasons.extend(self.child_reason(&was, child));
         }
         reasons
     }
 
-    fn child(&mut self, old: &Child<'o>, new: &Child<'n>) -> Option<Reason> {
+    fn child_reason(&mut self, old: &Child<'o>, new: &Child<'n>) -> Option<Reason> {
         let path = new.name.as_str().to_owned();
         let key = (old.instance, new.instance);
         if let Some(is_changed) = self.known.get(&key) {

@@ -267,7 +267,7 @@ impl MachineStates {
         StateKind::ALL.into_iter().filter_map(|kind| self.first_change(new, kind)).collect()
     }
 
-    /// Whether the program inserts no tool, because it lacks the M6 that another program in its dialect has.
+    /// Whether the program inserts no tool: in its dialect, T only selects a tool, and it lacks the M6 that the other program has.
     fn lacks_change(&self, other: &Self) -> bool {
         let is_needed = self.dialect.is_some_and(|dialect| dialect.rules().t_only_selects);
         is_needed && self.dialect == other.dialect && !self.has_tool_change && other.has_tool_change

@@ -41,31 +41,31 @@ pub(super) struct BuiltProgram {
 pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> BuiltProgram {
     let programs = job.targets.iter().map(|target| program(db, *target).clone());
     let Some(programs) = programs.collect::<Option<Vec<_>>>() else { return BuiltProgram::default() };
-    let mut delivered = ProgramOutcome::default();
+    let mut outcome = ProgramOutcome::default();
     let time = total(&programs, settings.writing.options.rapid);
-    (delivered.length, delivered.minutes) = (time.length, time.minutes());
+    (outcome.length, outcome.minutes) = (time.length, time.minutes());
     let provenance = settings.provenances.of(&programs);
     let line = provenance.to_string();
-    delivered.provenance = Some(provenance);
+    outcome.provenance = Some(provenance);
     let at = |problem: Diagnostic| problem.in_file(job.drawing(db).path(db)).in_path(&job.path);
-    let unsafe_moves = unsafe_moves(db, job, &programs, settings, &mut delivered.problems);
+    let unsafe_moves = unsafe_moves(db, job, &programs, settings, &mut outcome.problems);
     let result = match (settings.post_processor, &*programs) {
         _ if !unsafe_moves.is_empty() => Err(unsafe_moves),
         (Some(post_processor), programs) => {
             let lang = settings.writing.options.lang;
-            write_through_post(job, programs, &line, post_processor, lang, at, &mut delivered)
+            write_through_post(job, programs, &line, post_processor, lang, at, &mut outcome)
         }
-        (None, [program]) => write_native(job, program, &line, settings, at, &mut delivered),
+        (None, [program]) => write_native(job, program, &line, settings, at, &mut outcome),
         // Native programs are never joined: only a post-processor can do that.
         (None, _) => Ok(Vec::new()),
     };
     let result = result.and_then(|outputs| with_sheets(outputs, db, job, settings));
     let outputs = result.unwrap_or_else(|problems| {
-        delivered.is_refused = true;
-        delivered.problems.extend(problems);
+        outcome.is_refused = true;
+        outcome.problems.extend(problems);
         Vec::new()
     });
-    BuiltProgram { outcome: delivered, outputs }
+    BuiltProgram { outcome, outputs }
 }
 
 /// Returns the errors that keep programs from being written: those of the first program that has any, or else those of joining the programs. Adds the
@@ -208,7 +208,7 @@ fn write_native(
     provenance: &str,
     settings: &OutputSettings<'_>,
     at: impl Fn(Diagnostic) -> Diagnostic,
-    delivered: &mut ProgramOutcome,
+    outcome: &mut ProgramOutcome,
 ) -> Result<Vec<Output>, Vec<Diagnostic>> {
     let correction = settings.writing.options.correction;
     let steps = correction.count(program);
@@ -216,18 +216,18 @@ fn write_native(
         return Err(vec![at(problem)]);
     }
     if correction.lacks_slope(program) {
-        delivered.problems.push(at(Diagnostic::new(&probes::WITHOUT_SLOPE)));
+        outcome.problems.push(at(Diagnostic::new(&probes::WITHOUT_SLOPE)));
     }
     match correction.farthest_unprobed_point(program) {
-        Some(outside) => delivered.problems.push(at(unprobed_point_warning(&outside))),
+        Some(outside) => outcome.problems.push(at(unprobed_point_warning(&outside))),
         // Unused probes are reported only if no move lies outside the probes: otherwise, the warning above suffices.
-        None => delivered.problems.extend(unused_probes(program, correction).map(&at)),
+        None => outcome.problems.extend(unused_probes(program, correction).map(&at)),
     }
     // If `cycles` is off, `check` reports each C instead. In a program without probes, C is not useless: a post-processor can write its pecks.
     let has_pecks = || program.pecks().iter().any(|(_, depth)| depth.is_some());
     if settings.has_cycles && !program.probes.is_empty() && has_pecks() {
         let problem = Diagnostic::new(&parameters::PECKS_WITH_PROBES).with("letter", Letter::C.as_char());
-        delivered.problems.push(at(problem));
+        outcome.problems.push(at(problem));
     }
     let fault = |problem: Box<Diagnostic>| vec![at(*problem)];
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
@@ -238,7 +238,7 @@ fn write_native(
         if *kind == OutputKind::Probing {
             let beyond = probing_beyond_machine(&text, path, settings.machine.as_ref());
             let (errors, warnings): (Vec<_>, Vec<_>) = beyond.map(&at).partition(Diagnostic::is_error);
-            delivered.problems.extend(warnings);
+            outcome.problems.extend(warnings);
             if !errors.is_empty() {
                 return Err(errors);
             }
@@ -248,7 +248,8 @@ fn write_native(
     job.files.iter().map(output).filter_map(Result::transpose).collect()
 }
 
-/// Returns the moves of a probing program that exceed the machine's capabilities. They come from the probes, not from a step of the path's program.
+/// Returns a diagnostic for each move of a probing program that exceeds the machine's capabilities. It names the line of the output file, because
+/// such a move comes from the probes and not from a step of the path's program.
 fn probing_beyond_machine(
     text: &str,
     path: &Utf8Path,
@@ -285,7 +286,7 @@ fn write_through_post(
     post_processor: &PostProcessor,
     lang: Lang,
     at: impl Fn(Diagnostic) -> Diagnostic,
-    delivered: &mut ProgramOutcome,
+    outcome: &mut ProgramOutcome,
 ) -> Result<Vec<Output>, Vec<Diagnostic>> {
     let program = job.files.iter().find(|(kind, _)| kind.is_program());
     let Some((kind, path)) = program else { return Err(Vec::new()) };
@@ -298,13 +299,13 @@ fn write_through_post(
         let problem = post_processor.locate(problem);
         if problem.file.is_none() { at(problem) } else { problem }
     };
-    let output = post_processor.write(&program, Some(path), &mut delivered.inserted);
+    let output = post_processor.write(&program, Some(path), &mut outcome.inserted);
     let output = output.map_err(|problems| {
         problems.into_iter().map(|problem| about_job(problem, job)).collect::<Vec<_>>()
     })?;
-    delivered.problems.extend(warnings.into_iter().chain(output.warnings).map(located));
-    delivered.notes.extend(output.notes);
-    delivered.post_build = output.post_build.map(|command| (command, path.clone()));
+    outcome.problems.extend(warnings.into_iter().chain(output.warnings).map(located));
+    outcome.notes.extend(output.notes);
+    outcome.post_build = output.post_build.map(|command| (command, path.clone()));
     Ok(vec![Output { kind: *kind, path: path.clone(), text: output.text }])
 }
 

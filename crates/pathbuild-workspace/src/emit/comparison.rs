@@ -150,7 +150,7 @@ pub fn native_text(
 
 /// Adds a note to each problem of a file that differs from its drawing but equals the program written with `--compatible`. To find out, `emit`
 /// generates the programs a second time in that mode, if there are any problems.
-pub(super) fn name_compatible<'p>(
+pub(super) fn add_compatible_notes<'p>(
     workspace: &Workspace,
     jobs: impl Iterator<Item = &'p mut Job>,
     emit: impl FnOnce(&Workspace) -> Vec<ProgramOutcome>,

@@ -18,7 +18,7 @@ use crate::session::Session;
 /// Writes one rule per job: its output files depend on its drawings, the configuration, the post definition and the files that the post-processor
 /// inserted. If a name cannot be expressed, writes nothing and returns an error.
 ///
-/// An empty rule for each input follows, as of `gcc -MP`: without one, `make` refuses to run the rule of a program once a drawing is renamed.
+/// An empty rule for each input follows, as `gcc -MP` writes it: without one, `make` refuses to run the rule of a program once a drawing is renamed.
 pub(super) fn write<'p>(
     session: &Session<'_>,
     file: &Utf8Path,

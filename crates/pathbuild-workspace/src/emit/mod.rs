@@ -77,7 +77,7 @@ pub struct Emission {
 }
 
 impl Request {
-    /// Whether results of earlier runs may be used, which only a session that traces inputs has. If not, everything is regenerated.
+    /// Whether results of earlier runs may be used, provided that the session traces inputs. If not, everything is regenerated.
     pub fn uses_cache(&self) -> bool {
         let is_always_made = matches!(self.task, Task::Print | Task::Write { force: true })
             || self.deps.is_some()
@@ -207,7 +207,7 @@ impl Emitter<'_> {
         let Request { task, join, deps, .. } = self.request;
         let workspace = session.workspace();
         report_cached(workspace, &selection, &plans);
-        // Rules without those of a path with errors would keep a build system from building its program again.
+        // A dependency file that lacks the rules of a path with errors would keep a build system from building the program of this path again.
         let has_all_rules = !workspace.has_error(&diagnostics)
             && plans.iter().all(|plan| plan.value.remaining_job().is_some());
         if *task == (Task::Compare { moves_only: true }) {
@@ -216,7 +216,7 @@ impl Emitter<'_> {
                 let emission = request.run(&mut Session::new(workspace), self.inputs);
                 emission.map(|emission| emission.delivered).unwrap_or_default()
             };
-            comparison::name_compatible(workspace, jobs_mut(&mut plans), emit);
+            comparison::add_compatible_notes(workspace, jobs_mut(&mut plans), emit);
         }
         let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.job.as_ref()).collect();
         let earlier = EarlierPrograms {
@@ -335,10 +335,10 @@ pub(crate) fn freshness_on_disk(
 ///
 /// # Errors
 /// The errors of a program that was not generated.
-fn is_current(delivered: ProgramOutcome) -> Result<bool, Vec<Diagnostic>> {
-    if delivered.files.is_empty() && delivered.problems.iter().any(Diagnostic::is_error) {
-        return Err(delivered.problems);
+fn is_current(outcome: ProgramOutcome) -> Result<bool, Vec<Diagnostic>> {
+    if outcome.files.is_empty() && outcome.problems.iter().any(Diagnostic::is_error) {
+        return Err(outcome.problems);
     }
     let is_current = |(_, state): &(_, State)| matches!(state, State::Current);
-    Ok(!delivered.files.is_empty() && delivered.files.iter().all(is_current))
+    Ok(!outcome.files.is_empty() && outcome.files.iter().all(is_current))
 }

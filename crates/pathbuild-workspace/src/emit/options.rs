@@ -133,7 +133,7 @@ pub(super) struct SheetSettings {
     pub(super) lang: Lang,
     pub(super) tools: ToolTable,
     /// The configured tools, in the same order as `tools`.
-    pub(super) shapes: Vec<types::Tool>,
+    pub(super) configured_tools: Vec<types::Tool>,
     pub(super) starts_spindle: bool,
     pub(super) has_manual_changes: bool,
     pub(super) selects_g54: bool,
@@ -144,8 +144,9 @@ impl SheetSettings {
         let starts_spindle = post_processor.is_some_and(PostProcessor::starts_spindle);
         let has_manual_changes = post_processor.is_some_and(PostProcessor::has_manual_changes);
         let selects_g54 = post_processor.is_none_or(PostProcessor::selects_g54);
-        let shapes = settings.tables.tools.value.clone();
-        Self { lang: settings.comment_lang(), tools, shapes, starts_spindle, has_manual_changes, selects_g54 }
+        let configured_tools = settings.tables.tools.value.clone();
+        let lang = settings.comment_lang();
+        Self { lang, tools, configured_tools, starts_spindle, has_manual_changes, selects_g54 }
     }
 }
 

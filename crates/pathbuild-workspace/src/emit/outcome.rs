@@ -149,7 +149,7 @@ impl Task {
     }
 
     /// Whether this task covers files of this kind. A comparison of moves alone skips measured values and setup sheets.
-    pub(super) fn compares(self, kind: OutputKind) -> bool {
+    pub(super) fn covers(self, kind: OutputKind) -> bool {
         self != Self::Compare { moves_only: true } || (kind != OutputKind::Values && kind.sheet().is_none())
     }
 

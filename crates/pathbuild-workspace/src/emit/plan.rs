@@ -134,7 +134,7 @@ impl Job {
     }
 }
 
-/// Plans the programs of a request. Cached plans are reused if they still hold; the others are made from checked paths.
+/// Plans the programs of a request. Cached plans are reused if they are still valid; the others are made from checked paths.
 ///
 /// # Errors
 /// If options are missing, with a message that names them.
@@ -185,7 +185,7 @@ pub(super) fn plan(
         let jobs = jobs_mut(&mut plans);
         diagnostics.extend(jobs.filter_map(|job| leave_out_if_named_like_path(builder, join, job)));
     }
-    // An earlier run may have left out jobs because their files clashed with those of jobs that do not exist any more.
+    // Plan again the jobs without an outcome: an earlier run left them out, perhaps because of a clash with a job that does not exist any more.
     for (answer, targets) in plans.iter_mut().zip(&programs) {
         let is_open = answer.value.remaining_job().is_some_and(|job| job.outcome.is_none());
         if answer.inputs.is_none()
@@ -234,7 +234,7 @@ fn cached_plan_if_sufficient(
             return None;
         }
         let files = files.iter().map(|(kind, path)| (*kind, path)).zip(states);
-        let mut files = files.filter(|((kind, _), _)| task.compares(*kind));
+        let mut files = files.filter(|((kind, _), _)| task.covers(*kind));
         let system = session.db().system();
         let is_enough = |path: &Utf8Path, state: OutputState| match task {
             // A file with other bytes may contain the same program, written by another version.
@@ -293,19 +293,20 @@ impl JobBuilder<'_> {
     }
 
     fn joined_job(&self, name: &str, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
-        let right = || checked.iter().filter_map(|checked| Some((checked, checked.emitted.as_ref()?)));
-        let refused = right().filter_map(|(checked, emitted)| self.refuse_probes(checked, emitted).err());
+        let error_free = || checked.iter().filter_map(|checked| Some((checked, checked.emitted.as_ref()?)));
+        let refused =
+            error_free().filter_map(|(checked, emitted)| self.refuse_probes(checked, emitted).err());
         let refused: Vec<Diagnostic> = refused.map(|problem| *problem).collect();
         if !refused.is_empty() {
             return Err(refused);
         }
-        let Some(first) = checked.first().filter(|_| right().count() == checked.len()) else {
+        let Some(first) = checked.first().filter(|_| error_free().count() == checked.len()) else {
             return Ok(None);
         };
         let db = self.session.db();
         let directory = output_directory(self.session.out_dir().as_deref(), first.target.file(db).path(db));
         let stem = join_file_name(name, name, &directory).map_err(|problem| vec![*problem])?;
-        let title = native::joined_title(name, right().map(|(_, emitted)| &*emitted.path));
+        let title = native::joined_title(name, error_free().map(|(_, emitted)| &*emitted.path));
         Ok(Some(Job { title, ..self.with_files(stem, name, checked, &[OutputKind::Milling]) }))
     }
 
@@ -421,8 +422,8 @@ pub(super) fn leave_out_second_definitions<'p>(
     of_jobs.into_iter().map(SecondDefinition::diagnostic).collect()
 }
 
-/// Leaves out jobs whose file another drawing of the library, which has the same name, would write in another run (PB514). An output directory on the
-/// command line is for this run only.
+/// Leaves out jobs whose file another drawing of the library, which has the same name, would write in another run (PB514). Only a configured output
+/// directory can be shared in this way: one that is given on the command line is for this run only.
 pub(super) fn leave_out_files_of_others<'p>(
     builder: &JobBuilder<'_>,
     jobs: impl Iterator<Item = &'p mut Job>,
@@ -488,7 +489,7 @@ pub(super) fn clashes(session: &Session<'_>, jobs: &[&Job]) -> (BTreeSet<usize>,
     (clashing, problems)
 }
 
-/// Returns PB530 for the numbers by which the control identifies the programs.
+/// Returns PB530 for the program numbers that several programs share, or that the control reserves for macros.
 pub(super) fn warn_of_numbers(
     session: &Session<'_>,
     post_processor: Option<&PostProcessor>,

@@ -35,8 +35,8 @@ pub struct SceneReport {
     pub scene: Scene,
     /// Diagnostics with their locations.
     pub diagnostics: Vec<Diagnostic>,
-    /// Errors that keep `emit` from writing programs of the paths, besides the errors in `diagnostics`. Empty unless the texts of the written programs
-    /// were requested.
+    /// Errors that keep `emit` from writing programs of the paths, besides the errors in `diagnostics`. Empty unless the texts of the written
+    /// programs were requested.
     pub refusals: Vec<Diagnostic>,
 }
 
@@ -158,8 +158,8 @@ impl Session<'_> {
         }
     }
 
-    /// Returns the scene of a path, its diagnostics, and the clamps of the paths that it embeds, at their positions in the program. Adds the errors that
-    /// keep its program from being written to `refusals`.
+    /// Returns the scene of a path, its diagnostics, and the clamps of the paths that it embeds, at their positions in the program. Adds the errors
+    /// that keep its program from being written to `refusals`.
     fn scene_path(
         &self,
         file: SourceFile,
@@ -249,7 +249,7 @@ pub fn sheet_of(
     what: &str,
 ) -> Result<SheetOutcome, String> {
     session.with_stable_files(|session| match resolve_target(session, what)? {
-        Ok(target) => scenes_of_target(session, post_processor, target),
+        Ok(target) => sheet_of_target(session, post_processor, target),
         Err(diagnostics) => Ok(SheetOutcome { sheet: None, diagnostics: session.with_hints(diagnostics) }),
     })
 }
@@ -277,7 +277,7 @@ fn resolve_target(session: &Session<'_>, what: &str) -> Result<Result<Target, Ve
     }
 }
 
-fn scenes_of_target(
+fn sheet_of_target(
     session: &Session<'_>,
     post_processor: Option<&PostProcessor>,
     target: Target,
@@ -290,7 +290,7 @@ fn scenes_of_target(
     let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
     let Plan { mut diagnostics, refusals, job } = builder.plan(&checked);
     diagnostics.extend(refusals);
-    let sheet = job.and_then(|job| of_job(session, &job, post_processor, &mut diagnostics));
+    let sheet = job.and_then(|job| sheet_of_job(session, &job, post_processor, &mut diagnostics));
     let sheet = sheet.filter(|_| !context.has_error(&diagnostics));
     if sheet.is_none() {
         diagnostics.extend(context.lowered_error(&diagnostics));
@@ -299,7 +299,7 @@ fn scenes_of_target(
 }
 
 /// Returns the sheet of a job; `None` if its program would not be written.
-fn of_job(
+fn sheet_of_job(
     session: &Session<'_>,
     job: &Job,
     post_processor: Option<&PostProcessor>,

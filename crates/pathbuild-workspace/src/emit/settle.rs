@@ -43,17 +43,17 @@ pub(super) fn build_and_settle<'j>(
     let (mut generated, written) = thread::scope(|scope| {
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
         let generated = |db: &Database, (index, job): &(usize, &Job)| {
-            let BuiltProgram { outcome: mut delivered, mut outputs } = build(db, job, settings);
-            if severities.has_error(&delivered.problems) {
+            let BuiltProgram { mut outcome, mut outputs } = build(db, job, settings);
+            if severities.has_error(&outcome.problems) {
                 outputs.clear();
             }
             // Last chance to time out: from here on, all files of the job are written.
             db.check_time_limit();
             // If there is no receiver, because the system had no thread left, write the files here.
             if let Err(SendError((_, outputs))) = sender.send((*index, outputs)) {
-                add_files(&mut delivered, settled(outputs));
+                add_files(&mut outcome, settled(outputs));
             }
-            delivered
+            outcome
         };
         let size = session.programs_per_batch(numbered.len());
         let generated =
@@ -99,7 +99,7 @@ fn settle(
     task: Task,
     settings: &OutputSettings<'_>,
 ) -> ProgramOutcome {
-    let mut delivered = ProgramOutcome::default();
+    let mut outcome = ProgramOutcome::default();
     let (post_processor, limit) = (settings.post_processor, settings.writing.most_bytes as u64);
     // Hash this version's text even if another version's file is kept: otherwise, that file would become the expected content.
     let hashes: Vec<[u8; 32]> =
@@ -112,24 +112,24 @@ fn settle(
     let hashed = outputs.iter().zip(hashes);
     match task {
         Task::Write { force } => {
-            if let Err(problem) = write(system, hashed, force, limit, &mut delivered) {
-                delivered.problems.push(*problem);
+            if let Err(problem) = write(system, hashed, force, limit, &mut outcome) {
+                outcome.problems.push(*problem);
             }
         }
         Task::Compare { moves_only } => {
-            for (output, hash) in hashed.filter(|(output, _)| task.compares(output.kind)) {
+            for (output, hash) in hashed.filter(|(output, _)| task.covers(output.kind)) {
                 let (state, problems) = compare(system, output, limit, moves_only, post_processor);
-                delivered.hashes.push(hash);
-                delivered.files.push((output.path.clone(), state));
-                delivered.problems.extend(problems);
+                outcome.hashes.push(hash);
+                outcome.files.push((output.path.clone(), state));
+                outcome.problems.extend(problems);
             }
         }
         Task::Print => {
-            delivered.files =
+            outcome.files =
                 outputs.into_iter().map(|output| (output.path, State::Printed(output.text))).collect();
         }
     }
-    delivered
+    outcome
 }
 
 /// Replaces the generated text by the file on disk if another pathbuild version wrote the same program to it.
@@ -148,7 +148,7 @@ fn write<'a>(
     outputs: impl Iterator<Item = (&'a Output, [u8; 32])> + Clone,
     force: bool,
     limit: u64,
-    delivered: &mut ProgramOutcome,
+    outcome: &mut ProgramOutcome,
 ) -> Result<(), Box<Diagnostic>> {
     let mut values =
         outputs.clone().map(|(output, _)| output).filter(|output| output.kind == OutputKind::Values);
@@ -166,8 +166,8 @@ fn write<'a>(
             WriteOutcome::Changed => State::Written,
             WriteOutcome::Unchanged => State::Unchanged,
         };
-        delivered.hashes.push(hash);
-        delivered.files.push((output.path.clone(), state));
+        outcome.hashes.push(hash);
+        outcome.files.push((output.path.clone(), state));
     }
     Ok(())
 }
@@ -201,8 +201,8 @@ fn has_same_probes(system: &dyn System, output: &Output) -> bool {
     text_on_disk(system, &output.path).is_some_and(|present| is_for_probes(&present, &output.text))
 }
 
-/// Whether two files of measured values are for the same probes. A file that does not state where the probes are in the emitted drawing was written
-/// by an older version or by PathDxf2GCode.
+/// Whether two files of measured values are for the same probes. The file on disk may lack the positions of the probes in the emitted drawing, if an
+/// older version or PathDxf2GCode wrote it.
 fn is_for_probes(present: &str, written: &[u8]) -> bool {
     let (present, written) = (without_values(present.as_bytes()), without_values(written));
     present == written || present == without_positions(&written)

@@ -61,7 +61,7 @@ pub(super) fn sheet(
         };
         let tool = settings.sheets.tools.position(&program.path, program.tool);
         if let (Some(path), Some(tool)) = (scene.paths.last_mut(), tool) {
-            path.tip = settings.sheets.shapes[tool].cutter().into();
+            path.tip = settings.sheets.configured_tools[tool].cutter().into();
         }
         programs.push(program);
     }
@@ -164,7 +164,7 @@ fn tools(programs: &[Arc<Program>], settings: &SheetSettings) -> (Vec<SheetTool>
     for program in programs {
         let index = settings.tools.position(&program.path, program.tool);
         let entry = index.map(|index| &settings.tools.entries[index]);
-        let shape = index.map(|index| &settings.shapes[index]);
+        let configured = index.map(|index| &settings.configured_tools[index]);
         let tool = SheetTool {
             diameter: program.tool,
             number: entry.and_then(|entry| entry.index),
@@ -175,9 +175,9 @@ fn tools(programs: &[Arc<Program>], settings: &SheetSettings) -> (Vec<SheetTool>
                 Turning::CounterClockwise => Some(false),
                 Turning::Off | Turning::Unstated => None,
             }),
-            flutes: shape.and_then(|shape| shape.flutes),
-            corner_radius: shape.map_or(0.0, |shape| shape.corner_radius),
-            length: shape.and_then(|shape| shape.length),
+            flutes: configured.and_then(|tool| tool.flutes),
+            corner_radius: configured.map_or(0.0, |tool| tool.corner_radius),
+            length: configured.and_then(|tool| tool.length),
             paths: Vec::new(),
         };
         let known = tools.iter().position(|known| SheetTool { paths: Vec::new(), ..known.clone() } == tool);

@@ -97,7 +97,7 @@ impl WrittenPrograms {
             if let Some(job) = &mut plan.job {
                 job.leave_out_if_defined_twice(session.db(), &self.second_definitions);
             }
-            // The errors of drawings are those that `check` reports.
+            // The errors of the drawings are dropped, because `check` reports them.
             plan.diagnostics.clear();
             // A job that is left out claims its names, too. Otherwise, which target may write them would depend on the drawing that was saved last.
             if let Some(job) = plan.job.as_mut().filter(|job| self.is_claimed(session.db(), job, drawings)) {
@@ -196,8 +196,8 @@ impl WrittenPrograms {
         plans.flat_map(|(_, plan)| plan.program_problems(session.workspace())).collect()
     }
 
-    /// Returns the findings that `emit` derives from all programs together: file names that several targets claim, stale programs on disk, and
-    /// configured targets that match no path.
+    /// Returns the findings that `emit` derives from all programs together: file names that several targets claim, shared program numbers, stale
+    /// programs on disk, and configured targets that match no path.
     pub fn common_problems(
         &mut self,
         session: &mut Session<'_>,

@@ -89,7 +89,9 @@ impl<'a> CatalogueBuilder<'a> {
     fn carry_over_record(&mut self, record: &Record) {
         let kept = &self.store.kept;
         let has_written = |file: &usize| self.run.written.contains(&*kept.files[*file].path);
-        if record.files.iter().any(|file| self.is_other(*file)) || record.outputs.iter().any(has_written) {
+        if record.files.iter().any(|file| self.has_other_content(*file))
+            || record.outputs.iter().any(has_written)
+        {
             return;
         }
         let files = record.files.iter().map(|file| self.carry_over_file(*file)).collect();
@@ -127,9 +129,10 @@ impl<'a> CatalogueBuilder<'a> {
     }
 
     /// Whether a file of the old catalogue was not verified, and this run read other bytes from it or could not read it.
-    fn is_other(&self, number: usize) -> bool {
+    fn has_other_content(&self, number: usize) -> bool {
         let file = &self.store.kept.files[number];
-        self.store.verdict.files[number] == FileState::Unchecked && self.run.is_other(&file.path, file.hash)
+        self.store.verdict.files[number] == FileState::Unchecked
+            && self.run.has_other_content(&file.path, file.hash)
     }
 
     fn carry_over_file(&mut self, number: usize) -> usize {
@@ -145,7 +148,7 @@ impl<'a> CatalogueBuilder<'a> {
             FileState::Changed => fact.stamp = Stamp::UNKNOWN,
         }
         // If the file has changed since it was compared, it is unclear which content a result belongs to.
-        if self.run.is_other(&fact.path, fact.hash) {
+        if self.run.has_other_content(&fact.path, fact.hash) {
             (fact.stamp, fact.hash) = (Stamp::UNKNOWN, None);
         }
         self.add_file(fact)
@@ -155,7 +158,7 @@ impl<'a> CatalogueBuilder<'a> {
     fn drawing(&mut self, file: SourceFile) -> usize {
         let path = file.path(self.session.db());
         let is_known = |number: &usize| {
-            self.store.verdict.files[*number] != FileState::Changed && !self.is_other(*number)
+            self.store.verdict.files[*number] != FileState::Changed && !self.has_other_content(*number)
         };
         match self.kept_files.get(&**path).copied().filter(is_known) {
             Some(number) => self.carry_over_file(number),
@@ -166,11 +169,11 @@ impl<'a> CatalogueBuilder<'a> {
     /// Adds a file other than a drawing, and returns its index. If results were computed from different contents of the file, it is unclear to which
     /// content a result belongs, so the file gets neither stamp nor hash.
     fn further_file(&mut self, ExtraInput { path, hash }: &ExtraInput) -> usize {
-        let mut room = Vec::new();
+        let mut buffer = Vec::new();
         let limit = self.session.workspace().settings.limits.file_size.value;
-        let stamp = self.session.db().system().read_into(path, limit, &mut room).ok();
+        let stamp = self.session.db().system().read_into(path, limit, &mut buffer).ok();
         let stamp =
-            stamp.filter(|_| Some(*blake3::hash(&room).as_bytes()) == *hash).unwrap_or(Stamp::UNKNOWN);
+            stamp.filter(|_| Some(*blake3::hash(&buffer).as_bytes()) == *hash).unwrap_or(Stamp::UNKNOWN);
         let number = self.new_file(path, hash.map(|hash| (hash, stamp)));
         let fact = &mut self.catalogue.files[number];
         if fact.hash != *hash {
@@ -224,8 +227,8 @@ impl<'a> CatalogueBuilder<'a> {
 
     fn add_lookup(&mut self, list: Vec<usize>, name: &str) -> usize {
         let Catalogue { directory_lists, lookups, .. } = &mut self.catalogue;
-        let directories = number(&mut self.lists, directory_lists, list);
-        number(&mut self.lookups, lookups, Lookup { directories, name: name.into() })
+        let directories = index_or_push(&mut self.lists, directory_lists, list);
+        index_or_push(&mut self.lookups, lookups, Lookup { directories, name: name.into() })
     }
 
     fn carry_over_directory(&mut self, number: usize) -> usize {
@@ -253,7 +256,7 @@ impl<'a> CatalogueBuilder<'a> {
 }
 
 /// Returns the index of a value in a list without duplicates, and appends the value if it is new.
-fn number<T: Clone + Eq + Hash>(numbers: &mut HashMap<T, usize>, all: &mut Vec<T>, value: T) -> usize {
+fn index_or_push<T: Clone + Eq + Hash>(numbers: &mut HashMap<T, usize>, all: &mut Vec<T>, value: T) -> usize {
     match numbers.entry(value) {
         Entry::Occupied(known) => *known.get(),
         Entry::Vacant(new) => {
@@ -304,7 +307,7 @@ impl<'a> RunFacts<'a> {
 
     /// Whether this run accessed a drawing and got a hash other than this one. A drawing that could not be read, or changed during the run, has the
     /// hash `None`.
-    fn is_other(&self, path: &Utf8Path, hash: Option<[u8; 32]>) -> bool {
+    fn has_other_content(&self, path: &Utf8Path, hash: Option<[u8; 32]>) -> bool {
         self.read.get(path).is_some_and(|content| content.map(|(read, _)| read) != hash)
     }
 

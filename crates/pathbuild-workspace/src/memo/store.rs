@@ -163,7 +163,7 @@ impl Store {
     /// Returns the encoded result of a subject, if it still holds.
     pub(super) fn payload(&self, subject: &str) -> Option<&[u8]> {
         let number = self.record(subject)?;
-        self.verdict.holds[number].then(|| &*self.kept.records[number].payload)
+        self.verdict.is_valid[number].then(|| &*self.kept.records[number].payload)
     }
 
     /// Returns the states of the files that were generated from a result, in the order in which they were stored.
@@ -222,10 +222,10 @@ fn verify_snapshot(
     let covers = |file: &str, path: &str| coverage.may_hold(file, path);
     let (system, limits) = (&*workspace.system, &workspace.settings.limits);
     let read = |file: &Utf8Path, is_output: bool| {
-        let mut room = Vec::new();
+        let mut buffer = Vec::new();
         let limit = if is_output { limits.output_size.value } else { limits.file_size.value };
-        let stamp = system.read_into(file, limit, &mut room).ok()?;
-        Some((room, stamp))
+        let stamp = system.read_into(file, limit, &mut buffer).ok()?;
+        Some((buffer, stamp))
     };
     let confined = workspace.settings.confined.as_ref();
     let is_allowed = |file: &Utf8Path| confined.is_none_or(|confined| confined.allows(file));
@@ -347,8 +347,8 @@ impl CoveredPaths<'_> {
     }
 }
 
-/// The drawings that a run uses, or the programs that it verifies. The subject of a result begins with the path of this file. If the result is about
-/// something in a drawing, its description follows after a NUL.
+/// The drawings that a run uses, or the programs that it verifies. The subject of a result begins with the path of such a file. If the result is
+/// about a part of a drawing, the description of that part follows after a NUL.
 #[derive(Debug)]
 pub(super) enum Scope {
     All,
@@ -388,8 +388,8 @@ impl Scope {
             Self::All => is_file(),
             Self::Drawings { directories, .. } => {
                 let is_below = |parent: &Utf8Path| directories.contains(parent.as_str());
-                let was_looked_through = drawing.parent().is_some_and(is_below);
-                self.holds(subject) || directories.is_empty() || !was_looked_through && is_file()
+                let was_listed = drawing.parent().is_some_and(is_below);
+                self.holds(subject) || directories.is_empty() || !was_listed && is_file()
             }
         }
     }

@@ -21,7 +21,7 @@ use pathbuild_path::PathName;
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
-use super::library::IsWanted;
+use super::library::FileFilter;
 use super::{Session, library, no_drawing_error};
 use crate::config::types::Pattern;
 use crate::inputs::{Input, Inputs};
@@ -162,7 +162,7 @@ impl Session<'_> {
 
     /// Expands a pattern that the shell passed on unexpanded, as Windows shells do. The last component of the pattern is matched with the names of
     /// directories and of files that `is_wanted` accepts. Returns `place` itself if a file with exactly that name exists, or if nothing matches.
-    pub(super) fn expand_pattern(&self, place: &Utf8Path, is_wanted: IsWanted<'_>) -> Vec<Utf8PathBuf> {
+    pub(super) fn expand_pattern(&self, place: &Utf8Path, is_wanted: FileFilter<'_>) -> Vec<Utf8PathBuf> {
         let pattern = place.file_name().and_then(pattern_of);
         let is_missing = || self.db.system().kind(&self.normal(place)) == FileKind::Missing;
         let Some(pattern) = pattern.filter(|_| is_missing()) else { return vec![place.to_owned()] };
@@ -257,8 +257,8 @@ impl Session<'_> {
         SearchedDirectory { path, drawings, directories, problems: walked.problems }
     }
 
-    /// Searches the directories of the library. One without any entry is an error (PB518): a share that is not mounted and a submodule that was not
-    /// checked out look like that.
+    /// Searches the directories of the library. A directory without any entry is an error (PB518), because it may be a share that is not mounted or a
+    /// submodule that was not checked out.
     fn walk_library(&self, listings: &mut Listings) -> Vec<SearchedDirectory> {
         let library = self.context.settings.general.library.value.iter();
         let library: Vec<Utf8PathBuf> = library.map(|directory| self.normal(directory)).collect();
@@ -364,7 +364,7 @@ impl Session<'_> {
         self.db.system().kind(&self.normal(place)) == FileKind::Directory
     }
 
-    pub(super) fn walk<'w>(&'w self, is_wanted: IsWanted<'w>) -> library::Walk<'w> {
+    pub(super) fn walk<'w>(&'w self, is_wanted: FileFilter<'w>) -> library::Walk<'w> {
         let limits = &self.context.settings.limits;
         library::Walk {
             system: &*self.context.system,

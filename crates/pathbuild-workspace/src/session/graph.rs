@@ -43,8 +43,8 @@ pub struct Node {
     pub is_sound: bool,
 }
 
-/// An edge of the graph: all subpath segments of one path that embed the same other path. Or a path that takes the parameters of another one with @,
-/// so that a change of the other path affects it as well.
+/// An edge of the graph. It stands for all subpath segments of one path that embed the same other path, or for a path that takes the parameters of
+/// another path with @, so that a change of the other path affects it as well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Embedding {
     /// Index of the embedding path in [`Graph::nodes`].
@@ -79,9 +79,9 @@ impl Graph {
     /// Returns the nodes of a path, one for each set of values. If other paths embed this path, the node with example values is left out, unless a
     /// path takes its parameters with @.
     pub fn nodes_of(&self, name: &PathName, file: &Utf8Path) -> Vec<usize> {
-        let is_it = |node: &Node| node.name == *name && node.file == *file;
+        let is_of_path = |node: &Node| node.name == *name && node.file == *file;
         let mut indices: Vec<usize> =
-            (0..self.nodes.len()).filter(|index| is_it(&self.nodes[*index])).collect();
+            (0..self.nodes.len()).filter(|index| is_of_path(&self.nodes[*index])).collect();
         if indices.iter().any(|index| !self.nodes[*index].is_example) {
             let lends = |index: &usize| {
                 self.embeddings.iter().any(|other| other.is_lender && other.to == EmbeddingEnd::Node(*index))

@@ -54,7 +54,7 @@ pub(super) struct WalkResult {
 const MAX_SEQUENTIAL_DIRECTORIES: usize = 4;
 
 /// Decides by a file's name whether a search finds the file.
-pub(super) type IsWanted<'a> = &'a (dyn Fn(&Utf8Path) -> bool + Sync);
+pub(super) type FileFilter<'a> = &'a (dyn Fn(&Utf8Path) -> bool + Sync);
 
 /// Settings of a recursive search.
 #[derive(Clone, Copy)]
@@ -66,7 +66,7 @@ pub(super) struct Walk<'a> {
     pub(super) rules_limit: u64,
     /// Whether to use all cores.
     pub(super) is_parallel: bool,
-    pub(super) is_wanted: IsWanted<'a>,
+    pub(super) is_wanted: FileFilter<'a>,
     /// Whether .gitignore files apply, besides .ignore.
     pub(super) obeys_git: bool,
     /// The directory of the configuration: its ignore files, and those of the directories between it and the root of the search, apply too.
@@ -253,7 +253,7 @@ impl Directory {
         &mut self,
         directory: &Utf8Path,
         Entry { name, is_exact, kind }: Entry<'_>,
-        is_wanted: IsWanted<'_>,
+        is_wanted: FileFilter<'_>,
     ) {
         if kind != EntryKind::Directory && is_wanted(Utf8Path::new(name)) {
             let listing = if is_exact { &mut self.listing } else { &mut self.inexact };
@@ -318,11 +318,12 @@ fn too_many_entries(directory: &Utf8Path, limit: u64) -> Diagnostic {
 
 impl Session<'_> {
     /// Returns the programs that these arguments name, each once, and the diagnostics of directories. A directory stands for the files in and below
-    /// it that `is_program` accepts. A pattern that the shell passed on unexpanded stands for the files and directories that match its last component.
+    /// it that `is_program` accepts. A pattern that the shell passed on unexpanded stands for the files and directories that match its last
+    /// component.
     pub(crate) fn match_programs(
         &self,
         arguments: &[Utf8PathBuf],
-        is_program: IsWanted<'_>,
+        is_program: FileFilter<'_>,
     ) -> ProgramMatches {
         let mut found = ProgramMatches::default();
         for argument in arguments {
@@ -339,7 +340,7 @@ impl Session<'_> {
         found
     }
 
-    fn add_directory(&self, directory: &Utf8Path, is_program: IsWanted<'_>, found: &mut ProgramMatches) {
+    fn add_directory(&self, directory: &Utf8Path, is_program: FileFilter<'_>, found: &mut ProgramMatches) {
         self.start_workers();
         let root = if directory == "." { Utf8Path::new("") } else { directory };
         // Programs are generated files, which .gitignore often excludes, so it is disregarded.
@@ -360,8 +361,8 @@ impl Session<'_> {
         Walk { obeys_git: false, ..self.walk(&is_wanted) }.search(directory).drawings
     }
 
-    /// Returns the directory of the configuration and those directly in it, except hidden ones and those that .ignore excludes; none if they cannot be
-    /// listed.
+    /// Returns the directory of the configuration and those directly in it, except hidden ones and those that .ignore excludes; none if they cannot
+    /// be listed.
     pub(crate) fn top_directories(&self) -> Vec<Utf8PathBuf> {
         let Some(top) = self.context.settings.directory().map(|top| self.normal(top)) else {
             return Vec::new();
@@ -410,7 +411,8 @@ pub(super) struct Rules {
     own: Gitignore,
     /// Whether the directory is the root of a repository: .gitignore files above it do not apply.
     is_repository: bool,
-    /// The root of the search as it is named, and as an absolute path, if the directory lies above it and therefore has an absolute name.
+    /// For a directory above the root of the search, which has an absolute path: the root as it is named, and as an absolute path. `None` for other
+    /// directories.
     root: Option<[Utf8PathBuf; 2]>,
     above: Option<Arc<Self>>,
 }
@@ -419,7 +421,7 @@ pub(super) struct Rules {
 #[derive(Debug)]
 pub(super) struct Budget {
     /// Upper bound on a file's size in bytes.
-    each: u64,
+    file_limit: u64,
     /// Total size in bytes of the files that were read.
     read: AtomicU64,
 }
@@ -428,9 +430,9 @@ pub(super) struct Budget {
 const TOTAL_FACTOR: u64 = 16;
 
 impl Budget {
-    /// Creates a budget. `each` is the value of `[limits] ignore-file-size`.
-    pub(super) fn new(each: u64) -> Self {
-        Self { each, read: AtomicU64::new(0) }
+    /// Creates a budget. `file_limit` is the value of `[limits] ignore-file-size`.
+    pub(super) fn new(file_limit: u64) -> Self {
+        Self { file_limit, read: AtomicU64::new(0) }
     }
 
     /// Returns PB005 if the files read by all threads exceed the total, so that rules are missing.
@@ -449,7 +451,7 @@ impl Budget {
     }
 
     fn total_limit(&self) -> u64 {
-        self.each.saturating_mul(TOTAL_FACTOR)
+        self.file_limit.saturating_mul(TOTAL_FACTOR)
     }
 
     fn spend(&self, bytes: usize) {
@@ -506,7 +508,8 @@ impl Rules {
         }
     }
 
-    /// Returns the path of an entry, which begins with the root of the search, in the spelling of this directory.
+    /// Returns the path of an entry as the rules of this directory need it: absolute for a directory above the root of the search. `path` begins with
+    /// the root as it is named.
     fn path<'p>(&self, path: &'p Utf8Path) -> Cow<'p, Utf8Path> {
         let below =
             self.root.as_ref().and_then(|[root, place]| Some(join(place, path.strip_prefix(root).ok()?)));
@@ -530,7 +533,7 @@ fn patterns(
     budget: &Budget,
 ) -> Result<Gitignore, Box<Diagnostic>> {
     let file = join(directory, name);
-    let limit = budget.each;
+    let limit = budget.file_limit;
     let bytes = match system.read(&file, limit) {
         Ok(bytes) => bytes,
         Err(ReadError::Missing | ReadError::IsDirectory) => return Ok(Gitignore::empty()),

@@ -108,12 +108,12 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// The workspace of the session.
+    /// Returns the workspace of the session.
     pub fn workspace(&self) -> &'a Workspace {
         self.context
     }
 
-    /// The database of the session.
+    /// Returns the database of the session.
     pub fn db(&self) -> &Database {
         &self.db
     }

@@ -17,7 +17,7 @@ use pathbuild_path::{PathName, with_near_names};
 use rustc_hash::FxHashSet;
 
 use super::argument_matches::{Argument, ArgumentMatches, SearchedDirectory};
-use super::library::IsWanted;
+use super::library::FileFilter;
 use super::{Session, compare_paths};
 use crate::config::SourcedValue;
 use crate::inputs::Inputs;
@@ -80,7 +80,7 @@ impl Session<'_> {
         }
         let is_wrong = |problems: &[Diagnostic]| problems.iter().any(Diagnostic::is_error);
         if !is_wrong(&selection.problems) && !is_wrong(&found.problems) {
-            selection.problems.extend(Self::without_drawings(found.is_library, &walked));
+            selection.problems.extend(Self::empty_directory_errors(found.is_library, &walked));
         }
         let named: FxHashSet<&Utf8PathBuf> = selection.named.iter().map(|file| file.path(&self.db)).collect();
         selection.drawings.retain(|drawing| !named.contains(drawing));
@@ -104,7 +104,7 @@ impl Session<'_> {
                 selection.add(directory);
                 return Some(directory);
             }
-            Argument::Drawing(file) => selection.name(*file),
+            Argument::Drawing(file) => selection.add_named(*file),
             Argument::Name { name, candidates, drawing, directory } => {
                 let defines = |file: &SourceFile| names(*file).contains(name);
                 let files = self.distinct_files(candidates.iter().copied().filter(defines));
@@ -122,7 +122,7 @@ impl Session<'_> {
                         let found = SecondDefinition { name: name.clone(), files };
                         selection.problems.push(found.diagnostic());
                     }
-                    ([], Some(drawing), _) => selection.name(*drawing),
+                    ([], Some(drawing), _) => selection.add_named(*drawing),
                     // A directory in the working directory, as in `check components`, if neither a path nor a drawing has that name.
                     ([], None, Some(directory)) => {
                         selection.add(directory);
@@ -189,7 +189,7 @@ impl Selection {
         self.below.extend_from_slice(&directory.directories);
     }
 
-    fn name(&mut self, file: SourceFile) {
+    fn add_named(&mut self, file: SourceFile) {
         if !self.named.contains(&file) {
             self.named.push(file);
         }
@@ -402,7 +402,7 @@ impl Session<'_> {
     }
 
     /// Returns the sorted names of the entries of a directory that are directories themselves or files that `is_wanted` accepts, without hidden ones.
-    pub(super) fn entries(&self, directory: &Utf8Path, is_wanted: IsWanted<'_>) -> Vec<String> {
+    pub(super) fn entries(&self, directory: &Utf8Path, is_wanted: FileFilter<'_>) -> Vec<String> {
         let mut names = Vec::new();
         let mut take = |entry: Entry<'_>| {
             let counts = entry.kind == EntryKind::Directory || is_wanted(Utf8Path::new(entry.name));
@@ -464,7 +464,10 @@ impl Session<'_> {
 
     /// Returns PB518 for each named directory without drawings. A new library may have directories without drawings, so for a library, PB518 is
     /// returned only if none of its directories has any.
-    pub(super) fn without_drawings(is_library: bool, directories: &[&SearchedDirectory]) -> Vec<Diagnostic> {
+    pub(super) fn empty_directory_errors(
+        is_library: bool,
+        directories: &[&SearchedDirectory],
+    ) -> Vec<Diagnostic> {
         let empty = directories.iter().filter(|directory| directory.drawings.is_empty());
         let empty: Vec<&Utf8Path> = empty.map(|directory| directory.path.as_path()).collect();
         match empty.as_slice() {

@@ -123,7 +123,7 @@ fn drawn_scene(db: &dyn Db, file: SourceFile) -> Scene {
     scene
 }
 
-/// The details of a program that only pages show.
+/// The details of a program that pages show and pictures do not.
 pub(crate) struct ProgramDetails<'a> {
     /// Whether to add the native text.
     pub(crate) has_native: bool,

@@ -337,7 +337,7 @@ fn q_project_without_drawing(
 /// A drawing and its Q-project.
 pub type Pair = [SourceFile; 2];
 
-/// Pairs each Q-project with its drawing, if that is among the drawings as well, or does not exist.
+/// Pairs each Q-project with the drawing that it tests, provided that this drawing is among `drawings` as well, or does not exist.
 pub fn pairs<'a>(
     system: &dyn System,
     drawings: impl Iterator<Item = &'a Utf8PathBuf> + Clone,

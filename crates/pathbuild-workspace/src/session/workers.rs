@@ -14,7 +14,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 pub(super) struct Workers {
     pool: ThreadPool,
     /// Becomes true when there is work, so that the threads stop reserving memory.
-    is_wanted: Arc<AtomicBool>,
+    has_work: Arc<AtomicBool>,
 }
 
 /// Stack size of worker threads in bytes. Queries recurse once per level of embedding.
@@ -24,12 +24,12 @@ impl Workers {
     /// Starts `count` threads, or one per core, without waiting for them; `None` if the system provides none. The calling thread is not part of the
     /// pool: when it was, the only other thread on a machine with two cores often started on the caller's core and stayed there for 5 to 10 ms.
     pub(super) fn start(count: Option<u16>) -> Option<Self> {
-        let is_wanted = Arc::new(AtomicBool::new(false));
-        let until = Arc::clone(&is_wanted);
+        let has_work = Arc::new(AtomicBool::new(false));
+        let until = Arc::clone(&has_work);
         let threads = usize::from(count.unwrap_or(0));
         let pool = ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_SIZE);
         let pool = pool.start_handler(move |_| reserve_memory(&until)).build().ok()?;
-        Some(Self { pool, is_wanted })
+        Some(Self { pool, has_work })
     }
 
     pub(super) fn count(&self) -> usize {
@@ -38,7 +38,7 @@ impl Workers {
 
     /// Runs work that uses the threads through rayon.
     pub(super) fn work<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        self.is_wanted.store(true, Ordering::Relaxed);
+        self.has_work.store(true, Ordering::Relaxed);
         self.pool.install(work)
     }
 }
@@ -46,9 +46,9 @@ impl Workers {
 /// Allocates the memory that a thread will need in one piece and frees it again, so that it is available later. Otherwise glibc requests a thread's
 /// memory page by page while all other threads wait. glibc keeps at most twice the size of the largest piece that it has returned to the system,
 /// which is why one piece is allocated and freed first.
-fn reserve_memory(is_wanted: &AtomicBool) {
+fn reserve_memory(has_work: &AtomicBool) {
     drop(allocate_block());
-    touch_pages(&mut allocate_block(), is_wanted);
+    touch_pages(&mut allocate_block(), has_work);
 }
 
 /// Allocates a block of memory without touching it; a smaller one if the system has less.
@@ -60,12 +60,12 @@ fn allocate_block() -> Vec<u8> {
 }
 
 /// Touches the first pages of the block until there is work, so that the work does not have to wait for each page.
-fn touch_pages(memory: &mut Vec<u8>, is_wanted: &AtomicBool) {
+fn touch_pages(memory: &mut Vec<u8>, has_work: &AtomicBool) {
     const PAGE: usize = 4 << 10;
     /// Number of pages touched: roughly the size of the results of a few hundred drawings.
     const PAGES: usize = 384;
     for page in memory.spare_capacity_mut().chunks_mut(PAGE).take(PAGES) {
-        if is_wanted.load(Ordering::Relaxed) {
+        if has_work.load(Ordering::Relaxed) {
             break;
         }
         page[0].write(0);

@@ -132,8 +132,8 @@ impl ReferenceProgram {
         self.drawn.surface()
     }
 
-    /// Returns the program that the drawing requires of a program in a dialect: the milling program, at nominal heights before correction, or the
-    /// probing program.
+    /// Returns the program with which a program in a dialect must agree according to the drawing: the milling program, at nominal heights before
+    /// correction, or the probing program.
     pub(super) fn expected(
         &self,
         settings: &Settings,
@@ -249,7 +249,7 @@ impl ReferenceProgram {
         };
         let read = interpret::interpret(code, program.dialect, &options);
         let (all, tool) = (read.moves(), ToolUse::of_cuts(&read.steps, program.dialect));
-        let begins = all.iter().position(|(_, it)| it.to.known == Axes::ALL);
+        let begins = all.iter().position(|(_, movement)| movement.to.known == Axes::ALL);
         let start = begins.map(|index| all[index].1.to);
         let moves = all.into_iter().skip(begins.map_or(0, |index| index + 1)).collect();
         let other_line = writer.first_other_line(&program.text, &text);
@@ -322,7 +322,7 @@ impl ReferenceProgram {
     }
 }
 
-/// Returns a finding about a line that differs: with the first message, or with the second if the expected text has ended before it.
+/// Returns a finding about a line that differs: with the first message, or with the second if the expected text ends before this line.
 fn other_line([differs, has_ended]: [&'static Message; 2], other: OtherLine) -> Diagnostic {
     let message = if other.expected.is_empty() { has_ended } else { differs };
     Diagnostic::new(message).quoting("expected", other.expected).at_line(other.line, None)

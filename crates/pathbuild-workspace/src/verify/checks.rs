@@ -158,7 +158,7 @@ pub(super) fn records(
 }
 
 /// Returns the record of the check for the rounding of corners. `has_limit` says whether the program limits the rounding.
-pub(super) fn of_corners(has_limit: bool) -> CheckRecord {
+pub(super) fn corner_record(has_limit: bool) -> CheckRecord {
     let outcome = if has_limit { Outcome::Made(None) } else { Outcome::NotMade(Reason::NoCornerLimit) };
     CheckRecord { requirement: Requirement::Corners, outcome }
 }

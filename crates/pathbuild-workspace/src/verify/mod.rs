@@ -193,10 +193,11 @@ impl<'w> Verifier<'w> {
     fn examine_with_required(&self, program: &Program, as_written: AsWrittenSteps<'_>) -> VerifiedProgram {
         let mut verified = self.examine(program, as_written);
         let required = self.required();
-        let unmade = verified.checks.iter().filter_map(|record| record.missing_check_error(&required));
-        let mut unmade: Vec<Diagnostic> = unmade.collect();
-        program.place(&mut unmade);
-        verified.diagnostics.append(&mut unmade);
+        let missing_checks =
+            verified.checks.iter().filter_map(|record| record.missing_check_error(&required));
+        let mut missing_checks: Vec<Diagnostic> = missing_checks.collect();
+        program.place(&mut missing_checks);
+        verified.diagnostics.append(&mut missing_checks);
         verified
     }
 
@@ -282,7 +283,8 @@ impl<'m> AsWrittenSteps<'m> {
     }
 
     fn finish(self, program: &Program) -> (Header, AsWrittenFindings) {
-        // PathDxf2GCode states planned lengths, and other programs may count differently.
+        // The stated statistics are compared only if pathbuild computed them in its own way: PathDxf2GCode states planned lengths, and other programs
+        // may count differently.
         let has_own_statistics = program.dialect == Dialect::Native
             && Provenance::of_head(&program.text).is_some()
             && !native::is_compatible(&program.text);
@@ -293,8 +295,8 @@ impl<'m> AsWrittenSteps<'m> {
     }
 }
 
-/// Returns the data that the comments of a program state. The surface in the header of a program that was corrected by probes and then converted is
-/// that of the drawing, but all its heights are those of the measured surface.
+/// Returns the data that the comments of a program state. The surface is left out if the program was corrected by probes and then converted: its
+/// header states the surface of the drawing, but its heights are those of the measured surface.
 fn header_of(reader: HeaderReader, program: &Program) -> Header {
     let header = program.finish_header(reader);
     if is_converted_correction(program) {
@@ -442,13 +444,13 @@ struct Examination<'v> {
     /// Whether the program may be the probing run of the path that it is compared with, which is a separate program.
     is_probing: bool,
     /// The path to compare moves with; `None` if there is none, or if the program is its native probing run, whose text is compared.
-    milled: Option<&'v ReferenceProgram>,
+    reference: Option<&'v ReferenceProgram>,
 }
 
 impl<'v> Examination<'v> {
     fn new(verifier: &'v Verifier<'v>, program: &'v Program, header: &'v Header, has_probed: bool) -> Self {
         let evidence = program.evidence.map(|evidence| evidence.kind);
-        let writer = verifier.writers.of(program.shown, evidence);
+        let writer = verifier.writers.writer_of(program.shown, evidence);
         let is_native = program.dialect == Dialect::Native;
         let against = verifier.against.as_ref();
         let may_probe = header.is_probing || is_native && has_probed;
@@ -461,7 +463,7 @@ impl<'v> Examination<'v> {
             writer,
             words: verifier.known_words(writer, program.dialect),
             is_probing,
-            milled: against.filter(|_| !(is_probing && is_native)),
+            reference: against.filter(|_| !(is_probing && is_native)),
         }
     }
 
@@ -504,14 +506,14 @@ impl<'v> Examination<'v> {
         Ok(VerifiedProgram { diagnostics, checks, comparison, number: None })
     }
 
-    /// Refuses to compare a program with a path if each difference would be reported as a fault of the program: a program that joins several paths,
-    /// and a converted one whose heights were corrected, or that only probes and was written by a definition of the user's own.
+    /// Refuses to compare a program with a path if they differ without a fault of the program: if the program joins several paths, was converted
+    /// after its heights were corrected, or is a probing program that a definition of the user's own wrote.
     fn refuse_incomparable(&self) -> Result<(), Vec<Diagnostic>> {
         let title = Provenance::of_head(&self.program.text).map(|(_, title)| title);
         let message = match title.and_then(|title| native::joined_paths(&title)) {
             _ if self.verifier.against.is_none() => return Ok(()),
             Some(_) => &say::JOINED_PROGRAM,
-            None if self.is_probing && self.milled.and(self.definition()).is_some() => {
+            None if self.is_probing && self.reference.and(self.definition()).is_some() => {
                 &say::PROBING_CONVERTED
             }
             None if is_converted_correction(self.program) => &say::CONVERTED_CORRECTION,
@@ -529,8 +531,8 @@ impl<'v> Examination<'v> {
 
     /// Returns the drawing's program as the post-processor's definition writes it.
     fn rewritten_program(&self) -> Result<Option<RewrittenProgram>, Vec<Diagnostic>> {
-        let rewritten = self.milled.zip(self.definition()).map(|(milled, writer)| {
-            milled.rewrite_with_definition(self.verifier.settings, writer, self.program)
+        let rewritten = self.reference.zip(self.definition()).map(|(reference, writer)| {
+            reference.rewrite_with_definition(self.verifier.settings, writer, self.program)
         });
         rewritten.transpose()
     }
@@ -541,9 +543,9 @@ impl<'v> Examination<'v> {
         rewritten: Option<&RewrittenProgram>,
     ) -> NominalRules<'_, impl Iterator<Item = (u32, Move)>> {
         let Self { verifier, program, .. } = self;
-        let compared = |milled: &'v ReferenceProgram| {
+        let compared = |reference: &'v ReferenceProgram| {
             let (settings, table) = (verifier.settings, &verifier.table);
-            let expected = milled.expected(settings, table, program.dialect, self.is_probing, rewritten);
+            let expected = reference.expected(settings, table, program.dialect, self.is_probing, rewritten);
             DrawingComparison::new(expected, program.dialect, &self.words)
         };
         let tools = self.sources.cutting_tools();
@@ -553,12 +555,12 @@ impl<'v> Examination<'v> {
         let control = verifier.options.target.unwrap_or(program.dialect);
         // The comparison with a drawing reports wrong words, wrong directions and wrong tool lengths itself.
         NominalRules {
-            comparison: self.milled.map(compared),
+            comparison: self.reference.map(compared),
             words: verifier.against.is_none().then(|| WordRules::new(&self.words, program.dialect)),
             chip_loads: ChipLoadRules::new(loads.collect()),
             cutting_lengths: CuttingLengthRules::new(edges.collect(), stock),
-            directions: self.milled.is_none().then(|| DirectionRules::new(self.sources.directions())),
-            lengths: self.milled.is_none().then(|| LengthRules::new(program.dialect, stock)),
+            directions: self.reference.is_none().then(|| DirectionRules::new(self.sources.directions())),
+            lengths: self.reference.is_none().then(|| LengthRules::new(program.dialect, stock)),
             depths: DepthRules::default(),
             bent_rapids: stock.and_then(|stock| BentRapidRules::new(control, stock)),
         }
@@ -610,17 +612,20 @@ impl<'v> Examination<'v> {
         found.extend(written.statistics);
         found.extend(self.sources.disagreements());
         found.extend(self.header.problems.iter().cloned());
-        let Some((milled, comparison)) = self.milled.zip(rules.comparison) else { return (found, None) };
+        let Some((reference, comparison)) = self.reference.zip(rules.comparison) else {
+            return (found, None);
+        };
         let agreement = comparison.finish();
         evidence.has_uncompared_coolant =
             agreement.has_uncompared_coolant && !rewritten.is_some_and(RewrittenProgram::is_same);
         let (comparison, differences) =
-            milled.finish_comparison(program, verifier.lang, agreement, self.is_probing, rewritten);
+            reference.finish_comparison(program, verifier.lang, agreement, self.is_probing, rewritten);
         found.extend(differences);
         (found, comparison)
     }
 
-    /// Returns the checks with their outcomes, and adds the finding about corners.
+    /// Returns the checks with their outcomes. Adds further findings that follow from the evidence, and turns errors about exceeded limits into
+    /// warnings.
     fn checks(
         &self,
         found: &mut Vec<Diagnostic>,
@@ -658,15 +663,15 @@ impl<'v> Examination<'v> {
         let mut records = checks::records(rapids, machine, references, states_speed);
         // Only LinuxCNC has a word that limits the rounding of corners.
         if self.program.dialect == Dialect::LinuxCnc {
-            records.push(checks::of_corners(corners.has_limit()));
+            records.push(checks::corner_record(corners.has_limit()));
         }
         records.extend(has_uncompared_coolant.then(checks::coolant_not_compared));
         found.extend(corners.finish());
         records
     }
 
-    /// Returns doubts about a program of pathbuild that was not compared with its drawing: such a program has Z 0 on the plate, and millimetres unless
-    /// a definition of the user's own wrote it.
+    /// Returns doubts about a program of pathbuild that was not compared with its drawing: such a program has Z 0 on the plate, and millimetres
+    /// unless a definition of the user's own wrote it.
     fn slips_in_own_program(&self, evidence: &CheckEvidence) -> Vec<Diagnostic> {
         if self.verifier.against.is_some() || Provenance::of_head(&self.program.text).is_none() {
             return Vec::new();
@@ -707,9 +712,9 @@ impl<'v> Examination<'v> {
                     || doubt.message.key == NO_DECIMAL_POINT.key
             });
         } else if self.verifier.against.is_some() {
-            let unsaid = doubts.iter_mut().filter(|doubt| is_absent_from_drawing(doubt));
+            let absent = doubts.iter_mut().filter(|doubt| is_absent_from_drawing(doubt));
             let unchecked = found.iter_mut().filter(|problem| problem.code() == Code::UncheckedFormula);
-            unsaid.chain(unchecked).for_each(|problem| problem.severity = Severity::Error);
+            absent.chain(unchecked).for_each(|problem| problem.severity = Severity::Error);
         }
         doubts
     }
@@ -772,7 +777,7 @@ impl PossiblePosts {
 
     /// Returns the post that wrote a program of this dialect, if known: the post named by `--post`, or else the configured one. A configured
     /// definition that names no dialect is assumed if the dialect was guessed without a header.
-    fn of(&self, dialect: Dialect, evidence: Option<EvidenceKind>) -> Option<&PostProcessor> {
+    fn writer_of(&self, dialect: Dialect, evidence: Option<EvidenceKind>) -> Option<&PostProcessor> {
         let is_without_header = evidence.is_some_and(|kind| kind != EvidenceKind::Header);
         let may_have_written = |post: &&PostProcessor| match post.reader() {
             Some(reader) => reader == dialect,
@@ -784,7 +789,7 @@ impl PossiblePosts {
     /// Translates a text by means of the post definition that wrote it; `None` if the definition is unknown or its programs are read in a dialect.
     fn translate(&self, text: &[u8], guess: Option<&Guess>) -> Option<DefinitionTranslation> {
         let dialect = guess.map(|guess| guess.dialect).or(self.dialect)?;
-        let writer = self.of(dialect, guess.map(|guess| guess.evidence.kind))?;
+        let writer = self.writer_of(dialect, guess.map(|guess| guess.evidence.kind))?;
         Some(DefinitionTranslation { name: writer.name(), translated: writer.translate(text)? })
     }
 }

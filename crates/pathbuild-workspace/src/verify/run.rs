@@ -63,7 +63,7 @@ impl Request<'_> {
     }
 }
 
-/// Returns PB530 for programs in one directory with the same number, and for numbers of macros.
+/// Returns PB530 for programs in one directory with the same number, and for programs with a number that is reserved for macros.
 fn warn_of_numbers(programs: &[(Utf8PathBuf, VerifiedProgram)]) -> Vec<Diagnostic> {
     let mut by_directory: BTreeMap<Option<&Utf8Path>, Vec<(u32, String, Utf8PathBuf)>> = BTreeMap::new();
     for (file, verified) in programs {
@@ -131,7 +131,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Returns the part of the cache key that is neither the program nor a setting of `emit`.
+    /// Returns the part of the cache key besides the program's file and the settings of `emit`.
     fn query(&self, session: &Session<'_>) -> String {
         let limits = &self.settings.limits;
         let limits = (limits.verify_cells.value, limits.verify_pieces.value);

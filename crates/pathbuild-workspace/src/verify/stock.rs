@@ -212,8 +212,9 @@ impl<'s> Sources<'s> {
         }
     }
 
-    /// Reports rapid moves at cutting depth, unless the cutter is known, and the surface from more than the comments of another CAM program. Lines
-    /// with an error or with a finding of the same code are left out. A cutter that is not known may be as wide as [`MAX_ASSUMED_DIAMETER`].
+    /// Reports rapid moves at cutting depth if the cutter is unknown, or if the surface is unknown or stated only by the comments of another CAM
+    /// program. Lines with an error or with a finding of the same code are left out. A cutter that is not known may be as wide as
+    /// [`MAX_ASSUMED_DIAMETER`].
     pub(super) fn doubtful_rapids(&self, rules: DepthRules, found: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_surface_known = self.options().surface.is_some()
             || self.verifier.against.is_some()
@@ -259,10 +260,12 @@ impl<'s> Sources<'s> {
         };
         let mut cutters: Vec<(u32, Cutter)> = self.header.tools.iter().map(widths).collect::<Option<_>>()?;
         // In a subprogram, the tool depends on the caller.
-        let is_one = cutters.iter().all(|(_, cutter)| *cutter == cutters[0].1);
+        let is_single = cutters.iter().all(|(_, cutter)| *cutter == cutters[0].1);
         match given.map(Cutter::flat) {
-            Some(given) if cutters.is_empty() || (self.header.has_calls && !is_one) => Some(vec![(0, given)]),
-            None if cutters.is_empty() || (self.header.has_calls && !is_one) => None,
+            Some(given) if cutters.is_empty() || (self.header.has_calls && !is_single) => {
+                Some(vec![(0, given)])
+            }
+            None if cutters.is_empty() || (self.header.has_calls && !is_single) => None,
             given => {
                 // The cutter from the command line or the drawing is in the spindle from the beginning.
                 cutters[0].0 = if given.is_some() { 0 } else { cutters[0].0 };

@@ -19,7 +19,7 @@ use crate::session::{Session, is_ignore_file};
 /// A watcher of a library's directories, which collects changes in batches.
 pub(super) struct Watcher {
     signals: Receiver<Signal>,
-    pub(super) bell: WakeHandle,
+    pub(super) wake_handle: WakeHandle,
     source: Box<dyn notify::Watcher>,
     debounce: Duration,
     /// The files of the configuration and of the post-processor, and the baseline, as the paths that events report.
@@ -60,8 +60,8 @@ pub(super) enum WaitOutcome {
 /// Interval at which directories are polled if that is requested, as for network drives.
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Interval at which the configuration and the known files are checked while polling, in addition to [`PollWatcher`]: that one compares modification
-/// times in whole seconds, so it misses a second change within a second. Includes a margin.
+/// Interval at which the configuration and the known files are checked while polling. [`PollWatcher`] does not suffice: it compares modification
+/// times in whole seconds, so it misses a second change within a second. Slightly longer than a second, to be on the safe side.
 const POLL_RESOLUTION: Duration = Duration::from_millis(1100);
 
 /// Interval at which the path of the working directory is checked.
@@ -83,7 +83,7 @@ impl Watcher {
         let workspace = session.workspace();
         let settings = &workspace.settings;
         let (sender, signals) = channel();
-        let bell = WakeHandle(sender.clone());
+        let wake_handle = WakeHandle(sender.clone());
         let tell = move |event| _ = sender.send(Signal::Changed(event));
         let is_polling = request.polls || settings.watch.poll.value;
         let mut watcher: Box<dyn notify::Watcher> = if is_polling {
@@ -99,7 +99,7 @@ impl Watcher {
         _ = directories.follow(&mut *watcher, session, configuration.iter().cloned());
         Ok(Self {
             signals,
-            bell,
+            wake_handle,
             source: watcher,
             debounce: settings.watch.debounce.value,
             working_directory: (directories.are_relative()
@@ -144,8 +144,8 @@ impl Watcher {
                 self.poll_files(library);
                 return WaitOutcome::ConfigurationInDoubt;
             }
-            let patience = self.time_to_deadline(library);
-            if patience.is_zero()
+            let timeout = self.time_to_deadline(library);
+            if timeout.is_zero()
                 && let Some(outcome) = self.take_due_changes(library)
             {
                 return outcome;
@@ -225,16 +225,16 @@ impl Watcher {
         current_directory(&*self.system) != *before
     }
 
-    fn wait(&self, patience: Duration) -> Result<Signal, RecvTimeoutError> {
+    fn wait(&self, timeout: Duration) -> Result<Signal, RecvTimeoutError> {
         let until_check = |due: Instant| due.saturating_duration_since(Instant::now());
-        let patience = patience.min(self.next_poll.map_or(Duration::MAX, until_check));
+        let timeout = timeout.min(self.next_poll.map_or(Duration::MAX, until_check));
         if self.working_directory.is_some() {
-            return self.signals.recv_timeout(patience.min(DIRECTORY_CHECK_INTERVAL));
+            return self.signals.recv_timeout(timeout.min(DIRECTORY_CHECK_INTERVAL));
         }
-        if patience == Duration::MAX {
+        if timeout == Duration::MAX {
             return self.signals.recv().map_err(|_| RecvTimeoutError::Disconnected);
         }
-        self.signals.recv_timeout(patience)
+        self.signals.recv_timeout(timeout)
     }
 
     fn add(&mut self, signal: Signal, session: &Session<'_>) {
@@ -350,7 +350,7 @@ struct PolledFile {
 
 /// Time for which a file must keep its stamp before it is compared: a change after that time alters the stamp, because the times of all file systems
 /// in use have a resolution of at most two seconds.
-const REST: Duration = Duration::from_millis(2100);
+const MIN_STABLE_TIME: Duration = Duration::from_millis(2100);
 
 impl PolledFiles {
     /// Returns the files whose contents are not those that their results were computed from. A file is read only once after each change of its stamp.
@@ -373,7 +373,7 @@ impl PolledFiles {
             if polled.stamp != stamp {
                 *polled = PolledFile { stamp, since: now, is_compared: false };
             }
-            if !polled.is_compared && now.duration_since(polled.since) >= REST {
+            if !polled.is_compared && now.duration_since(polled.since) >= MIN_STABLE_TIME {
                 polled.is_compared = true;
                 if !is_as_read(session, file) {
                     changed.push(path.clone());

@@ -81,8 +81,8 @@ impl WatchedDirectories {
     /// If the system refuses, with its reason. Directories that cannot be listed are not an error.
     pub(super) fn watch(&mut self, source: &mut dyn Watcher, system: &dyn System) -> notify::Result<()> {
         // Watch the parents first, so that no new directory is missed. Best effort: some of them may not be listable.
-        for way in self.names.iter().filter_map(|name| name.parent()).filter(|way| !is_root(way)) {
-            _ = source.watch(or_current_directory(way).as_std_path(), RecursiveMode::NonRecursive);
+        for parent in self.names.iter().filter_map(|name| name.parent()).filter(|parent| !is_root(parent)) {
+            _ = source.watch(or_current_directory(parent).as_std_path(), RecursiveMode::NonRecursive);
         }
         for (directory, mode) in self.watched.clone() {
             let is_there = directory.as_str().is_empty() || system.kind(&directory) == FileKind::Directory;

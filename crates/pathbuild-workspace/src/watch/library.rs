@@ -433,7 +433,8 @@ impl<'a> Library<'a> {
         }
     }
 
-    /// Finds the drawings that have a Q-project. Among ten thousand drawings, this takes as long as processing an edit.
+    /// Finds the drawings that have a Q-project. Among ten thousand drawings, this takes as long as processing an edit, so the pairs are kept until
+    /// drawings come or go.
     fn find_pairs(&mut self, update: &mut Update) {
         let pairs = q_project_pairs(self.session.db().system(), self.drawings.keys()).into_iter();
         let pairs: BTreeSet<[Utf8PathBuf; 2]> = pairs.collect();

@@ -84,7 +84,7 @@ const DRAWINGS_PER_POLL: usize = 64;
 
 impl WatchLoop<'_> {
     fn run(mut self) -> WatchEnd {
-        self.listener.set_wake_handle(self.watcher.bell.clone());
+        self.listener.set_wake_handle(self.watcher.wake_handle.clone());
         self.begin();
         loop {
             match self.watcher.next(&self.library) {
@@ -144,10 +144,10 @@ impl WatchLoop<'_> {
         }
         self.revision += 1;
         let checked_files = self.work_on(affected);
-        // Drawings and programs with transient diagnostics, such as an exceeded time limit, may take that long again, so they must not delay the
+        // Drawings and programs with transient diagnostics, such as an exceeded time limit, may exceed the limit again, so they must not delay the
         // results of the change itself.
         if !self.library.has_backlog() && !self.watcher.has_news(self.library.session()) {
-            let unwritten = self.writer.with_transient_problems(self.library.session());
+            let unwritten = self.writer.transient_drawings(self.library.session());
             let again = self.library.mark_transient(&unwritten, &checked_files);
             if self.library.has_backlog() || again.has_news() {
                 self.work_on(again);
@@ -191,8 +191,8 @@ impl WatchLoop<'_> {
         self.tally.replace(&found.before, &found.now);
         let earlier = std::mem::take(&mut self.reported);
         self.reported = self.findings();
-        found.new = without(&self.reported.diagnostics, &earlier.diagnostics);
-        found.fixed = without(&earlier.diagnostics, &self.reported.diagnostics);
+        found.new = difference(&self.reported.diagnostics, &earlier.diagnostics);
+        found.fixed = difference(&earlier.diagnostics, &self.reported.diagnostics);
         found.counts = FindingCounts::of(&self.reported);
         found.revision = self.revision;
         self.listener.batch_done(&found);
@@ -236,7 +236,7 @@ impl WatchLoop<'_> {
 struct FindingTally(FxHashMap<CountedFinding, usize>);
 
 impl FindingTally {
-    /// Replaces previous findings by current ones, and their traces and notes by the current ones.
+    /// Replaces previous findings by current ones. A finding that is in both gets its current trace and notes.
     fn replace(&mut self, before: &[Diagnostic], now: &[Diagnostic]) {
         for found in now.iter().cloned().map(CountedFinding) {
             let count = self.0.remove(&found).unwrap_or_default();
@@ -256,8 +256,8 @@ impl FindingTally {
     }
 }
 
-/// Returns the findings that are not, with the same notes, among `others`.
-fn without(findings: &[Diagnostic], others: &[Diagnostic]) -> Vec<Diagnostic> {
+/// Returns the findings that are not among `others`. A finding with other notes counts as another finding.
+fn difference(findings: &[Diagnostic], others: &[Diagnostic]) -> Vec<Diagnostic> {
     let others: HashSet<_> = others.iter().map(shown_parts).collect();
     findings.iter().filter(|found| !others.contains(&shown_parts(found))).cloned().collect()
 }

@@ -53,7 +53,7 @@ impl<'a> Writer<'a> {
         })
     }
 
-    /// The post-processor for the programs; `None` for native programs, or if the request needs none.
+    /// Returns the post-processor for the programs; `None` for native programs, or if the request needs none.
     pub(super) fn post_processor(&self) -> Option<&PostProcessor> {
         self.post_processor.as_ref()
     }
@@ -73,7 +73,7 @@ impl<'a> Writer<'a> {
 
     /// Returns the drawings with programs that have transient diagnostics or could not be written. No event reports when that changes, so they are
     /// tried again.
-    pub(super) fn with_transient_problems(&self, session: &Session<'_>) -> BTreeSet<Utf8PathBuf> {
+    pub(super) fn transient_drawings(&self, session: &Session<'_>) -> BTreeSet<Utf8PathBuf> {
         let may_pass = |found: &Diagnostic| is_transient(found) || found.code() == Code::CannotWrite;
         self.programs.drawings_with(session, may_pass)
     }
@@ -122,7 +122,8 @@ impl<'a> Writer<'a> {
         rivals
     }
 
-    /// Updates the diagnostics of programs in a batch. While drawings are still to be checked, `scope` is `None` and the common ones are left as is.
+    /// Updates the diagnostics of programs in a batch. While drawings are still to be checked, `scope` is `None`, and the diagnostics of all programs
+    /// together stay as they are.
     pub(super) fn update_problems(
         &mut self,
         session: &mut Session<'_>,

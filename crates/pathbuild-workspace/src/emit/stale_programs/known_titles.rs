@@ -29,7 +29,7 @@ pub(super) struct KnownTitles {
     searched: BTreeSet<String>,
     /// Names of all drawings in the directories of the library, even if they are ignored, by the names normalised for comparison.
     in_library: BTreeMap<String, Box<str>>,
-    /// The paths of covered drawings, by their names, normalised for comparison.
+    /// The paths of covered drawings: the name normalised for comparison, the drawing, and the name as the drawing spells it.
     paths: Vec<(String, Utf8PathBuf, PathName)>,
     /// Whether a covered drawing has errors, which may hide paths.
     pub(super) has_broken: bool,
@@ -122,7 +122,7 @@ impl KnownTitles {
 
     /// Returns the reason why a program that no path of the run yields is stale; `None` if a path that the run does not generate may yield it.
     /// `beside` lists the files in its directory.
-    pub(super) fn removal_reason<'n>(
+    pub(super) fn stale_reason<'n>(
         &self,
         directory: &Utf8Path,
         title: &str,
@@ -141,7 +141,8 @@ impl KnownTitles {
         if self.covered.contains(&drawing) {
             return Some(Reason::Left);
         }
-        // A drawing that exists although the run does not know it is ignored, unless the search finds it or another library may have it.
+        // A drawing beside the program or in the library that the run does not know is excluded by an ignore file or by its hidden name. In a shared
+        // output directory, the program may also be that of another library.
         let in_library = self.in_library.get(&drawing.1).map(|name| &**name);
         let ignored = match self.place {
             OutputPlace::BesideDrawings => beside,

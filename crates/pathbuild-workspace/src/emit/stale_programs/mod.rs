@@ -86,18 +86,18 @@ impl<'a> EarlierPrograms<'a> {
         is_removed: bool,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> StaleOutcome {
-        let mut dealt = StaleOutcome::default();
+        let mut outcome = StaleOutcome::default();
         for stale in stale {
             if !is_removed || self.is_kept(&stale) {
                 let finding = self.judge(&stale);
                 if self.session.workspace().has_error([&finding]) {
-                    dealt.outdated.push(stale.path);
+                    outcome.outdated.push(stale.path);
                 }
                 diagnostics.push(finding);
                 continue;
             }
             match self.session.db().system().remove(&stale.path) {
-                Ok(()) => dealt.removed.push(stale.path),
+                Ok(()) => outcome.removed.push(stale.path),
                 Err(reason) => {
                     let name = stale.path.file_name().unwrap_or_default();
                     let problem = Diagnostic::new(&files::CANNOT_REMOVE).quoting("name", name);
@@ -105,7 +105,7 @@ impl<'a> EarlierPrograms<'a> {
                 }
             }
         }
-        dealt
+        outcome
     }
 
     /// Whether a program is never removed: one that may belong to another library, one of a drawing that can still be emitted by its name, one that
@@ -152,19 +152,19 @@ impl<'a> EarlierPrograms<'a> {
             Some(directory) if !self.directories.is_empty() => std::slice::from_ref(directory),
             _ => self.directories,
         };
-        let finding = StaleSearch::new(self);
+        let search = StaleSearch::new(self);
         let mut stale = Vec::new();
         for directory in directories {
             let names = self.file_names_in(directory, diagnostics);
-            let candidates = finding.candidates(directory, &names);
-            stale.extend(candidates.filter_map(|path| finding.program_if_stale(path, Some(&names))));
+            let candidates = search.candidates(directory, &names);
+            stale.extend(candidates.filter_map(|path| search.program_if_stale(path, Some(&names))));
         }
-        let former = finding.former_files(directories);
-        stale.extend(former.filter_map(|path| finding.program_if_stale(path, None)));
+        let former = search.former_files(directories);
+        stale.extend(former.filter_map(|path| search.program_if_stale(path, None)));
         // An output directory on the command line is for this run only.
         let is_configured = self.session.workspace().settings.general.out_dir.origin.line().is_some();
         if out_dir.is_none() || is_configured {
-            stale.extend(finding.programs_elsewhere(out_dir.as_deref(), directories, diagnostics));
+            stale.extend(search.programs_elsewhere(out_dir.as_deref(), directories, diagnostics));
         }
         stale
     }
@@ -178,8 +178,8 @@ impl<'a> EarlierPrograms<'a> {
     }
 }
 
-/// Returns warnings about programs of paths that the run did not select, if these paths have other moves now. Only for these programs, paths that are
-/// not selected are built.
+/// Returns warnings about programs of paths that the run did not select, if these paths have other moves now. To find out, builds these paths, but no
+/// other paths that were not selected.
 pub(super) fn report_unselected(session: &mut Session<'_>, programs: &[StaleProgram]) -> Vec<Diagnostic> {
     if programs.is_empty() {
         return Vec::new();
@@ -197,8 +197,8 @@ pub(super) fn report_unselected(session: &mut Session<'_>, programs: &[StaleProg
     stale.map(|(earlier, _)| earlier.diagnostic()).collect()
 }
 
-/// Whether a program on disk was adjusted from an earlier state of the job's program or with heights other than those measured now, or was edited
-/// since. Such a program is the one that is milled.
+/// Whether the adjusted program on disk, which is the one that is milled, is stale: it was adjusted from an earlier state of the job's program or
+/// with heights other than those measured now, or was edited since.
 pub(super) fn has_stale_adjusted_program(
     session: &Session<'_>,
     post_processor: Option<&PostProcessor>,

@@ -23,8 +23,8 @@ pub(super) fn has_name_of_title(program: &Utf8Path, title: &str) -> bool {
     stem.is_some() && [drawing, path, joined.as_deref()].contains(&stem)
 }
 
-/// Returns the reason if a file is named after another path than that of `program` and contains the program of that path: `program` must not
-/// replace it.
+/// Returns the reason why `program` must not replace a file: the file is named after another path, and contains the program of that path. `None` for
+/// other files.
 pub(crate) fn program_of_other_path(
     workspace: &Workspace,
     file: &Utf8Path,
@@ -49,7 +49,7 @@ pub(super) fn is_sheet(name: &str) -> bool {
     OutputName::parse(name).is_some_and(|name| name.kind.sheet().is_some())
 }
 
-/// Returns the files that a path with this stem may have, with every post that has a usual extension.
+/// Returns the names of all output files that a path with this stem may have, natively and through post-processors with a common file extension.
 pub(super) fn possible_files(stem: &Utf8Path) -> impl Iterator<Item = Utf8PathBuf> + use<> {
     let native = OutputKind::ALL.map(|kind| kind.file(stem));
     let program = OutputKind::Milling.file(stem);

@@ -25,7 +25,7 @@ impl<'a> EarlierPrograms<'a> {
         let is_done = |job: &&&Job| job.outcome.as_ref().is_some_and(|outcome| !outcome.files.is_empty());
         if let (Some(name), Some(post_processor)) = (self.join, self.post_processor) {
             let joined = targets.first().filter(|_| !self.jobs.iter().any(|job| is_done(&job)));
-            let program = joined.and_then(|first| self.of_joined(*first, name, post_processor));
+            let program = joined.and_then(|first| self.joined_program(*first, name, post_processor));
             return program.map(|program| earlier_outcome(program, name, self.task)).into_iter().collect();
         }
         let done = self.jobs.iter().filter(is_done);
@@ -80,7 +80,7 @@ impl<'a> EarlierPrograms<'a> {
         let directory = |file: &SourceFile| output_directory(out_dir.as_deref(), file.path(db));
         match argument {
             Argument::Drawing(file) | Argument::Name { drawing: Some(file), .. } if !is_known(file) => {
-                let drawing = Lost::Drawing(file_name(file.path(db)));
+                let drawing = DrawingOrPath::Drawing(file_name(file.path(db)));
                 Some(LostName { name: drawing, directories: vec![directory(file)], has_drawing: true })
             }
             Argument::Name { name, candidates, drawing: None, directory: None }
@@ -93,7 +93,7 @@ impl<'a> EarlierPrograms<'a> {
                     None => candidates.iter().map(directory).collect(),
                 };
                 directories.dedup();
-                Some(LostName { name: Lost::Path(name.as_str()), directories, has_drawing })
+                Some(LostName { name: DrawingOrPath::Path(name.as_str()), directories, has_drawing })
             }
             _ => None,
         }
@@ -105,7 +105,7 @@ impl<'a> EarlierPrograms<'a> {
         lost: &LostName<'_>,
         listings: &mut ProgramListings,
     ) -> Vec<(String, Utf8PathBuf)> {
-        // A drawing that exists although no argument led to it may still yield its program.
+        // As long as the drawing in the title exists, the program may be current, although no argument led to this drawing.
         let is_gone = |program: &Utf8Path, title: &str| {
             let plain = plain_title(title);
             let drawing = native::drawing_of_title(&plain).unwrap_or_default();
@@ -127,7 +127,12 @@ impl<'a> EarlierPrograms<'a> {
     }
 
     /// Returns the program into which the targets were joined earlier.
-    fn of_joined(&self, first: Target, name: &str, post_processor: &PostProcessor) -> Option<Utf8PathBuf> {
+    fn joined_program(
+        &self,
+        first: Target,
+        name: &str,
+        post_processor: &PostProcessor,
+    ) -> Option<Utf8PathBuf> {
         let db = self.session.db();
         let directory = output_directory(self.session.out_dir().as_deref(), first.file(db).path(db));
         let program = posted_program(&join(&directory, name), post_processor);
@@ -138,7 +143,7 @@ impl<'a> EarlierPrograms<'a> {
 
 /// A drawing or path that an argument names, and that cannot be read or is gone.
 struct LostName<'a> {
-    name: Lost<'a>,
+    name: DrawingOrPath<'a>,
     /// The directories in which its programs may be.
     directories: Vec<Utf8PathBuf>,
     /// Whether the argument names a drawing, or a path that a drawing may define judging by its file name.
@@ -146,13 +151,14 @@ struct LostName<'a> {
 }
 
 #[derive(Clone, Copy)]
-enum Lost<'a> {
+enum DrawingOrPath<'a> {
     Drawing(&'a str),
     Path(&'a str),
 }
 
-impl<'a> Lost<'a> {
-    /// Returns the text with which the names of its programs begin: the name of a path, or the number that is common to it and its drawing.
+impl<'a> DrawingOrPath<'a> {
+    /// Returns the text with which the names of its programs begin: of a path's name, the part before the first dot, which the names of its drawing
+    /// and of its own programs have in common. Empty for a drawing, because the names of its paths are unknown.
     fn stem(self) -> &'a str {
         match self {
             Self::Drawing(_) => "",

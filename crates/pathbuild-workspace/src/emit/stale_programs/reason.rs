@@ -42,7 +42,7 @@ pub(super) enum Reason {
     Edited { clean: Utf8PathBuf },
     /// The program was adjusted with heights other than those in the file `values`.
     OtherValues { values: Utf8PathBuf },
-    /// The program was converted from the adjusted `program` before that got other heights.
+    /// The program was converted from the adjusted `program`, which states other measured heights now.
     OtherHeights { program: Utf8PathBuf },
     /// The program joins paths that yield another program now.
     OtherJoined { paths: Vec<String> },

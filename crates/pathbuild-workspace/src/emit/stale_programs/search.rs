@@ -29,7 +29,7 @@ pub(super) struct StaleSearch<'a> {
     by_stem: Lazy<'a, HashMap<&'a Utf8Path, usize>>,
     /// Indices of the jobs by the titles of their programs, normalised for comparison.
     by_title: Lazy<'a, HashMap<String, Vec<usize>>>,
-    writers: Lazy<'a, KnownTitles>,
+    known_titles: Lazy<'a, KnownTitles>,
 }
 
 impl<'a> StaleSearch<'a> {
@@ -50,7 +50,7 @@ impl<'a> StaleSearch<'a> {
                 }
                 by_title
             })),
-            writers: LazyCell::new(Box::new(move || KnownTitles::new(run))),
+            known_titles: LazyCell::new(Box::new(move || KnownTitles::new(run))),
         }
     }
 
@@ -77,9 +77,9 @@ impl<'a> StaleSearch<'a> {
         paths.filter(|path| !self.outputs.contains(&**path))
     }
 
-    /// Returns the stale programs and setup sheets outside the directories in which the run searches for programs of removed paths: those beside their
-    /// drawings if programs are written into `out_dir`, and older ones of the jobs, which remain if `out-dir` is changed. `searched` names the former
-    /// directories.
+    /// Returns the stale programs and setup sheets outside the directories in which the run searches for programs of removed paths: those beside
+    /// their drawings if programs are written into `out_dir`, and older ones of the jobs, which remain if `out-dir` is changed. `searched` lists the
+    /// directories in which the run has searched already.
     pub(super) fn programs_elsewhere(
         &self,
         out_dir: Option<&Utf8Path>,
@@ -95,7 +95,7 @@ impl<'a> StaleSearch<'a> {
         }
         let top = if directories.is_empty() { Vec::new() } else { session.top_directories() };
         for directory in top.iter().filter(|directory| seen.insert(directory)) {
-            // Nothing is expected there, so nothing is reported if it cannot be listed.
+            // No programs are expected in this directory, so no error is reported if it cannot be listed.
             let names = session.file_names_in(directory).unwrap_or_default();
             stale.extend(self.stale_in(directory, &names, None));
         }
@@ -124,7 +124,8 @@ impl<'a> StaleSearch<'a> {
         self.candidates(directory, names).filter_map(stale).collect()
     }
 
-    /// Returns the programs of the jobs that lie beside their drawings outside the searched directories, although programs are written into `out_dir`.
+    /// Returns the programs of the jobs that lie beside their drawings outside the searched directories, although programs are written into
+    /// `out_dir`.
     fn beside_drawings_of_jobs(&self, out_dir: &Utf8Path) -> Vec<StaleProgram> {
         let EarlierPrograms { session, directories, jobs, .. } = *self.run;
         let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
@@ -151,8 +152,8 @@ impl<'a> StaleSearch<'a> {
             Some(own) if is_of(own.job, self.run.session, &title) => {
                 own.stale_program(self.run.session, path, &found)
             }
-            _ if self.is_converted(&path, &found, &title) => self.if_other_heights(path),
-            _ => self.of_other_post(&path, &found, &title).or_else(|| {
+            _ if self.is_converted(&path, &found, &title) => self.stale_converted_program(path),
+            _ => self.program_of_other_post(&path, &found, &title).or_else(|| {
                 let reason = match self.reason_without_job(&path, &found, &title, beside?)? {
                     Reason::Left | Reason::OtherJoined { .. } if !has_name_of_title(&path, &title) => {
                         self.reason_of_copy(&path, &found, &title)
@@ -176,7 +177,7 @@ impl<'a> StaleSearch<'a> {
             return self.joined_reason(path, found, &names, &join);
         }
         let directory = path.parent().unwrap_or(Utf8Path::new(""));
-        let gone = self.writers.removal_reason(directory, title, beside.iter());
+        let gone = self.known_titles.stale_reason(directory, title, beside.iter());
         gone.or_else(|| self.reason_if_moved(path, found, title, beside))
             .or_else(|| self.reason_if_unselected(directory, found, title))
     }
@@ -199,15 +200,15 @@ impl<'a> StaleSearch<'a> {
     /// Returns the reason why a program may be stale whose path the run did not select.
     fn reason_if_unselected(&self, directory: &Utf8Path, found: &Provenance, title: &str) -> Option<Reason> {
         let session = self.run.session;
-        let (drawing, name) = self.writers.idle_path(directory, title)?;
+        let (drawing, name) = self.known_titles.idle_path(directory, title)?;
         let target = session.db().target(session.file(drawing), name.as_str(), Role::Emitted);
         let is_selected = self.run.targets.contains(&target);
         let path = name.to_string();
         (!is_selected).then(|| Reason::Unselected { path, target, moves: found.moves.clone() })
     }
 
-    /// Returns the reason why a program without its drawing beside it is stale: the run writes the program of this path, which has other moves now, into
-    /// another directory.
+    /// Returns the reason why a program without its drawing beside it is stale: the run writes the program of this path, which has other moves now,
+    /// into another directory.
     fn reason_if_moved(
         &self,
         path: &Utf8Path,
@@ -232,7 +233,12 @@ impl<'a> StaleSearch<'a> {
 
     /// Returns the program at `path` as stale if it was written for one of the run's paths, natively or through another post-processor, and that path
     /// has other moves now.
-    fn of_other_post(&self, path: &Utf8Path, found: &Provenance, title: &str) -> Option<StaleProgram> {
+    fn program_of_other_post(
+        &self,
+        path: &Utf8Path,
+        found: &Provenance,
+        title: &str,
+    ) -> Option<StaleProgram> {
         let name = OutputName::parse(path.as_str())?;
         let job = self.job(name).filter(|_| OutputKind::GCODE.contains(&name.kind))?;
         let now = job.outcome.as_ref()?.provenance.as_ref()?;
@@ -241,7 +247,8 @@ impl<'a> StaleSearch<'a> {
         is_meant.then(|| StaleProgram { path: path.to_owned(), reason: Reason::OtherMoves { program } })
     }
 
-    /// Whether the program at `path` may have been converted from the current probing program or the adjusted program beside it, which `post` is for.
+    /// Whether the program at `path` may have been converted, by the command `post`, from the current probing program or the adjusted program beside
+    /// it.
     fn is_converted(&self, path: &Utf8Path, found: &Provenance, title: &str) -> bool {
         let posted = OutputName::parse(path.as_str()).filter(|name| !name.is_native);
         let Some((name, job)) = posted.and_then(|name| Some((name, self.job(name)?))) else { return false };
@@ -256,7 +263,7 @@ impl<'a> StaleSearch<'a> {
     }
 
     /// Returns a converted program as stale if it states other measured heights than the native one beside it.
-    fn if_other_heights(&self, path: Utf8PathBuf) -> Option<StaleProgram> {
+    fn stale_converted_program(&self, path: Utf8PathBuf) -> Option<StaleProgram> {
         let session = self.run.session;
         let name = OutputName::parse(path.as_str())?;
         let program = name.kind.file(name.stem);
@@ -283,10 +290,10 @@ impl<'a> StaleSearch<'a> {
         let db = session.db();
         let (mut programs, mut paths) = (Vec::new(), Vec::new());
         for name in names {
-            let files = self.writers.drawings_of(session, &plain_title(name), path.parent()?);
+            let files = self.known_titles.drawings_of(session, &plain_title(name), path.parent()?);
             let target = match &*files {
-                [] if self.writers.has_broken => return Some(Reason::Unwritten { path: name.clone() }),
-                [] => return self.writers.reason_if_gone(),
+                [] if self.known_titles.has_broken => return Some(Reason::Unwritten { path: name.clone() }),
+                [] => return self.known_titles.reason_if_gone(),
                 [(file, spelled)] => db.target(*file, spelled.as_str(), Role::Emitted),
                 _ => return None,
             };
