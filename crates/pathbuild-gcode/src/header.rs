@@ -270,12 +270,12 @@ impl HeaderReader {
         let mut collector =
             Collector { in_inches: starts_in_inches(&self.events, inch), ..Collector::default() };
         collector.number = first.map(|(_, number)| number);
-        collector.numbered(&self.events, inch);
+        collector.read_numbered_tools(&self.events, inch);
         for (line, event) in &self.events {
             collector.event(*line, event, changed(event), inch);
         }
         if header.changes.is_empty() {
-            collector.only_tool();
+            collector.assign_only_tool();
         }
         if !header.has_calls {
             collector.report_unselected_tools(&header.changes);
@@ -287,8 +287,8 @@ impl HeaderReader {
         header
     }
 
-    /// Returns line and number of the tool that is in the spindle at the beginning of a program of pathbuild without T words: the first of several
-    /// in its list, which has the order in which they cut. `None` if the program also stops where no tool is named.
+    /// Returns the line and the number of the tool that is in the spindle at the beginning of a program of pathbuild without T words: the first of
+    /// several tools in its list, which are listed in the order in which they cut. `None` if the program also stops where no tool is named.
     fn first_tool(&self) -> Option<(u32, u32)> {
         let number = |(line, event): &(u32, Event)| match event {
             Event::Statement(Statement {
@@ -393,7 +393,7 @@ impl StatedCutter {
     }
 
     /// Combines two descriptions of a tool: the greater diameter, and the smaller width that is known to be flat.
-    fn with(&self, other: &Self) -> Self {
+    fn merged_with(&self, other: &Self) -> Self {
         let flat = [self.flat, other.flat].into_iter().flatten().reduce(f64::min);
         Self { diameter: self.diameter.max(other.diameter), flat, ..*self }
     }
@@ -413,14 +413,15 @@ struct Collector {
     in_inches: bool,
     numbered: BTreeMap<u32, StatedCutter>,
     /// The tool that a comment describes for all moves after it.
-    of_program: Option<StatedCutter>,
+    program_tool: Option<StatedCutter>,
     /// The number of the tool of the last cut, and the tool that was described for the whole program there.
-    of_last_cut: Option<(Option<u32>, StatedCutter)>,
+    last_cut_tool: Option<(Option<u32>, StatedCutter)>,
     /// The description of the tool in use, and whether that tool has cut.
-    of_current: Option<(StatedCutter, bool)>,
+    current_tool: Option<(StatedCutter, bool)>,
     number: Option<u32>,
-    /// The line of the last tool change since the last cut, or else of the first description since then.
-    since: Option<u32>,
+    /// The line of the last tool change since the last cut, or else of the first description of a tool since then. The next cut begins another entry
+    /// of `tools` at this line.
+    new_tool_line: Option<u32>,
     tools: Vec<CuttingTool>,
     corners: [Option<(u32, [f64; 3])>; 2],
     surface: Option<f64>,
@@ -430,7 +431,7 @@ struct Collector {
 
 impl Collector {
     /// Reads the descriptions of numbered tools, which may be anywhere in the program.
-    fn numbered(&mut self, events: &[(u32, Event)], inch: u16) {
+    fn read_numbered_tools(&mut self, events: &[(u32, Event)], inch: u16) {
         let mut in_inches = self.in_inches;
         for (line, event) in events {
             match event {
@@ -467,8 +468,8 @@ impl Collector {
     fn event(&mut self, line: u32, event: &Event, change: Option<u32>, inch: u16) {
         if let Some(number) = change {
             self.number = Some(number);
-            self.since = Some(line);
-            self.of_current = self.of_current.filter(|(_, has_cut)| !has_cut);
+            self.new_tool_line = Some(line);
+            self.current_tool = self.current_tool.filter(|(_, has_cut)| !has_cut);
         }
         match event {
             Event::Unit(code) => self.in_inches = *code == inch,
@@ -484,15 +485,15 @@ impl Collector {
             match tool.scope {
                 Scope::Number(_) => {}
                 Scope::Program => {
-                    // A second header is that of a program which was put behind the first one.
-                    if self.of_program.replace(cutter).is_some() {
-                        self.since.get_or_insert(line);
+                    // A second header belongs to a program that was appended to the first one.
+                    if self.program_tool.replace(cutter).is_some() {
+                        self.new_tool_line.get_or_insert(line);
                     }
                 }
                 Scope::Following => {
-                    let known = self.of_current.filter(|(_, has_cut)| !has_cut).map(|(known, _)| known);
-                    self.of_current = Some((self.combine(known, cutter, None), false));
-                    self.since.get_or_insert(line);
+                    let known = self.current_tool.filter(|(_, has_cut)| !has_cut).map(|(known, _)| known);
+                    self.current_tool = Some((self.combine(known, cutter, None), false));
+                    self.new_tool_line.get_or_insert(line);
                 }
             }
         }
@@ -541,26 +542,27 @@ impl Collector {
     }
 
     fn assign_tool_to_cut(&mut self) {
-        if let Some((_, has_cut)) = &mut self.of_current {
+        if let Some((_, has_cut)) = &mut self.current_tool {
             *has_cut = true;
         }
-        let line = match self.since.take() {
+        let line = match self.new_tool_line.take() {
             Some(line) => line,
             None if self.tools.is_empty() => 0,
             None => return,
         };
-        let before = self.of_last_cut.filter(|(number, _)| *number == self.number).map(|(_, cutter)| cutter);
-        self.of_last_cut = self.of_program.map(|cutter| (self.number, cutter));
-        let of_program = self.of_program.map(|cutter| self.combine(before, cutter, self.number));
-        let of_number = self.number.and_then(|number| self.numbered.get(&number).copied());
-        let of_current = self.of_current.map(|(cutter, _)| cutter);
-        let stated = [of_program, of_number, of_current].into_iter().flatten();
+        let before =
+            self.last_cut_tool.filter(|(number, _)| *number == self.number).map(|(_, cutter)| cutter);
+        self.last_cut_tool = self.program_tool.map(|cutter| (self.number, cutter));
+        let program_tool = self.program_tool.map(|cutter| self.combine(before, cutter, self.number));
+        let numbered_tool = self.number.and_then(|number| self.numbered.get(&number).copied());
+        let current_tool = self.current_tool.map(|(cutter, _)| cutter);
+        let stated = [program_tool, numbered_tool, current_tool].into_iter().flatten();
         let cutter = stated.fold(None, |known, next| Some(self.combine(known, next, self.number)));
         self.tools.push(CuttingTool { line, number: self.number, cutter });
     }
 
     /// Assigns the only listed tool to the cuts of a program without tool changes.
-    fn only_tool(&mut self) {
+    fn assign_only_tool(&mut self) {
         let mut numbered = self.numbered.iter();
         let (Some((number, cutter)), None) = (numbered.next(), numbered.next()) else { return };
         for tool in self.tools.iter_mut().filter(|tool| tool.cutter.is_none()) {
@@ -582,7 +584,7 @@ impl Collector {
                 d.with("one", known.diameter).with("other", next.diameter)
             });
         }
-        known.with(&next)
+        known.merged_with(&next)
     }
 }
 

@@ -268,7 +268,7 @@ pub struct Frame {
     /// one if G10 has stated both places.
     pub system: WorkSystem,
     /// Number of times that the operator has moved the zero in X or Y during the program.
-    pub zero: u32,
+    pub zero_moves: u32,
 }
 
 /// A group of G words. A line may contain only one word of each group. (NIST RS274/NGC, table 4)

@@ -43,7 +43,7 @@ impl Check<'_, '_> {
     }
 
     fn value(&self, line: &ProbeLine<'_>) -> Result<Option<f64>, Box<Diagnostic>> {
-        self.check_made(line)?;
+        self.check_is_listed(line)?;
         let value = match line.value {
             EnteredValue::Nothing => return Err(Box::new(line.value_fault(&messages::NO_VALUE))),
             EnteredValue::Wrong => return Ok(None),
@@ -61,7 +61,7 @@ impl Check<'_, '_> {
     }
 
     /// Checks that the program lists this probe, at the same position and height. A program that lists no probes passes.
-    fn check_made(&self, line: &ProbeLine<'_>) -> Result<(), Box<Diagnostic>> {
+    fn check_is_listed(&self, line: &ProbeLine<'_>) -> Result<(), Box<Diagnostic>> {
         if self.table.probes.is_empty() {
             return Ok(());
         }
@@ -116,12 +116,13 @@ impl Check<'_, '_> {
     fn report_unknown_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let file = self.inputs.values.file.file_name().unwrap_or_default();
         let known: BTreeSet<u32> = lines.iter().map(|line| line.probe).collect();
-        let mut told = BTreeSet::new();
+        let mut reported_lines = BTreeSet::new();
         let unknown = self.survey.probes.iter().filter(|(probe, _)| !known.contains(probe));
-        let unknown = unknown.filter(|(_, used)| told.insert(used.line.number)).map(|(probe, used)| {
-            let problem = used.line.fault(&messages::UNKNOWN_PROBE, used.at.clone());
-            problem.with("probe", u64::from(*probe)).quoting("file", file)
-        });
+        let unknown =
+            unknown.filter(|(_, used)| reported_lines.insert(used.line.number)).map(|(probe, used)| {
+                let problem = used.line.fault(&messages::UNKNOWN_PROBE, used.at.clone());
+                problem.with("probe", u64::from(*probe)).quoting("file", file)
+            });
         unknown.collect()
     }
 
@@ -149,12 +150,12 @@ impl Check<'_, '_> {
         });
         let measured: Option<Vec<_>> = measured.collect();
         let odd = odd_probes(&measured.unwrap_or_default());
-        let told = odd.into_iter().map(|odd| {
+        let problems = odd.into_iter().map(|odd| {
             let direction = if odd.off > 0.0 { &messages::HIGHER } else { &messages::LOWER };
-            let told = lines[odd.probe].value_fault(&messages::ODD).with("off", odd.off.abs());
-            told.with("direction", direction)
+            let problem = lines[odd.probe].value_fault(&messages::ODD).with("off", odd.off.abs());
+            problem.with("direction", direction)
         });
-        told.collect()
+        problems.collect()
     }
 }
 

@@ -11,8 +11,8 @@ use super::surface::{AppliedCorrection, MeasuredSurface};
 use super::values::{ProbeTable, ProgramProbe};
 use super::{MeasuredHeights, Source, is_height};
 
-/// Returns the findings about the heights of a program that states measured heights in its header, as its formulas give them. `below_plate` is the
-/// depth in mm below the plate beyond which a lowered height is reported, and `model` the model of the surface between the probes.
+/// Evaluates the formulas of a program that lists measured heights in its header, and returns findings about the resulting heights. `below_plate` is
+/// the depth in mm below the plate beyond which a lowered height is reported, and `model` the model of the surface between the probes.
 pub fn corrected_heights(program: Source<'_>, below_plate: f64, model: ZModel) -> Vec<Diagnostic> {
     let stated = ProbeTable::read(program).probes;
     let measured = |(number, probe): (&u32, &ProgramProbe)| Some((*number, probe.measured?));
@@ -29,7 +29,7 @@ pub fn corrected_heights(program: Source<'_>, below_plate: f64, model: ZModel) -
             let Some(formula) = line.content()[spot.formula.clone()].strip_prefix(b"=") else { continue };
             let value = |heights| value_of(formula, &mut MeasuredHeights(heights)).ok();
             if let Some((drawn, height)) = value(&drawn).zip(value(&measured)) {
-                rules.corrected(line, &spot, drawn, height);
+                rules.check_corrected_height(line, &spot, drawn, height);
             }
         }
     }
@@ -80,8 +80,15 @@ impl HeightRules {
         }
     }
 
-    /// Records a cut that was drawn through the material and is not through any more, and one that goes deep below the plate.
-    pub(super) fn corrected(&mut self, line: Line<'_>, spot: &FormulaSpan, drawn: f64, height: f64) {
+    /// Records a corrected height. Warns about a cut that was drawn through the material but no longer goes through it, and about a height that is
+    /// lowered too far below the plate.
+    pub(super) fn check_corrected_height(
+        &mut self,
+        line: Line<'_>,
+        spot: &FormulaSpan,
+        drawn: f64,
+        height: f64,
+    ) {
         self.applied.push(AppliedCorrection { line: line.number, correction: height - drawn });
         let warning = |message| {
             let problem = line.fault(message, spot.number.start..spot.formula.end).with("z", height);

@@ -26,8 +26,8 @@ use check::{Check, MIN_DIFFERENCE, Values};
 use heights::HeightRules;
 pub use heights::corrected_heights;
 use scan::{
-    Fault, FormulaSpan, Line, Probes, byte_order_mark, formula_spans, in_line, lines, located, number,
-    value_of,
+    Fault, FormulaSpan, Line, Probes, byte_order_mark, fault_diagnostic, fault_in_line, formula_spans, lines,
+    number, value_of,
 };
 use surface::MeasuredSurface;
 pub use values::loss_of_values;
@@ -144,7 +144,7 @@ pub fn is_adjusted_from(program: Source<'_>, clean: Source<'_>) -> bool {
 /// formulas are faulty.
 pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>> {
     let stated = ProbeTable::read(program).probes;
-    let measured = |(probe, made): (&u32, &ProgramProbe)| Some((*probe, made.measured?));
+    let measured = |(number, probe): (&u32, &ProgramProbe)| Some((*number, probe.measured?));
     let values = stated.iter().map(measured).collect::<Option<Values>>()?;
     let mut problems = Vec::new();
     let survey = scan::ProbeSurvey::of(clean, &mut problems);
@@ -315,17 +315,17 @@ impl Writer<'_> {
 
     fn height(&mut self, line: Line<'_>, spot: &FormulaSpan) -> Result<f64, Box<Diagnostic>> {
         let formula = &line.content()[spot.formula.clone()];
-        let told = |fault: Fault| Box::new(located(line, &fault));
+        let to_problem = |fault: Fault| Box::new(fault_diagnostic(line, &fault));
         let height = value_of(formula, &mut MeasuredHeights(self.values))
-            .map_err(|fault| told(in_line(&fault, spot)))?;
+            .map_err(|fault| to_problem(fault_in_line(&fault, spot)))?;
         if !height.is_finite() {
-            return Err(told(Fault { message: &messages::NOT_FINITE, at: spot.formula.clone() }));
+            return Err(to_problem(Fault { message: &messages::NOT_FINITE, at: spot.formula.clone() }));
         }
         self.adjusted.heights += 1;
         if is_height(line.content(), spot) {
             let drawn = number(line.content(), spot).unwrap_or(height);
             self.check(line, spot, height - drawn)?;
-            self.rules.corrected(line, spot, drawn, height);
+            self.rules.check_corrected_height(line, spot, drawn, height);
         }
         Ok(height)
     }

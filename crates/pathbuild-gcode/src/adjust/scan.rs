@@ -152,7 +152,7 @@ impl<'a> ProbeSurvey<'a> {
             for spot in formula_spans(line.content()) {
                 let mut reader = ProbeReader { survey: &mut survey, line, start: spot.formula.start };
                 if let Err(fault) = check(line.content(), &spot, &mut reader) {
-                    problems.push(located(line, &fault));
+                    problems.push(fault_diagnostic(line, &fault));
                     break;
                 }
             }
@@ -161,13 +161,13 @@ impl<'a> ProbeSurvey<'a> {
     }
 }
 
-pub(super) fn located(line: Line<'_>, fault: &Fault) -> Diagnostic {
+pub(super) fn fault_diagnostic(line: Line<'_>, fault: &Fault) -> Diagnostic {
     let found = String::from_utf8_lossy(line.content().get(fault.at.clone()).unwrap_or_default());
     line.fault(fault.message, fault.at.clone()).quoting("found", &*found).with("limit", DEPTH_LIMIT)
 }
 
 /// Converts an error in a formula to an error in the line that contains the formula.
-pub(super) fn in_line(fault: &Fault, spot: &FormulaSpan) -> Fault {
+pub(super) fn fault_in_line(fault: &Fault, spot: &FormulaSpan) -> Fault {
     let start = spot.formula.start;
     Fault { at: fault.at.start + start..fault.at.end + start, ..*fault }
 }
@@ -181,7 +181,7 @@ fn check(line: &[u8], spot: &FormulaSpan, probes: &mut impl Probes) -> Result<()
     if number(line, spot).is_none() {
         return Err(Fault { message: &messages::NOT_A_NUMBER, at: spot.number.clone() });
     }
-    value_of(formula, probes).map_err(|fault| in_line(&fault, spot))?;
+    value_of(formula, probes).map_err(|fault| fault_in_line(&fault, spot))?;
     if !spot.is_closed {
         return Err(Fault { message: &messages::UNCLOSED, at: spot.formula.start - 2..spot.formula.end });
     }

@@ -20,9 +20,9 @@ pub(super) struct MeasuredSurface {
     model: Surface,
     probes: Vec<MeasuredProbe>,
     /// Least height in mm at which a probe was drawn.
-    drawn: f64,
+    lowest_drawn: f64,
     /// Greatest difference in mm between a measured and a drawn height.
-    highest: f64,
+    greatest_correction: f64,
 }
 
 struct MeasuredProbe {
@@ -56,9 +56,9 @@ impl MeasuredSurface {
         };
         let probes: Vec<MeasuredProbe> = stated.iter().map(probe).collect::<Option<_>>()?;
         let places: Vec<Xy> = probes.iter().map(|probe| probe.at).collect();
-        let drawn = stated.values().map(|probe| probe.height).reduce(f64::min)?;
-        let highest = probes.iter().map(|probe| probe.correction).reduce(f64::max)?;
-        Some(Self { model: Surface::new(model, &places), probes, drawn, highest })
+        let lowest_drawn = stated.values().map(|probe| probe.height).reduce(f64::min)?;
+        let greatest_correction = probes.iter().map(|probe| probe.correction).reduce(f64::max)?;
+        Some(Self { model: Surface::new(model, &places), probes, lowest_drawn, greatest_correction })
     }
 
     fn correction(&self, at: Xy) -> f64 {
@@ -78,7 +78,7 @@ impl MeasuredSurface {
                 return;
             }
             let z = motion.from.z().min(motion.to.z());
-            if !above(z - correction_at(applied, line), self.drawn) {
+            if !above(z - correction_at(applied, line), self.lowest_drawn) {
                 return;
             }
             let Some(point) = self.highest_along(motion, z).filter(|point| !above(z, point.z)) else {
@@ -96,9 +96,9 @@ impl MeasuredSurface {
     /// Returns the highest point of the surface under a rapid move; `None` if even the greatest correction leaves the surface below this height.
     fn highest_along(&self, motion: &Move, z: f64) -> Option<SurfacePoint> {
         let [from, to] = [xy(&motion.from), xy(&motion.to)];
-        let point = |at: Xy| SurfacePoint { at, z: self.drawn + self.correction(at) };
+        let point = |at: Xy| SurfacePoint { at, z: self.lowest_drawn + self.correction(at) };
         let (start, end) = (point(from), point(to));
-        let highest = (self.drawn + self.highest).max(start.z).max(end.z);
+        let highest = (self.lowest_drawn + self.greatest_correction).max(start.z).max(end.z);
         if above(z, highest) {
             return None;
         }
@@ -151,7 +151,7 @@ fn xy(position: &Position) -> Xy {
     Xy::new(position.x(), position.y())
 }
 
-/// Passes the moves of a native program with known ends, with their lines, at the heights that the machine executes.
+/// Passes each move of a native program whose ends are known to `take`, with its line. The heights are those in the text, to which the machine moves.
 fn each_move(program: Source<'_>, take: &mut dyn FnMut(u32, &Move)) {
     interpret_each(program.bytes, Dialect::Native, &Options::default(), &mut |step| {
         if let Some((line, motion)) = step.as_move().filter(|(_, motion)| motion.is_known()) {

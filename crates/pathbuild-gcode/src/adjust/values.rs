@@ -172,8 +172,8 @@ impl ProbeTable {
     pub(super) fn read(program: Source<'_>) -> Self {
         let mut table = Self::default();
         for line in lines(program).map(Line::content).take_while(|line| is_header(line)) {
-            if let Some((probe, made)) = entry_of_line(line) {
-                table.probes.entry(probe).or_insert(made);
+            if let Some((number, probe)) = entry_of_line(line) {
+                table.probes.entry(number).or_insert(probe);
             }
         }
         table

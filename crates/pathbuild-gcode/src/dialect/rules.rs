@@ -79,10 +79,10 @@ pub struct Rules {
     /// Whether a drilling cycle that begins below R first rises to it and then goes to the hole, as in RS274/NGC, 3.5.16.1.
     pub rises_before_holes: bool,
     /// Whether a hole with G98 is approached at the initial height even after holes with G99, so that the tool rises on a slant. Other controls move
-    /// in the plane at the present height.
+    /// in the plane at the current height.
     pub rises_on_way_to_holes: bool,
-    /// Whether a program must state whether holes retract to the initial height (G98) or to R (G99), because the control keeps the mode of the program
-    /// before.
+    /// Whether a program must state whether holes retract to the initial height (G98) or to R (G99), because the control keeps the mode of the
+    /// previous program.
     pub keeps_retract_mode: bool,
     /// Whether G80 is allowed on a line with a motion word, which then applies.
     pub ends_cycles_beside_motion: bool,

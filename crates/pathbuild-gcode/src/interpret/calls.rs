@@ -27,7 +27,7 @@ enum RunEnd {
     Returned,
     /// A pass through a loop is complete, or the jump has been executed: the next line follows.
     Repeated,
-    /// A `break` or `continue` ended a pass of the loop that [`Runner::left`] names.
+    /// A `break` or `continue` ended a pass of the loop that [`Runner::left_loop`] names.
     Left(LoopExit),
     /// The file has no more lines.
     NoLines,
@@ -45,7 +45,7 @@ pub(super) struct Runner<'r, 'i> {
     /// The `while` and `do` loops that the current subprogram is executing.
     loops: Vec<OpenLoop>,
     /// The name of the loop that `break` or `continue` leaves.
-    left: Box<str>,
+    left_loop: Box<str>,
     /// Flags of earlier `break` and `continue` words that LinuxCNC has not cleared yet.
     stale: StaleFlags,
     depth: usize,
@@ -92,7 +92,7 @@ impl<'r, 'i> Runner<'r, 'i> {
             definitions: None,
             active: Vec::new(),
             loops: Vec::new(),
-            left: Box::default(),
+            left_loop: Box::default(),
             stale: StaleFlags::default(),
             depth: 0,
             lines: 0,
@@ -132,7 +132,7 @@ impl<'r, 'i> Runner<'r, 'i> {
                 }
                 Some(Jump::Return) => return RunEnd::Returned,
                 Some(Jump::EndRepeat) => return RunEnd::Repeated,
-                Some(Jump::Pass(name, end)) => self.skip_to_end(reader, &name, end, line),
+                Some(Jump::SkipTo(name, end)) => self.skip_to_end(reader, &name, end, line),
                 Some(Jump::Branch(name)) => self.skip_to_branch(reader, &name, line),
                 Some(Jump::Call(name, times, values)) => self.call(reader, name, times, &values, line),
                 Some(Jump::Repeat(name, times)) => self.repeat(reader, &name, times, line),
@@ -146,7 +146,7 @@ impl<'r, 'i> Runner<'r, 'i> {
                             (LoopExit::Break, false) => self.stale.break_line = Some(line),
                             (LoopExit::Continue, false) | (LoopExit::Break, true) => {}
                         }
-                        self.left = name;
+                        self.left_loop = name;
                         return RunEnd::Left(exit);
                     }
                     self.report(&say::LEFT_WITHOUT_LOOP, line, &format!("o{name}"), 0);
@@ -288,12 +288,12 @@ impl<'r, 'i> Runner<'r, 'i> {
             }
             match self.run_body(reader, start) {
                 RunEnd::Repeated => {}
-                RunEnd::Left(LoopExit::Continue) if self.left == name => {
+                RunEnd::Left(LoopExit::Continue) if self.left_loop == name => {
                     if !is_do {
                         self.stale.continue_line = None;
                     }
                 }
-                RunEnd::Left(LoopExit::Break) if self.left == name => {
+                RunEnd::Left(LoopExit::Break) if self.left_loop == name => {
                     if is_do {
                         self.stale.break_line = None;
                     } else {
@@ -464,7 +464,7 @@ impl Interpreter<'_> {
         self.step(block, Action::Word(call));
         let name = name_of_o_word(block, word);
         self.jump = match word.kind {
-            OWordKind::Sub => Some(Jump::Pass(name, OWordKind::EndSub)),
+            OWordKind::Sub => Some(Jump::SkipTo(name, OWordKind::EndSub)),
             OWordKind::Call => {
                 Some(Jump::Call(SubprogramName::Subroutine(name), 1, self.arguments(block, word)?))
             }
@@ -472,7 +472,7 @@ impl Interpreter<'_> {
             OWordKind::Repeat => self.repetitions(block, word, name)?,
             OWordKind::If => (!self.condition(block)).then_some(Jump::Branch(name)),
             // The preceding branch was executed, so this one is skipped.
-            OWordKind::ElseIf | OWordKind::Else => Some(Jump::Pass(name, OWordKind::EndIf)),
+            OWordKind::ElseIf | OWordKind::Else => Some(Jump::SkipTo(name, OWordKind::EndIf)),
             OWordKind::EndIf => None,
             OWordKind::While => Some(Jump::While(name)),
             OWordKind::Do => Some(Jump::Do(name)),

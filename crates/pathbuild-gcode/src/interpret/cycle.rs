@@ -76,7 +76,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Reports that the program has not stated the height to which holes retract, if it matters and the control keeps it from the program before.
+    /// Reports that the program has not stated the height to which holes retract, if it matters and the control keeps it from the previous program.
     fn check_retract_mode_stated(&mut self, block: &Block<'_>, hole: &Hole) {
         let is_same = self.state.cycle.initial[self.state.plane.third()] <= hole.r;
         if is_same || !self.rules.keeps_retract_mode {

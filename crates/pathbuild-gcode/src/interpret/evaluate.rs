@@ -65,11 +65,12 @@ impl Parameters {
         LocalParameters { numbered, named }
     }
 
-    pub(super) fn leave(&mut self, of_caller: LocalParameters) {
+    /// Restores the caller's local parameters, which [`enter`](Self::enter) has returned.
+    pub(super) fn leave(&mut self, saved: LocalParameters) {
         self.numbered.retain(|number, _| *number > LAST_LOCAL_PARAMETER);
         self.named.retain(|name, _| name.starts_with('_'));
-        self.numbered.extend(of_caller.numbered);
-        self.named.extend(of_caller.named);
+        self.numbered.extend(saved.numbered);
+        self.named.extend(saved.named);
     }
 
     pub(super) fn evaluate(

@@ -22,7 +22,7 @@ pub(super) struct Interpreter<'i> {
     pub(super) problems: Problems,
     pub(super) half_circles: DoubtfulArcs,
     pub(super) parameters: Parameters,
-    pub(super) stated: StatedProbes,
+    pub(super) stated_probes: StatedProbes,
     /// Steps produced by the last block.
     pub(super) out: Vec<Step>,
     /// Whether M2 or M30 has ended the program.
@@ -45,7 +45,7 @@ impl<'i> Interpreter<'i> {
             problems: Problems::default(),
             half_circles: DoubtfulArcs::default(),
             parameters: Parameters::default(),
-            stated: StatedProbes::default(),
+            stated_probes: StatedProbes::default(),
             out: Vec::new(),
             ended: false,
             jump: None,
@@ -272,7 +272,7 @@ impl BlockWords {
         self.settings.clear();
     }
 
-    pub(super) fn of_group(&self, group: Group) -> Option<(Command, u16, Span)> {
+    pub(super) fn command_of_group(&self, group: Group) -> Option<(Command, u16, Span)> {
         self.commands.iter().find(|(command, ..)| command.group() == group).copied()
     }
 
@@ -393,7 +393,7 @@ pub(super) enum Jump {
     /// Runs the lines up to the end of the loop several times.
     Repeat(Box<str>, u32),
     /// Skips the lines up to the O word of this name and kind.
-    Pass(Box<str>, OWordKind),
+    SkipTo(Box<str>, OWordKind),
     /// Continues with the next branch whose condition holds.
     Branch(Box<str>),
     /// Begins a loop that tests its condition before each pass, or ends a pass through the loop that began with `do`.

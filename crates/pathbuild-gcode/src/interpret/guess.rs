@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Text};
 use pathbuild_motion::Group;
 
 use super::codes::{Command, name};
-use super::switches::{is_followed_m, is_jump};
+use super::switches::{is_followed_m, is_unsupported_m};
 use super::{Options, interpret_each};
 use crate::dialect::{Dialect, DwellUnit, Rules};
 use crate::provenance::Provenance;
@@ -193,8 +193,8 @@ fn is_unknown(code: Code) -> bool {
     matches!(code, Code::UnknownWord | Code::UnknownCharacter | Code::InvalidComment)
 }
 
-/// Whether a control of the dialect knows and uses all words in the beginning of the program that is looked at, and refuses no line of it for
-/// containing two words that exclude each other.
+/// Whether a control of the dialect knows and uses all words in `head`, the beginning of a program, and refuses none of its lines for containing two
+/// words that exclude each other.
 fn takes_every_line(head: &[u8], dialect: Dialect) -> bool {
     are_in_accepted_lines(&problems(head, dialect))
 }
@@ -260,7 +260,7 @@ fn union_m_word(code: u16) -> UnionWord {
         // M48 enables the operator's overrides, as they are by default. M49 disables them.
         480 => UnionWord::Neutral,
         490 => UnionWord::NotFollowed { is_dangerous: false },
-        _ if is_jump(code) || code == 190 => UnionWord::NotFollowed { is_dangerous: true },
+        _ if is_unsupported_m(code) || code == 190 => UnionWord::NotFollowed { is_dangerous: true },
         _ if is_followed_m(code) => UnionWord::Followed(code),
         _ => UnionWord::NotFollowed { is_dangerous: false },
     }

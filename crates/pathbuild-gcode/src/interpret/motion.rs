@@ -20,13 +20,13 @@ pub(crate) const LOWEST_RETRACT: f64 = -10.0;
 impl Interpreter<'_> {
     /// Executes the motion of the block, if it has one. Returns whether it moves.
     pub(super) fn motion(&mut self, block: &Block<'_>) -> bool {
-        let stated = self.words.of_group(Group::Motion);
+        let stated = self.words.command_of_group(Group::Motion);
         let has_coordinates = self.words.values.has_coordinates();
         if let Some((command, code, span)) = stated {
             self.change_motion(block, command, code, span);
         }
         let motion = self.state.motion;
-        let is_machine = self.words.of_group(Group::MachineCoordinates);
+        let is_machine = self.words.command_of_group(Group::MachineCoordinates);
         if let Some((.., span)) = is_machine {
             self.check_machine_coordinates(block, motion, span);
             let is_idle = !has_coordinates && !stated.is_some_and(|(_, code, _)| matches!(code, 0 | 10));
@@ -34,10 +34,11 @@ impl Interpreter<'_> {
                 self.report(block, &say::MACHINE_COORDINATES_MOTION, span, |d| d);
             }
         }
-        let moves_without = stated.is_some() && matches!(motion, Motion::Arc { .. } | Motion::Cycle(_));
-        if !has_coordinates && !moves_without {
+        let moves_without_coordinates =
+            stated.is_some() && matches!(motion, Motion::Arc { .. } | Motion::Cycle(_));
+        if !has_coordinates && !moves_without_coordinates {
             if let Some((_, code, span)) = stated {
-                self.check_does_something(block, motion, code, span);
+                self.check_idle_motion_word(block, motion, code, span);
             }
             return false;
         }
@@ -95,7 +96,7 @@ impl Interpreter<'_> {
 
     /// Reports a probing word without coordinates. In dialects where each line states its motion, also warns about G0 and G1 without coordinates or
     /// F, which have no effect on later lines.
-    fn check_does_something(&mut self, block: &Block<'_>, motion: Motion, code: u16, span: Span) {
+    fn check_idle_motion_word(&mut self, block: &Block<'_>, motion: Motion, code: u16, span: Span) {
         let sets_feed = self.words.values.has(b'F') && !self.rules.layers;
         let is_straight = matches!(motion, Motion::Rapid | Motion::Feed);
         if self.rules.motion_is_stated && is_straight && !sets_feed {
@@ -175,7 +176,7 @@ impl Interpreter<'_> {
         for (axis, slot) in coordinates.into_iter().enumerate() {
             let Some(slot) = slot else { continue };
             self.mark_axis_stated(axis);
-            if let Some(at) = self.state.offsets.of_machine(axis, self.millimetres(slot)) {
+            if let Some(at) = self.state.offsets.from_machine_coordinate(axis, self.millimetres(slot)) {
                 to.at[axis] = at;
                 to.known = to.known.with(Axes::of(axis));
             } else {
@@ -192,7 +193,9 @@ impl Interpreter<'_> {
     /// Reports the first move that goes to a low height in machine coordinates from a known X and Y, where the part may be. If the machine's offsets
     /// are known, nothing is reported.
     fn check_machine_height(&mut self, block: &Block<'_>, z: Option<Slot>) {
-        let Some(slot) = z.filter(|_| self.state.offsets.of_machine(2, 0.0).is_none()) else { return };
+        let Some(slot) = z.filter(|_| self.state.offsets.from_machine_coordinate(2, 0.0).is_none()) else {
+            return;
+        };
         let is_over_part = self.state.position.known.has(Axes::XY);
         let is_low = self.millimetres(slot) < LOWEST_RETRACT;
         if is_over_part && is_low && !std::mem::replace(&mut self.state.stated.machine_height, true) {
@@ -219,7 +222,7 @@ impl Interpreter<'_> {
         };
         self.emit_move(block, movement);
         if matches!(pace, Pace::Probe { .. }) {
-            // A probe stops on the way, where an axis that has the same position at both ends is as well.
+            // A probe may stop anywhere on the way. Only an axis that has the same known position at both ends is certain to be at that position.
             let stays = |axis: usize| from.known.has(Axes::of(axis)) && from.at[axis] == to.at[axis];
             let moved: [_; 3] = std::array::from_fn(|axis| coordinates[axis].filter(|_| !stays(axis)));
             self.state.position.known = to.known.without(given_axes(&moved));
@@ -237,7 +240,7 @@ impl Interpreter<'_> {
 impl Interpreter<'_> {
     /// Executes the command of the block that uses coordinates without being a motion. Returns whether there is one.
     pub(super) fn execute_coordinate_command(&mut self, block: &Block<'_>) -> bool {
-        let Some((command, code, span)) = self.words.of_group(Group::NonModal) else { return false };
+        let Some((command, code, span)) = self.words.command_of_group(Group::NonModal) else { return false };
         if !matches!(command, Command::Home(_) | Command::Reference) {
             let are_shifted = self.are_shifted(command);
             if let Some(are_shifted) = are_shifted {
@@ -268,7 +271,7 @@ impl Interpreter<'_> {
             _ => return false,
         }
         // A motion word in the same block still sets the mode, but the coordinates have been used.
-        if let Some((command @ Command::Motion(_), code, span)) = self.words.of_group(Group::Motion) {
+        if let Some((command @ Command::Motion(_), code, span)) = self.words.command_of_group(Group::Motion) {
             self.change_motion(block, command, code, span);
         }
         true
@@ -473,8 +476,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Sets the coordinate of the current position. Where only the machine knows that position, after a probe, or after a stop at which the operator
-    /// may have touched off, coordinates are relative to it from here on.
+    /// Sets the coordinate of the current position. If only the machine knows this position, after a probe or after a stop at which the operator may
+    /// have touched off, all later coordinates are relative to this position.
     fn set_origin(&mut self, block: &Block<'_>, axis: usize, coordinate: f64) {
         let is_followed = self.state.followed_axes().has(Axes::of(axis));
         let is_moved_by_hand = self.state.position.known.has(Axes::of(axis)) && !is_followed;
@@ -499,21 +502,21 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the coordinate system that P selects in this block, or the given one if there is no P.
+    /// Returns the coordinate system that P selects in this block, or `default` if there is no P.
     pub(super) fn numbered_system(
         &mut self,
         block: &Block<'_>,
         code: u16,
         span: Span,
-        without: Option<WorkSystem>,
+        default: Option<WorkSystem>,
     ) -> Option<WorkSystem> {
         let numbers = self.rules.systems.as_ref().filter(|numbers| numbers.code == code);
         let Some((numbers, slot)) = numbers.zip(self.words.values.peek(b'P')) else {
-            if without.is_none() {
+            if default.is_none() {
                 let word = codes::name('G', code);
                 self.report(block, &say::NEEDS, span, |d| d.quoting("word", word).quoting("missing", "P"));
             }
-            return without;
+            return default;
         };
         self.words.values.take(b'P');
         let number = whole_number(slot.value).filter(|number| (1..=numbers.most).contains(number));

@@ -91,10 +91,13 @@ pub(super) struct ClearedZero {
 pub(super) struct CycleState {
     /// Position before the first cycle of the series.
     pub(super) initial: [f64; 3],
-    /// R and Z as heights in mm, P in seconds, Q in mm.
+    /// R as a height in mm.
     pub(super) r: Option<f64>,
+    /// Z as a height in mm.
     pub(super) z: Option<f64>,
+    /// P, the dwell in seconds.
     pub(super) p: Option<f64>,
+    /// Q, the depth of a peck in mm.
     pub(super) q: Option<f64>,
     /// The last line that stated R, Z or Q.
     pub(super) stated: Option<StatedLength>,
@@ -199,7 +202,7 @@ pub(super) struct Offsets {
     /// The system that was active at the first move.
     first: Option<WorkSystem>,
     /// Number of times that the operator has moved the zero in the plane.
-    zero: u32,
+    zero_moves: u32,
     /// Whether `base` is known in machine coordinates.
     is_base_known: bool,
     home: [Option<[f64; 3]>; 2],
@@ -241,7 +244,7 @@ impl Offsets {
             length: AppliedLength::default(),
             base: None,
             first: None,
-            zero: 0,
+            zero_moves: 0,
             is_base_known: false,
             home: [0, 1].map(|index| configured.map(|offsets| offsets.home[index])),
             is_configured: configured.is_some(),
@@ -328,13 +331,13 @@ impl Offsets {
     /// Returns the frame of a system: that of the program's first system if the position relative to it is known.
     pub(super) fn frame(&self, system: WorkSystem) -> Frame {
         let system = self.first.filter(|_| self.is_placed(system)).unwrap_or(system);
-        Frame { system, zero: self.zero }
+        Frame { system, zero_moves: self.zero_moves }
     }
 
     /// Begins another frame in the active system, because the operator has set its zero in the plane. Positions before cannot be compared with those
     /// after.
     pub(super) fn begin_frame(&mut self) -> Frame {
-        self.zero += 1;
+        self.zero_moves += 1;
         self.frame(self.active)
     }
 
@@ -395,7 +398,7 @@ impl Offsets {
     }
 
     /// Converts a machine coordinate to a position, if the machine's origin is known.
-    pub(super) fn of_machine(&self, axis: usize, coordinate: f64) -> Option<f64> {
+    pub(super) fn from_machine_coordinate(&self, axis: usize, coordinate: f64) -> Option<f64> {
         self.is_configured.then(|| coordinate - self.base(axis))
     }
 

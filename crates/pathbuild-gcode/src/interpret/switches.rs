@@ -82,8 +82,8 @@ impl Interpreter<'_> {
         if let Some(turning) = turning {
             self.state.spindle.turning = turning;
         }
-        let says_speed = self.words.values.has(b'S') && !self.rules.one_command;
-        if turning.is_some() || says_speed {
+        let has_speed = self.words.values.has(b'S') && !self.rules.one_command;
+        if turning.is_some() || has_speed {
             self.step(block, Action::Spindle(self.state.spindle));
         }
         let before = self.state.coolant;
@@ -121,12 +121,12 @@ impl Interpreter<'_> {
         let words = self.rules.words;
         let is_own = words.own_m_codes && (1000..2000).contains(&m_code) || words.m_own.contains(&m_code);
         let is_inert = words.inert('M', m_code).is_some();
-        is_jump(m_code) && !self.calls(m_code) && !is_inert || is_own
+        is_unsupported_m(m_code) && !self.calls(m_code) && !is_inert || is_own
     }
 
     /// Returns the time in seconds of the block's G4, if any. Removes the letters that state it, so that F and S do not set the feed and the speed.
     pub(super) fn dwell_time(&mut self, block: &Block<'_>) -> Option<f64> {
-        let (.., span) = self.words.of_group(Group::Dwell)?;
+        let (.., span) = self.words.command_of_group(Group::Dwell)?;
         let rules = &self.rules.dwell;
         let stated = rules.seconds.iter().find_map(|letter| self.words.values.remove(*letter));
         let turns = if rules.counts_turns { self.words.values.remove(b'S') } else { None };
@@ -232,7 +232,7 @@ impl Interpreter<'_> {
     fn length_by_number(&mut self, block: &Block<'_>, code: u16, span: Span) {
         self.check_length_axis(block, span);
         self.tool_length(block, code, span);
-        let motion = self.words.of_group(Group::Motion);
+        let motion = self.words.command_of_group(Group::Motion);
         if motion.is_some_and(|(command, ..)| command.takes_coordinates()) {
             // The line is reported elsewhere, because two of its words use the coordinates.
             return;
@@ -351,7 +351,7 @@ impl Interpreter<'_> {
     }
 }
 
-pub(super) fn is_jump(m_code: u16) -> bool {
+pub(super) fn is_unsupported_m(m_code: u16) -> bool {
     UNSUPPORTED_M_CODES.contains(&m_code)
 }
 
@@ -371,7 +371,9 @@ const INCHES: Text = Text { en: "inches", de: "Zoll" };
 
 impl Interpreter<'_> {
     pub(super) fn set_feed_mode(&mut self, block: &Block<'_>) {
-        let Some((Command::FeedMode(unit), code, _)) = self.words.of_group(Group::FeedMode) else { return };
+        let Some((Command::FeedMode(unit), code, _)) = self.words.command_of_group(Group::FeedMode) else {
+            return;
+        };
         if self.rules.feed_mode == FeedMode::ClearsFeed || unit != self.state.feed_unit {
             self.state.feed = 0.0;
             self.state.feed_cleared = Some((block.line, code));
@@ -384,7 +386,7 @@ impl Interpreter<'_> {
         if self.rules.layers && self.options.ignore_feed {
             return self.report(block, &say::FEED_IGNORED, slot.span, |d| d);
         }
-        let unit = match self.words.of_group(Group::Units) {
+        let unit = match self.words.command_of_group(Group::Units) {
             Some((Command::Inches(inches), ..)) => unit_of(inches),
             _ => self.state.unit,
         };
@@ -437,8 +439,10 @@ impl Interpreter<'_> {
         if is_refused && !std::mem::replace(&mut self.state.stated.other_unit, true) {
             self.report(block, &say::UNIT_IS_SETTING, span, |d| d.quoting("word", codes::name('G', code)));
         }
-        let Some(said) = self.rules.layers.then(|| unit_in_comment(block)).flatten() else { return };
-        if said != inches {
+        let Some(is_inch_in_comment) = self.rules.layers.then(|| unit_in_comment(block)).flatten() else {
+            return;
+        };
+        if is_inch_in_comment != inches {
             let (taken, comment) = if inches { (&INCHES, &MILLIMETRES) } else { (&MILLIMETRES, &INCHES) };
             self.report(block, &say::UNITS_CONTRADICTED, span, |d| {
                 d.quoting("word", codes::name('G', code)).with("unit", taken).with("comment", comment)
@@ -463,7 +467,7 @@ impl Interpreter<'_> {
             FeedUnit::InverseTime if self.words.values.has(b'F') => self.state.feed * movement.length(),
             FeedUnit::InverseTime => 0.0,
         };
-        // With this option the feeds of the layers apply, which are not in the file.
+        // With `ignore_feed`, the feeds of the layers apply, which are not in the file.
         let is_layers = self.rules.layers && self.options.ignore_feed;
         if self.state.feed_unit != FeedUnit::InverseTime && !movement.is_standstill() {
             self.check_unit_of_feed(block);

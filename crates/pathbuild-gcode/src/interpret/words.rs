@@ -11,8 +11,8 @@ use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
 use crate::dialect::MCodeLimit;
 use crate::read::{Block, Span, Target, Value, Word};
 
-/// Marks the value of an expression, which has no number of decimals.
-const OF_EXPRESSION: u8 = u8::MAX;
+/// Number of decimals that marks the value of an expression, which has no decimals of its own.
+const EXPRESSION_DECIMALS: u8 = u8::MAX;
 
 impl Interpreter<'_> {
     /// Sorts the words of a block and evaluates them.
@@ -74,7 +74,7 @@ impl Interpreter<'_> {
                 d.quoting("parameter", parameter).with("value", value)
             });
         }
-        Ok((value, OF_EXPRESSION))
+        Ok((value, EXPRESSION_DECIMALS))
     }
 
     fn most_parameters(&self) -> u32 {
@@ -148,7 +148,7 @@ impl Interpreter<'_> {
         if letter == b'F' && slot.value < 0.0 {
             return self.report_out_of_range(block, "F", slot, &limits::NOT_NEGATIVE);
         }
-        let is_number = slot.decimals != OF_EXPRESSION;
+        let is_number = slot.decimals != EXPRESSION_DECIMALS;
         if is_number && matches!(letter, b'X' | b'Y' | b'Z' | b'I' | b'J' | b'K' | b'R') {
             self.half_circles.add_length(slot.decimals);
         }

@@ -34,8 +34,8 @@ pub(super) fn first_lines(program: &Program, provenance: &str) -> impl Iterator<
 }
 
 impl WriteOptions {
-    pub(super) fn remarks(&self, program: &Program) -> Remarks {
-        Remarks { charset: self.charset, compatible: program.compatible }
+    pub(super) fn comment_style(&self, program: &Program) -> CommentStyle {
+        CommentStyle { charset: self.charset, compatible: program.compatible }
     }
 }
 
@@ -173,7 +173,8 @@ pub fn write_program(
         }
     }
     writer.line(&format!("G00 Z{}", f3(program.start_height())));
-    for line in statistics_lines(&statistics(program, options.rapid), options.lang, options.remarks(program))
+    for line in
+        statistics_lines(&statistics(program, options.rapid), options.lang, options.comment_style(program))
     {
         writer.line(&line);
     }
@@ -203,7 +204,7 @@ impl Writer<'_> {
     }
 
     fn comment(&mut self, text: &str) {
-        let line = self.options.remarks(self.program).comment(text);
+        let line = self.options.comment_style(self.program).comment(text);
         self.line(&line);
     }
 
@@ -350,10 +351,10 @@ pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptio
     let clearance = f3(program.sweep_height);
     // If the tool makes no contact, G38.2 raises an alarm; with G38.3, which PathDxf2GCode writes, the machine continues.
     let probing = if program.compatible { "G38.3" } else { "G38.2" };
-    let remarks = options.remarks(program);
+    let style = options.comment_style(program);
     let mut text = String::from("%\n");
     for line in first_lines(program, provenance) {
-        _ = writeln!(text, "{}", remarks.comment(&line));
+        _ = writeln!(text, "{}", style.comment(&line));
     }
     text.push_str(setup(program));
     _ = writeln!(text, "G00 Z{clearance}\nG00 X0.000 Y0.000");
@@ -363,7 +364,7 @@ pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptio
         _ = writeln!(
             text,
             "{}",
-            remarks.comment(&format!("{PROBE_COMMENT}{} {name}", FIRST_PARAMETER + index))
+            style.comment(&format!("{PROBE_COMMENT}{} {name}", FIRST_PARAMETER + index))
         );
         if !pathbuild_path::approx::is_negligible((probe.at - at).norm()) {
             _ = writeln!(text, "G00 X{} Y{}", f3(probe.at.x), f3(probe.at.y));
@@ -387,11 +388,11 @@ pub(crate) fn announces_probe(comment: &str) -> bool {
 
 /// Writes the file of values, with one line per probe and nothing after the `=` yet.
 pub fn values_file(program: &Program, options: &WriteOptions) -> String {
-    let remarks = options.remarks(program);
+    let style = options.comment_style(program);
     let mut text = String::new();
     for (index, probe) in program.probes.iter().enumerate() {
         let name = name_and_place(probe, program);
-        _ = writeln!(text, "{} #{}=", remarks.comment(&name), FIRST_PARAMETER + index);
+        _ = writeln!(text, "{} #{}=", style.comment(&name), FIRST_PARAMETER + index);
     }
     text
 }
@@ -412,15 +413,15 @@ fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
     format!("{name} @ [{}|{}]", f3(probe.at.x), f3(probe.at.y))
 }
 
-/// The settings with which comments are written.
+/// The characters and the notation with which comments are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Remarks {
+pub(super) struct CommentStyle {
     pub(super) charset: Charset,
     /// Whether `(` is kept within a comment, as `PathDxf2GCode` does.
     pub(super) compatible: bool,
 }
 
-impl Remarks {
+impl CommentStyle {
     pub(super) fn comment(self, text: &str) -> String {
         if !self.compatible {
             return Dialect::Native.comment(text, self.charset);
@@ -431,7 +432,7 @@ impl Remarks {
     }
 }
 
-fn statistics_lines(statistics: &Statistics, lang: Lang, remarks: Remarks) -> Vec<String> {
+fn statistics_lines(statistics: &Statistics, lang: Lang, style: CommentStyle) -> Vec<String> {
     let [milling, drilling, sweeps, sum, commands] = labels(lang);
     let totals = [
         (milling, statistics.milling),
@@ -440,8 +441,8 @@ fn statistics_lines(statistics: &Statistics, lang: Lang, remarks: Remarks) -> Ve
         (sum, statistics.sum()),
     ];
     let mut lines: Vec<String> =
-        totals.iter().map(|(label, total)| remarks.comment(&total_line(label, total))).collect();
-    lines.push(remarks.comment(&format!("{commands} {}", statistics.commands)));
+        totals.iter().map(|(label, total)| style.comment(&total_line(label, total))).collect();
+    lines.push(style.comment(&format!("{commands} {}", statistics.commands)));
     lines
 }
 

@@ -56,17 +56,17 @@ fn is_broken(problem: &Diagnostic) -> bool {
 /// Whether the text of a program, given in parts of whole lines, contains exactly the moves of the program. If not, [`read_back`] may still
 /// find them equivalent.
 pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: &Program) -> bool {
-    let mut abreast = LockstepComparison::new(program.moves(), Tolerance::of_decimals(DECIMALS));
+    let mut comparison = LockstepComparison::new(program.moves(), Tolerance::of_decimals(DECIMALS));
     let mut rules = Rules::new(None);
     let mut each = |step: motion::Step| {
         rules.step(&step);
-        if let Some((_, it)) = step.as_move() {
-            abreast.step(&it);
+        if let Some((_, movement)) = step.as_move() {
+            comparison.step(&movement);
         }
     };
     let (problems, _) = interpret_parts(parts, Dialect::Native, &nominal_options(), &mut each);
     let is_fine = |problems: &[Diagnostic]| !problems.iter().any(is_broken);
-    is_fine(&problems) && is_fine(&rules.finish()) && abreast.end_together()
+    is_fine(&problems) && is_fine(&rules.finish()) && comparison.are_all_equal()
 }
 
 /// Checks that the text of a probing program probes at the positions of the program's probes, in their order.
@@ -76,9 +76,9 @@ pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: 
 pub fn read_probing_back(text: &str, probes: &[ProbePoint]) -> Result<(), Box<Diagnostic>> {
     let slack = Tolerance::of_decimals(DECIMALS).place;
     let mut found = moves(text)?;
-    found.retain(|(_, it)| matches!(it.pace, Pace::Probe { .. }));
-    let is_at = |((_, it), probe): (&(u32, motion::Move), &ProbePoint)| {
-        (it.to.x() - probe.at.x).abs() <= slack && (it.to.y() - probe.at.y).abs() <= slack
+    found.retain(|(_, movement)| matches!(movement.pace, Pace::Probe { .. }));
+    let is_at = |((_, movement), probe): (&(u32, motion::Move), &ProbePoint)| {
+        (movement.to.x() - probe.at.x).abs() <= slack && (movement.to.y() - probe.at.y).abs() <= slack
     };
     let is_same = found.len() == probes.len() && found.iter().zip(probes).all(is_at);
     if is_same { Ok(()) } else { Err(internal_error("the probing run probes elsewhere")) }
@@ -115,7 +115,7 @@ impl<E: Iterator<Item = (u32, motion::Move)>> LockstepComparison<E> {
     }
 
     /// Whether all moves were equal. Unequal moves may still be equivalent but divided into different parts.
-    fn end_together(mut self) -> bool {
+    fn are_all_equal(mut self) -> bool {
         self.is_same && self.expected.next().is_none()
     }
 }
@@ -128,8 +128,8 @@ fn moves(text: &str) -> Result<Vec<(u32, motion::Move)>, Box<Diagnostic>> {
 
 fn each_move(text: &str, mut take: impl FnMut(u32, motion::Move)) -> Result<(), Box<Diagnostic>> {
     let mut each = |step: motion::Step| {
-        if let Some((line, it)) = step.as_move() {
-            take(line, it);
+        if let Some((line, movement)) = step.as_move() {
+            take(line, movement);
         }
     };
     let problems = interpret_each(text.as_bytes(), Dialect::Native, &nominal_options(), &mut each);
@@ -253,18 +253,18 @@ pub enum Parts {
 
 /// Returns the first line of a text that differs from the expected one, ignoring blanks and line breaks.
 pub fn first_other_line(found: &[u8], expected: &[u8], parts: Parts) -> Option<OtherLine> {
-    let (mut found, mut wanted) = (lines(found, parts), lines(expected, parts));
+    let (mut found, mut expected) = (lines(found, parts), lines(expected, parts));
     let mut last = 0;
     loop {
-        return match (found.next(), wanted.next()) {
+        return match (found.next(), expected.next()) {
             (None, None) => None,
-            (Some((line, found)), Some((_, wanted))) if found == wanted => {
+            (Some((line, found)), Some((_, expected))) if found == expected => {
                 last = line;
                 continue;
             }
-            (found, wanted) => Some(OtherLine {
+            (found, expected) => Some(OtherLine {
                 line: found.map_or(last + 1, |(line, _)| line),
-                expected: wanted.map(|(_, text)| text).unwrap_or_default(),
+                expected: expected.map(|(_, text)| text).unwrap_or_default(),
             }),
         };
     }

@@ -26,7 +26,7 @@ const FUNCTIONS: [(&[u8], Function); 12] = [
     (b"TAN", Function::Tan),
 ];
 
-const WORDS: [(&[u8], Binary); 10] = [
+const WORD_OPERATORS: [(&[u8], Binary); 10] = [
     (b"MOD", Binary::Modulo),
     (b"AND", Binary::And),
     (b"OR", Binary::Or),
@@ -85,14 +85,14 @@ impl Syntax {
 
 impl Line<'_> {
     /// Compiles a value: a number, a parameter, a function or a bracketed expression.
-    pub(super) fn compiled_value(&mut self, syntax: Syntax) -> Result<Code, UnreadableLine> {
+    pub(super) fn compile_value(&mut self, syntax: Syntax) -> Result<Code, UnreadableLine> {
         let first = self.out.code.len();
         self.value(syntax, 0)?;
         Ok(self.code_since(first))
     }
 
     /// Compiles operators and operands up to a closing bracket, which is not consumed.
-    pub(super) fn compiled_expression(&mut self, syntax: Syntax) -> Result<Code, UnreadableLine> {
+    pub(super) fn compile_expression(&mut self, syntax: Syntax) -> Result<Code, UnreadableLine> {
         let first = self.out.code.len();
         self.expression(syntax, 0, 0)?;
         Ok(self.code_since(first))
@@ -126,7 +126,7 @@ impl Line<'_> {
             b'+' => (Binary::Plus, 1),
             b'-' => (Binary::Minus, 1),
             letter if letter.is_ascii_alphabetic() => {
-                let (word, operator) = WORDS.iter().find(|(word, _)| begins_with(rest, word))?;
+                let (word, operator) = WORD_OPERATORS.iter().find(|(word, _)| begins_with(rest, word))?;
                 (*operator, word.len())
             }
             _ => return None,

@@ -25,7 +25,7 @@ pub(super) fn plain_words(bytes: &[u8], start: usize, words: &mut Vec<Word>) -> 
         if !letter.is_ascii_uppercase() || matches!(letter, b'N' | b'O') {
             break;
         }
-        let Some((number, end)) = number::plain(bytes, at + 1) else { break };
+        let Some((number, end)) = number::scan_plain(bytes, at + 1) else { break };
         words.push(Word { letter, value: Value::Number(number), span: Span::new(at, end) });
         at = end;
     }
@@ -42,7 +42,7 @@ pub(super) struct Line<'l> {
     /// Line number, counted from 1.
     pub(super) number: u32,
     /// Whether a checksum has been read.
-    pub(super) checks_sum: bool,
+    pub(super) has_checksum: bool,
 }
 
 impl Line<'_> {
@@ -68,7 +68,7 @@ impl Line<'_> {
                 _ => self.unknown_character()?,
             }
         }
-        self.check_host();
+        self.check_number_has_checksum();
         Ok(())
     }
 
@@ -125,7 +125,7 @@ impl Line<'_> {
         self.at = star + 1 + length;
         let span = Span::new(star, star + 1 + rest[..length].trim_ascii_end().len());
         if found.parse() == Ok(expected) {
-            self.checks_sum = true;
+            self.has_checksum = true;
             return Ok(());
         }
         Err(self.fault(&say::WRONG_CHECKSUM, span, |d| {
@@ -134,12 +134,12 @@ impl Line<'_> {
     }
 
     /// Warns about a block number without a checksum, and about a checksum without a block number.
-    pub(super) fn check_host(&mut self) {
-        if !self.spelling().checksums || self.checks_sum == self.out.number.is_some() {
+    pub(super) fn check_number_has_checksum(&mut self) {
+        if !self.spelling().checksums || self.has_checksum == self.out.number.is_some() {
             return;
         }
         let message =
-            if self.checks_sum { &say::CHECKSUM_WITHOUT_NUMBER } else { &say::NUMBER_WITHOUT_CHECKSUM };
+            if self.has_checksum { &say::CHECKSUM_WITHOUT_NUMBER } else { &say::NUMBER_WITHOUT_CHECKSUM };
         self.report(message, Span::new(0, self.bytes.len()), |d| d);
     }
 

@@ -45,10 +45,10 @@ pub(super) fn scan(line: &[u8], start: usize, spelling: &Spelling) -> Result<Sca
         Some(b' ' | b'\t')
             if spelling.blanks == Blanks::Ignored && continues_after_blanks(line, digits.end) =>
         {
-            rewritten(line, start, UnusualNotation::BlankInside)
+            scan_unusual(line, start, UnusualNotation::BlankInside)
         }
         Some(b',') if spelling.decimal_comma && !digits.point && is_digit(line, digits.end + 1) => {
-            rewritten(line, start, UnusualNotation::DecimalComma)
+            scan_unusual(line, start, UnusualNotation::DecimalComma)
         }
         _ => digits.number(line, start).map(|number| ScannedNumber { number, end: digits.end, oddity: None }),
     }
@@ -58,7 +58,7 @@ pub(super) fn scan(line: &[u8], start: usize, spelling: &Spelling) -> Result<Sca
 ///
 /// Nearly all numbers in programs are of this form, and reading them is most of the work of the reader.
 #[inline]
-pub(super) fn plain(line: &[u8], start: usize) -> Option<(Number, usize)> {
+pub(super) fn scan_plain(line: &[u8], start: usize) -> Option<(Number, usize)> {
     let mut at = start;
     let negative = line.get(at) == Some(&b'-');
     at += usize::from(negative);
@@ -151,7 +151,11 @@ impl Digits {
 }
 
 /// Reads a number with blanks inside or a decimal comma by converting it to the usual notation.
-fn rewritten(line: &[u8], start: usize, oddity: UnusualNotation) -> Result<ScannedNumber, MalformedNumber> {
+fn scan_unusual(
+    line: &[u8],
+    start: usize,
+    oddity: UnusualNotation,
+) -> Result<ScannedNumber, MalformedNumber> {
     let end = match oddity {
         UnusualNotation::BlankInside => last_digit(line, start),
         UnusualNotation::DecimalComma => run_end(line, start, |byte| begins(byte) || byte == b','),

@@ -83,7 +83,7 @@ impl Problems {
         }
     }
 
-    /// Returns the diagnostics in line order. If a message occurred more often than it is reported, its last diagnostic states how many more there
+    /// Returns the diagnostics in line order. If a message occurred too often to be reported each time, its last diagnostic states how many more there
     /// were.
     pub fn into_diagnostics(mut self) -> Vec<Diagnostic> {
         for &(count, last) in self.counts.values().filter(|(count, _)| *count > MAX_REPORTS_PER_MESSAGE) {

@@ -186,7 +186,7 @@ impl<'t> BlockReader<'t> {
             [b'\r', b'\n', ..] => 2,
             _ => 0,
         };
-        if end == 0 || self.parts.words.is_empty() || length > self.surely_short_enough() {
+        if end == 0 || self.parts.words.is_empty() || length > self.safe_length() {
             self.parts.clear();
             return None;
         }
@@ -206,7 +206,7 @@ impl<'t> BlockReader<'t> {
     }
 
     /// Returns a length in bytes up to which every line satisfies the dialect's limit.
-    fn surely_short_enough(&self) -> usize {
+    fn safe_length(&self) -> usize {
         match self.rules.spelling.line_length {
             Some(LineLength::Whole(most) | LineLength::BeforeSemicolon(most) | LineLength::Bare(most)) => {
                 most
@@ -241,7 +241,7 @@ impl<'t> BlockReader<'t> {
                 return !text.range().is_empty();
             }
         };
-        if self.words_of(line, start).is_err() {
+        if self.read_words(line, start).is_err() {
             return false;
         }
         self.check_length(line);
@@ -251,7 +251,7 @@ impl<'t> BlockReader<'t> {
         true
     }
 
-    fn words_of(&mut self, line: &[u8], start: usize) -> Result<(), super::line::UnreadableLine> {
+    fn read_words(&mut self, line: &[u8], start: usize) -> Result<(), super::line::UnreadableLine> {
         Line {
             bytes: line,
             at: start,
@@ -259,7 +259,7 @@ impl<'t> BlockReader<'t> {
             rules: self.rules,
             problems: &mut self.problems,
             number: self.line,
-            checks_sum: false,
+            has_checksum: false,
         }
         .read()
     }

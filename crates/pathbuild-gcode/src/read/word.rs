@@ -23,7 +23,7 @@ impl Line<'_> {
             self.blank_after_letter(start);
         }
         let value = match self.peek() {
-            Some(byte) if number::begins(byte) && !self.signed_expression(byte) => {
+            Some(byte) if number::begins(byte) && !self.begins_signed_expression(byte) => {
                 Value::Number(self.number()?)
             }
             Some(b'#' | b'[' | b'+' | b'-' | b'a'..=b'z' | b'A'..=b'Z') => {
@@ -47,7 +47,7 @@ impl Line<'_> {
     }
 
     /// Whether a signed expression such as `-[`, `-#` or `-SIN[` begins here.
-    fn signed_expression(&self, byte: u8) -> bool {
+    fn begins_signed_expression(&self, byte: u8) -> bool {
         matches!(byte, b'+' | b'-')
             && self.bytes[self.at + 1..]
                 .iter()
@@ -57,17 +57,17 @@ impl Line<'_> {
 
     fn value_of_word(&mut self, start: usize, letter: u8) -> Result<Value, UnreadableLine> {
         let syntax = match self.spelling().grammar.as_ref() {
-            Some(grammar) if !self.letter_follows_without_bracket() => syntax_of(grammar),
+            Some(grammar) if !self.next_letter_begins_word() => syntax_of(grammar),
             None if matches!(self.peek(), Some(b'#' | b'[' | b'+' | b'-')) => {
                 return Err(self.report_no_expressions(start));
             }
             _ => return Err(self.word_without_number(start, letter)),
         };
-        self.compiled_value(syntax).map(Value::Expression)
+        self.compile_value(syntax).map(Value::Expression)
     }
 
     /// Whether the next letter begins a word and not the name of a function.
-    fn letter_follows_without_bracket(&self) -> bool {
+    fn next_letter_begins_word(&self) -> bool {
         let letters = self.bytes[self.at..].iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
         letters == 1
     }
@@ -97,7 +97,7 @@ impl Line<'_> {
     /// Reads a number and reports unusual features of its notation.
     pub(super) fn number(&mut self) -> Result<Number, UnreadableLine> {
         let start = self.at;
-        if let Some((number, end)) = number::plain(self.bytes, start) {
+        if let Some((number, end)) = number::scan_plain(self.bytes, start) {
             self.at = end;
             return Ok(number);
         }
@@ -181,14 +181,14 @@ impl Line<'_> {
         let target = if grammar.has_names && self.peek() == Some(b'<') {
             Target::Named(self.name()?)
         } else {
-            Target::Numbered(self.compiled_value(syntax)?)
+            Target::Numbered(self.compile_value(syntax)?)
         };
         self.skip_blanks();
         if self.peek() != Some(b'=') {
             return Err(self.fault(&say::ASSIGNMENT_EXPECTED, self.current_span(), |d| d));
         }
         self.at += 1;
-        let value = Value::Expression(self.compiled_value(syntax)?);
+        let value = Value::Expression(self.compile_value(syntax)?);
         self.out.settings.push(Assignment { target, value, span: Span::new(start, self.at) });
         Ok(())
     }
@@ -255,7 +255,7 @@ impl Line<'_> {
                 self.at = end;
                 return Ok(());
             }
-            let argument = self.compiled_value(syntax)?;
+            let argument = self.compile_value(syntax)?;
             self.out.arguments.push(argument);
         }
     }
@@ -301,7 +301,7 @@ impl Line<'_> {
         let start = self.at;
         let applied = self.bytes.get(start + 2) == Some(&b'=');
         self.at += if applied { 3 } else { 2 };
-        let code = self.compiled_expression(Syntax::Formula)?;
+        let code = self.compile_expression(Syntax::Formula)?;
         self.closing_bracket(b')')?;
         let word = Span::new(self.out.words.len() - 1, self.out.words.len()).start;
         self.out.formulas.push(Formula { word, applied, code, span: Span::new(start, self.at) });
@@ -377,7 +377,7 @@ pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
 }
 
 /// Reads `(=1.000+0.441*[#51-2.000]+...)` at `start` as the formula of the last word and returns the offset after it. Returns `None` for any other
-/// notation, and leaves the parts unchanged, so that the reader of expressions can read it.
+/// notation, and leaves the parts unchanged, so that the reader of expressions can read the formula.
 ///
 /// In a program with probes, nearly all bytes belong to such formulas.
 #[inline]
@@ -401,7 +401,7 @@ pub(super) fn plain_formula(bytes: &[u8], start: usize, parts: &mut LineParts) -
 
 /// Reads a height and the terms of the probes, up to and including the closing bracket.
 fn sum(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
-    let (height, mut at) = number::plain(bytes, start)?;
+    let (height, mut at) = number::scan_plain(bytes, start)?;
     code.push(Op::Number(height.value));
     loop {
         match bytes.get(at)? {
@@ -414,11 +414,11 @@ fn sum(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
 
 /// Reads the term of a probe: `0.441*[#51-2.000]`.
 fn term(bytes: &[u8], start: usize, code: &mut Vec<Op>) -> Option<usize> {
-    let (weight, at) = number::plain(bytes, start)?;
+    let (weight, at) = number::scan_plain(bytes, start)?;
     let at = offset_after(bytes, at, b"*[#")?;
-    let (probe, at) = number::plain(bytes, at)?;
+    let (probe, at) = number::scan_plain(bytes, at)?;
     let at = offset_after(bytes, at, b"-")?;
-    let (height, at) = number::plain(bytes, at)?;
+    let (height, at) = number::scan_plain(bytes, at)?;
     let at = offset_after(bytes, at, b"]")?;
     code.extend([
         Op::Number(weight.value),

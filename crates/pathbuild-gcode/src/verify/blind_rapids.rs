@@ -48,7 +48,7 @@ impl BlindRapidRules {
                 let is_doubtful = match movement.named {
                     None => movement.pace == Pace::Rapid && self.is_blind(movement, stated),
                     // There may be material below a known position. At an unknown one, the machine is assumed to have a tool setter or a magazine.
-                    Some(_) => is_low && known(&movement.from, stated).has(Axes::XY),
+                    Some(_) => is_low && known_axes(&movement.from, stated).has(Axes::XY),
                 };
                 if is_doubtful {
                     let found = self.found.get_or_insert(BlindRapids { count: 0, line: step.line });
@@ -73,7 +73,7 @@ impl BlindRapidRules {
     }
 
     fn is_blind(&self, movement: &Move, stated: Axes) -> bool {
-        let (from, to) = (known(&movement.from, stated), known(&movement.to, self.stated));
+        let (from, to) = (known_axes(&movement.from, stated), known_axes(&movement.to, self.stated));
         let is_whole = from.and(to) == Axes::ALL;
         let is_vertical = movement.keeps_xy() && from.and(Axes::XY) == to.and(Axes::XY);
         let is_judged_by_end = is_vertical && to == Axes::ALL;
@@ -97,6 +97,6 @@ fn is_low_in_machine(movement: &Move) -> bool {
 }
 
 /// Returns the axes of a position that are known and that the program has stated since the last tool change.
-fn known(at: &Position, stated: Axes) -> Axes {
+fn known_axes(at: &Position, stated: Axes) -> Axes {
     at.known.and(stated)
 }

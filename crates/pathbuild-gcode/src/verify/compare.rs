@@ -433,9 +433,9 @@ impl<'m> Walker<'m> {
     }
 
     /// Advances over rapid moves to the first position that satisfies the condition. Returns false, without advancing, if there is none.
-    fn skip_rapids_to(&mut self, will_do: impl Fn(&[f64; 3]) -> bool) -> bool {
+    fn skip_rapids_to(&mut self, is_target: impl Fn(&[f64; 3]) -> bool) -> bool {
         let rapids = self.moves[self.index..].iter().take_while(|(_, movement)| movement.pace == Pace::Rapid);
-        let found = rapids.clone().position(|(_, movement)| will_do(&movement.to.at));
+        let found = rapids.clone().position(|(_, movement)| is_target(&movement.to.at));
         self.index += found.map_or(0, |passed| passed + 1);
         found.is_some()
     }

@@ -43,13 +43,13 @@ impl DirectionRules {
             self.unstarted[0].get_or_insert(line);
         }
         let Some(tool) = tool_at(&self.tools, line) else { return };
-        let Some(wanted) = self.tools[tool].1 else { return };
+        let Some(required) = self.tools[tool].1 else { return };
         if self.turning == Turning::Unstated {
             self.unstarted[1].get_or_insert(line);
         }
         let is_known = self.found.iter().any(|(known, _)| *known == tool);
-        if self.turning.is_on() && self.turning != wanted && !is_known {
-            let (found, expected, direction) = match wanted {
+        if self.turning.is_on() && self.turning != required && !is_known {
+            let (found, expected, direction) = match required {
                 Turning::CounterClockwise => ("M3", "M4", "ccw"),
                 _ => ("M4", "M3", "cw"),
             };

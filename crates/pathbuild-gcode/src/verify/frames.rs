@@ -52,8 +52,8 @@ impl Frames {
         }
     }
 
-    /// Like [`check`](Self::check), but only for the rapid moves with these indices among all moves. `legs` returns the moves to check instead of
-    /// each of them. If there are no such moves, the program is not processed.
+    /// Like [`check`](Self::check), but only for the rapid moves with these indices among all moves. `legs` returns the moves to be checked in place
+    /// of one of them. If there are no such rapid moves, the program is not processed.
     pub(super) fn check_rapids<P: Program + ?Sized>(
         self,
         rapids: &BTreeSet<usize>,

@@ -23,7 +23,7 @@ pub(super) struct HeightMap {
     /// Tiles by row and column, with `NaN` where nothing is known.
     tiles: BTreeMap<(i32, i32), Box<[f32; CELLS]>>,
     /// Number of cells that may still be visited before the map is exhausted.
-    left: u64,
+    remaining: u64,
 }
 
 /// The key of a tile, a row, and the first and last column of the row.
@@ -33,11 +33,11 @@ impl HeightMap {
     /// Creates a map on which at most `cells` cells may be visited, counting repeated visits. After that, nothing changes and
     /// nothing is found: see [`is_exhausted`](Self::is_exhausted).
     pub(super) fn new(resolution: f64, cells: u64) -> Self {
-        Self { resolution, tiles: BTreeMap::new(), left: cells }
+        Self { resolution, tiles: BTreeMap::new(), remaining: cells }
     }
 
     pub(super) fn is_exhausted(&self) -> bool {
-        self.left == 0
+        self.remaining == 0
     }
 
     /// Adds material up to `surface` within the capsule. Where material is already known, the lower of the two heights applies.
@@ -107,7 +107,7 @@ impl HeightMap {
     fn stretches(&mut self, capsule: &Capsule) -> Vec<TileRowSpan> {
         let (first, last) = self.centres_within(capsule.rows());
         let mut found = Vec::new();
-        self.left = self.left.saturating_sub(ROW_COST);
+        self.remaining = self.remaining.saturating_sub(ROW_COST);
         let mut row = first;
         while row <= last {
             let Some(((known, _), _)) = self.tiles.range((row.div_euclid(CELLS_PER_SIDE), i32::MIN)..).next()
@@ -145,7 +145,7 @@ impl HeightMap {
     /// not be visited.
     fn spend(&mut self, column: i32, last: i32) -> bool {
         let cells = u64::try_from(i64::from(last) - i64::from(column)).unwrap_or(0);
-        self.left = self.left.saturating_sub(ROW_COST + cells);
+        self.remaining = self.remaining.saturating_sub(ROW_COST + cells);
         !self.is_exhausted()
     }
 

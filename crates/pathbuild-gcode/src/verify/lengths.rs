@@ -25,16 +25,17 @@ pub struct LengthRules<'c> {
     first: Option<u32>,
     /// The line and the tool of the first cut with a known tool before any length was applied.
     bare: Option<(u32, u32)>,
-    of_entries: Vec<OtherEntry>,
+    /// The cuts with the length in an H whose number is not that of the tool.
+    cuts_with_other_entry: Vec<OtherEntry>,
     /// The rapid moves that state Z with the length in an H whose number is not that of the tool.
-    rapids_of_entries: Vec<OtherEntry>,
+    rapids_with_other_entry: Vec<OtherEntry>,
     tools_with_own_length: BTreeSet<u32>,
     /// The line and the tool of the first rapid move that states Z with a known tool before any length was applied.
     bare_rapid: Option<(u32, u32)>,
     /// Whether the current combination of tool and length has been checked at a cut.
-    is_judged: bool,
+    is_cut_checked: bool,
     /// Whether the current combination of tool and length has been checked at a rapid move that states Z.
-    is_rapid_judged: bool,
+    is_rapid_checked: bool,
     /// A rapid move with a wrong length, until a cut with the same length is reported instead.
     wrong_rapid: Problems,
     /// Whether M6 has inserted a tool.
@@ -75,11 +76,11 @@ impl<'c> LengthRules<'c> {
             first: None,
             bare: None,
             bare_rapid: None,
-            of_entries: Vec::new(),
-            rapids_of_entries: Vec::new(),
+            cuts_with_other_entry: Vec::new(),
+            rapids_with_other_entry: Vec::new(),
             tools_with_own_length: BTreeSet::new(),
-            is_judged: false,
-            is_rapid_judged: false,
+            is_cut_checked: false,
+            is_rapid_checked: false,
             wrong_rapid: Problems::default(),
             has_changed: false,
             waiting: None,
@@ -118,8 +119,8 @@ impl<'c> LengthRules<'c> {
 
     /// Begins another combination of tool and length.
     fn begin_length(&mut self) {
-        self.is_judged = false;
-        self.is_rapid_judged = false;
+        self.is_cut_checked = false;
+        self.is_rapid_checked = false;
         self.problems.append(std::mem::take(&mut self.wrong_rapid));
     }
 
@@ -128,7 +129,7 @@ impl<'c> LengthRules<'c> {
             self.waiting.iter_mut().for_each(|waiting| waiting.has_cut = true);
             self.check_stop();
         }
-        if !self.is_judged {
+        if !self.is_cut_checked {
             self.check_cut(line, movement);
         }
     }
@@ -165,7 +166,7 @@ impl<'c> LengthRules<'c> {
     /// Checks the first rapid move that states Z with the current tool and length. Whether it hits anything depends on lengths that only the machine
     /// knows.
     fn check_rapid(&mut self, line: u32) {
-        if std::mem::replace(&mut self.is_rapid_judged, true) {
+        if std::mem::replace(&mut self.is_rapid_checked, true) {
             return;
         }
         let set = u64::from(self.tools.length_line().unwrap_or(line));
@@ -179,7 +180,7 @@ impl<'c> LengthRules<'c> {
                 self.wrong_rapid.add_at_line(&say::RAPID_WITHOUT_LENGTH, line, |d| d.with("set", set));
             }
             (LengthFit::OfEntry(entry), Some(tool), _) => {
-                add_once(&mut self.rapids_of_entries, OtherEntry { line, tool, entry });
+                add_once(&mut self.rapids_with_other_entry, OtherEntry { line, tool, entry });
             }
             (LengthFit::Off | LengthFit::Unstated, Some(tool), None) => {
                 self.bare_rapid.get_or_insert((line, tool));
@@ -191,7 +192,7 @@ impl<'c> LengthRules<'c> {
     /// Drops the finding about a rapid move with the current tool and length, and checks no further one, because a cut is reported instead.
     fn forgive_rapid(&mut self) {
         self.wrong_rapid = Problems::default();
-        self.is_rapid_judged = true;
+        self.is_rapid_checked = true;
     }
 
     fn check_cut(&mut self, line: u32, movement: &Move) {
@@ -199,7 +200,7 @@ impl<'c> LengthRules<'c> {
         if movement.named.is_some() || rises || !is_cut_in_stock(line, movement, self.stock) {
             return;
         }
-        self.is_judged = true;
+        self.is_cut_checked = true;
         let (tool, set) = (self.tools.inserted(), self.tools.length_line().unwrap_or(line));
         match (self.tools.length_fit(), tool, self.first) {
             (LengthFit::Outdated, ..) => {
@@ -219,7 +220,7 @@ impl<'c> LengthRules<'c> {
                 self.bare.get_or_insert((line, tool));
             }
             (LengthFit::OfEntry(entry), Some(tool), _) => {
-                add_once(&mut self.of_entries, OtherEntry { line: set, tool, entry });
+                add_once(&mut self.cuts_with_other_entry, OtherEntry { line: set, tool, entry });
             }
             (LengthFit::Fits, Some(tool), _) => _ = self.tools_with_own_length.insert(tool),
             _ => {}
@@ -243,17 +244,18 @@ impl<'c> LengthRules<'c> {
                 d.with("tool", u64::from(tool)).with("first", u64::from(first))
             });
         }
-        for OtherEntry { line, tool, entry } in std::mem::take(&mut self.rapids_of_entries) {
+        for OtherEntry { line, tool, entry } in std::mem::take(&mut self.rapids_with_other_entry) {
             // Some shops number H independently of T, but then neither the tool cuts with its own H, nor another tool with this one.
             let is_wrong = [tool, entry].iter().any(|number| self.tools_with_own_length.contains(number));
-            let is_reported = self.of_entries.iter().any(|cut| (cut.tool, cut.entry) == (tool, entry));
+            let is_reported =
+                self.cuts_with_other_entry.iter().any(|cut| (cut.tool, cut.entry) == (tool, entry));
             if is_wrong && !is_reported {
                 self.problems.add_at_line(&say::RAPID_WITH_OTHER_LENGTH, line, |d| {
                     d.with("tool", u64::from(tool)).with("entry", u64::from(entry))
                 });
             }
         }
-        for OtherEntry { line, tool, entry } in std::mem::take(&mut self.of_entries) {
+        for OtherEntry { line, tool, entry } in std::mem::take(&mut self.cuts_with_other_entry) {
             // Some shops number H independently of T, but then no other tool cuts with this H.
             let is_taken = self.tools_with_own_length.contains(&entry);
             let message = if is_taken { &say::LENGTH_OF_OTHER_TOOL } else { &say::LENGTH_OF_OTHER_NUMBER };

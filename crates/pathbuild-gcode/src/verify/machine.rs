@@ -145,7 +145,7 @@ struct Reach {
     frames: Vec<(Frame, Extent)>,
     /// The extent of positions in machine coordinates. It includes machine zero, because that is within the travel of every machine.
     machine: Extent,
-    said: [[bool; 2]; 3],
+    reported: [[bool; 2]; 3],
     /// The axes whose coordinate some move has changed, apart from moves to named positions.
     moved: Axes,
     /// The axes of which a position was known after some move.
@@ -191,9 +191,11 @@ impl Reach {
             let whole = widen(&mut self.frames[index].1[axis], range);
             match travel {
                 // The limits are those of the system in which the program begins.
-                Travel::Placed(limits) if index == 0 => found.extend(self.outside(axis, range, limits[axis])),
+                Travel::Placed(limits) if index == 0 => {
+                    found.extend(self.outside_findings(axis, range, limits[axis]))
+                }
                 Travel::Placed(_) => {}
-                Travel::Size(sizes) => found.extend(self.too_large(axis, whole, sizes[axis])),
+                Travel::Size(sizes) => found.extend(self.size_finding(axis, whole, sizes[axis])),
             }
         }
         found
@@ -214,31 +216,33 @@ impl Reach {
                 Travel::Placed(limits) => limits[axis].1 - limits[axis].0,
                 Travel::Size(sizes) => sizes[axis],
             };
-            found.extend(self.too_large(axis, whole, size));
+            found.extend(self.size_finding(axis, whole, size));
         }
         found
     }
 
     /// Returns findings about the ends of a move that are outside the limits of an axis. Each end of an axis is reported once.
-    fn outside(
+    fn outside_findings(
         &mut self,
         axis: usize,
         extent: (f64, f64),
         limits: (f64, f64),
     ) -> impl Iterator<Item = Diagnostic> {
         let ends = [(extent.0, extent.0 < limits.0 - ROUNDING), (extent.1, extent.1 > limits.1 + ROUNDING)];
-        ends.into_iter().zip(&mut self.said[axis]).filter_map(move |((value, is_outside), is_said)| {
-            let is_new = is_outside && !std::mem::replace(is_said, true);
-            let found =
-                || Diagnostic::new(&say::OUTSIDE_MACHINE).with("axis", AXES[axis]).with("value", value);
-            is_new.then(|| found().with("least", limits.0).with("most", limits.1))
-        })
+        ends.into_iter().zip(&mut self.reported[axis]).filter_map(
+            move |((value, is_outside), is_reported)| {
+                let is_new = is_outside && !std::mem::replace(is_reported, true);
+                let found =
+                    || Diagnostic::new(&say::OUTSIDE_MACHINE).with("axis", AXES[axis]).with("value", value);
+                is_new.then(|| found().with("least", limits.0).with("most", limits.1))
+            },
+        )
     }
 
     /// Returns a finding about an extent that is larger than the travel of an axis. Each axis is reported once.
-    fn too_large(&mut self, axis: usize, (low, high): (f64, f64), most: f64) -> Option<Diagnostic> {
+    fn size_finding(&mut self, axis: usize, (low, high): (f64, f64), most: f64) -> Option<Diagnostic> {
         let size = high - low;
-        let is_new = size > most + 2.0 * ROUNDING && !std::mem::replace(&mut self.said[axis][0], true);
+        let is_new = size > most + 2.0 * ROUNDING && !std::mem::replace(&mut self.reported[axis][0], true);
         let found = || Diagnostic::new(&say::LARGER_THAN_MACHINE).with("axis", AXES[axis]);
         is_new.then(|| found().with("size", size).with("most", most))
     }

@@ -43,12 +43,12 @@ const VISITS_PER_CELL: f64 = 3.0;
 
 /// Applies the moves of a program to the stock and reports rapid moves that hit material, and cuts through material above their own surface.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
-    apply_moves(program, stock, problems, &mut |bench, line, movement, problems| {
-        bench.check_excursion(line, movement, problems);
+    apply_moves(program, stock, problems, &mut |material, line, movement, problems| {
+        material.check_excursion(line, movement, problems);
         if movement.pace == Pace::Rapid {
-            bench.check_rapid(line, movement, problems);
+            material.check_rapid(line, movement, problems);
         } else {
-            bench.check_cut(line, movement, problems);
+            material.check_cut(line, movement, problems);
         }
     });
 }
@@ -57,8 +57,8 @@ pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: 
 /// incomplete.
 pub fn rapid_hits(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<u32> {
     let mut lines = Vec::new();
-    apply_moves(program, stock, &mut Problems::default(), &mut |bench, line, movement, _| {
-        if movement.pace == Pace::Rapid && bench.first_hit(line, movement).is_some() {
+    apply_moves(program, stock, &mut Problems::default(), &mut |material, line, movement, _| {
+        if movement.pace == Pace::Rapid && material.first_hit(line, movement).is_some() {
             lines.push(line);
         }
     });
@@ -84,27 +84,27 @@ fn apply_moves(
     let Some(resolution) = extent.resolution(stock) else {
         return report_too_large(extent.line, stock, problems);
     };
-    let mut bench = KnownMaterial::new(stock, resolution, stock.cells());
+    let mut material = KnownMaterial::new(stock, resolution, stock.cells());
     let mut reached = 0;
     let mut each = |take: &mut dyn FnMut(&mut KnownMaterial<'_>, u32, &Move)| {
         each_followed_move(program, stock, &mut |line, movement| {
-            if !bench.map.is_exhausted() {
+            if !material.map.is_exhausted() {
                 reached = line;
-                take(&mut bench, line, movement);
+                take(&mut material, line, movement);
             }
         });
     };
-    each(&mut |bench, line, movement| bench.add_material(line, movement));
+    each(&mut |material, line, movement| material.add_material(line, movement));
     if !stock.is_level() {
-        each(&mut |bench, line, movement| bench.raise_material(line, movement));
+        each(&mut |material, line, movement| material.raise_material(line, movement));
     }
-    each(&mut |bench, line, movement| {
-        look(bench, line, movement, problems);
+    each(&mut |material, line, movement| {
+        look(material, line, movement, problems);
         if matches!(movement.pace, Pace::Feed(_)) {
-            bench.remove_material(line, movement);
+            material.remove_material(line, movement);
         }
     });
-    if bench.map.is_exhausted() {
+    if material.map.is_exhausted() {
         report_too_large(reached, stock, problems);
     }
 }
@@ -126,17 +126,17 @@ pub(super) fn have_cleared_path<'c>(
     cells: u64,
 ) -> bool {
     let Some(piece) = stock.at(line) else { return true };
-    let mut bench = KnownMaterial::new(stock, stock.resolution(), cells);
-    for part in bench.parts(movement) {
-        bench.map.add(&capsule(&part, piece.cutter.diameter / 2.0), surface);
+    let mut material = KnownMaterial::new(stock, stock.resolution(), cells);
+    for part in material.parts(movement) {
+        material.map.add(&capsule(&part, piece.cutter.diameter / 2.0), surface);
     }
     let height = movement.from.z().min(movement.to.z()) + RESIDUE_HEIGHT;
     for (line, cut) in cuts.into_iter().filter(|(_, cut)| cut.from.z().max(cut.to.z()) <= height) {
-        bench.remove_material(*line, cut);
+        material.remove_material(*line, cut);
     }
     let mut problems = Problems::default();
-    bench.check_rapid(line, movement, &mut problems);
-    problems.into_diagnostics().is_empty() && !bench.map.is_exhausted()
+    material.check_rapid(line, movement, &mut problems);
+    problems.into_diagnostics().is_empty() && !material.map.is_exhausted()
 }
 
 /// Passes each move to `take`. A move whose end is unknown only ends an excursion. A rapid move whose start is unknown is replaced by a vertical one
@@ -165,8 +165,9 @@ fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &m
 struct MaterialEstimate {
     /// Upper bound of the area in mm² within O of cutting moves; areas that are cut repeatedly are counted each time.
     area: f64,
-    /// Upper bound of the area in mm² within O of rapid moves below the highest surface. `passes` is the number of these moves.
+    /// Upper bound of the area in mm² within O of rapid moves below the highest surface.
     passed: f64,
+    /// Number of these rapid moves.
     passes: f64,
     /// Number of parts into which cutting arcs and slopes are divided at the resolution of the stock, without the first part of each move.
     pieces: u64,
@@ -218,7 +219,8 @@ impl MaterialEstimate {
 struct KnownMaterial<'s> {
     stock: &'s Stock,
     is_flat: bool,
-    /// The lowest surface of the stock in mm: at a place of unknown material, a higher one may be that of another sheet.
+    /// The lowest surface of the stock in mm. Where the material is unknown, excursions are compared with this one, because a higher surface may be
+    /// that of another sheet.
     lowest: Option<f64>,
     resolution: f64,
     map: HeightMap,
@@ -364,8 +366,9 @@ impl<'s> KnownMaterial<'s> {
 /// Material that a rapid move hits.
 struct Hit {
     message: &'static Message,
-    /// Height of the cutter's tip in mm. `height` is that of the material.
+    /// Height of the cutter's tip in mm.
     z: f64,
+    /// Height of the material in mm.
     height: f64,
     at: [f64; 2],
 }

@@ -33,9 +33,9 @@ pub struct Rules<'c> {
     /// The line of the first cut before any spindle word.
     cut_before_spindle: Option<u32>,
     /// Whether it has been reported that the spindle does not turn.
-    spindle_said: bool,
+    is_spindle_reported: bool,
     /// Whether it has been reported that the spindle turns in a probing move.
-    turning_probe_said: bool,
+    is_turning_probe_reported: bool,
     /// The line that last switched the spindle.
     spindle_line: u32,
     /// Whether the last move probed downwards.
@@ -46,7 +46,7 @@ pub struct Rules<'c> {
     announced_probe: Option<u32>,
     has_cut: bool,
     /// Whether a cut at an unknown position has been reported.
-    position_said: bool,
+    is_position_reported: bool,
     /// Whether the last move in Z went to a machine position, whose height in the program's coordinates is unknown.
     is_height_homed: bool,
     directions: ArcDirections,
@@ -80,14 +80,14 @@ impl<'c> Rules<'c> {
             tip_height: TipHeight::new(Dialect::Rs274),
             spindle: Spindle::UNSTATED,
             cut_before_spindle: None,
-            spindle_said: false,
-            turning_probe_said: false,
+            is_spindle_reported: false,
+            is_turning_probe_reported: false,
             spindle_line: 0,
             has_probed: false,
             probe_end: None,
             announced_probe: None,
             has_cut: false,
-            position_said: false,
+            is_position_reported: false,
             is_height_homed: false,
             directions: ArcDirections::default(),
             has_manual_change: false,
@@ -109,9 +109,9 @@ impl<'c> Rules<'c> {
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let line = step.line;
-        let zero = self.frames.current().zero;
+        let zero_moves = self.frames.current().zero_moves;
         // If the operator has set the zero, the tool has been moved by hand, and the rule for the tip's height checks the moves that follow.
-        self.changes_frame |= self.frames.step(step) && self.frames.current().zero == zero;
+        self.changes_frame |= self.frames.step(step) && self.frames.current().zero_moves == zero_moves;
         if let Some((line, message)) = self.tip_height.step(step) {
             self.problems.add_at_line(message, line, |d| d);
         }
@@ -202,8 +202,8 @@ impl<'c> Rules<'c> {
             self.problems.add_at_line(&say::SPINDLE_OFF, line, |d| d);
         }
         if before != spindle {
-            self.spindle_said = false;
-            self.turning_probe_said = false;
+            self.is_spindle_reported = false;
+            self.is_turning_probe_reported = false;
         }
         self.spindle_line = line;
     }
@@ -252,7 +252,7 @@ impl<'c> Rules<'c> {
             (Turning::Clockwise | Turning::CounterClockwise, None) => &say::SPINDLE_WITHOUT_SPEED,
             (Turning::Clockwise | Turning::CounterClockwise, Some(_)) => return,
         };
-        if !std::mem::replace(&mut self.spindle_said, true) {
+        if !std::mem::replace(&mut self.is_spindle_reported, true) {
             self.problems.add_at_line(message, line, |d| d);
         }
     }
@@ -271,7 +271,9 @@ impl<'c> Rules<'c> {
 
     fn check_turning_probe(&mut self, line: u32, movement: &Move) {
         let is_probe = matches!(movement.pace, Pace::Probe { .. });
-        if is_probe && self.spindle.turning.is_on() && !std::mem::replace(&mut self.turning_probe_said, true)
+        if is_probe
+            && self.spindle.turning.is_on()
+            && !std::mem::replace(&mut self.is_turning_probe_reported, true)
         {
             self.problems.add_at_line(&say::PROBE_WITH_SPINDLE_ON, line, |d| d);
         }
@@ -282,7 +284,8 @@ impl<'c> Rules<'c> {
     fn check_cut_position(&mut self, line: u32, movement: &Move) {
         // Programs for a rotary axis use only X or Y, so one known axis suffices.
         let is_unknown = movement.from.known.and(movement.to.known).and(Axes::XY).is_empty();
-        if is_unknown && movement.named.is_none() && !std::mem::replace(&mut self.position_said, true) {
+        if is_unknown && movement.named.is_none() && !std::mem::replace(&mut self.is_position_reported, true)
+        {
             self.problems.add_at_line(&say::UNKNOWN_POSITION, line, |d| d);
         }
         let is_homed = self.is_height_homed && !movement.to.known.has(Axes::Z) && movement.named.is_none();

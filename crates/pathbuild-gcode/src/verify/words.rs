@@ -34,7 +34,7 @@ pub struct PostWords {
     /// The greatest feed of the post's rapid moves in mm/min, if rapid moves depend on F.
     pub(super) rapid_feed: Option<f64>,
     /// Words that the post writes but the translation by its definition omits.
-    others: BTreeSet<String>,
+    omitted: BTreeSet<String>,
     /// The name of the post's definition, if the definition names no dialect.
     definition: Option<String>,
     /// Whether the post lets the control round corners without limit.
@@ -115,10 +115,10 @@ impl PostWords {
         }
     }
 
-    /// Marks these as the words of a post-processor definition that names no dialect. `name` is the name of the definition; `others` are the words
+    /// Marks these as the words of a post-processor definition that names no dialect. `name` is the name of the definition; `omitted` are the words
     /// of its output that the translation to RS274 omits.
-    pub fn of_definition(self, name: &str, others: impl IntoIterator<Item = String>) -> Self {
-        Self { others: others.into_iter().collect(), definition: Some(name.to_owned()), ..self }
+    pub fn of_definition(self, name: &str, omitted: impl IntoIterator<Item = String>) -> Self {
+        Self { omitted: omitted.into_iter().collect(), definition: Some(name.to_owned()), ..self }
     }
 
     /// Sets whether the post's programs do not wait for the spindle.
@@ -213,7 +213,7 @@ impl<'w> WordRules<'w> {
         }
         if let Action::Move(movement) = &step.action {
             if moves_in_plane(movement) {
-                self.first_in_plane(step.line, movement);
+                self.check_first_move_in_plane(step.line, movement);
             }
             self.has_gone_home |= movement.homes_z() && movement.keeps_xy();
         }
@@ -235,7 +235,7 @@ impl<'w> WordRules<'w> {
 
     /// Checks a word that was omitted when the program was translated by the definition of its post.
     pub fn check_omitted_word(&mut self, line: u32, word: &str) {
-        if !self.words.others.contains(word) {
+        if !self.words.omitted.contains(word) {
             self.report_name(line, word.to_owned());
         }
     }
@@ -245,10 +245,10 @@ impl<'w> WordRules<'w> {
         self.problems.add_at_line(&say::FOREIGN_WORD, line, |_| words.foreign_word(word, dialect, is_strict));
     }
 
-    /// Checks the first move in the plane. If it also changes the height, it is inclined and begins at an unknown height. This is a problem if
-    /// programs of the post raise the cutter first. An earlier move to a machine position is assumed to raise the cutter, unless the post does not
+    /// Checks the first move in the plane. If this move also states Z, but begins at an unknown height, it is inclined. This is a problem if programs
+    /// of the post raise the cutter first. An earlier move to a machine position is assumed to raise the cutter, unless the post does not
     /// write such moves. (Moves at unknown height are checked in [`super::rules`].)
-    fn first_in_plane(&mut self, line: u32, movement: &Move) {
+    fn check_first_move_in_plane(&mut self, line: u32, movement: &Move) {
         let is_first = !std::mem::replace(&mut self.has_moved_in_plane, true);
         let is_aslant = movement.to.known.has(Axes::Z) && !movement.from.known.has(Axes::Z);
         let is_doubtful = is_aslant && (self.is_strict || !self.has_gone_home);

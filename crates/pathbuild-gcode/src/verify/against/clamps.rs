@@ -50,8 +50,8 @@ impl<'c> ClampCollisions<'c> {
     }
 
     fn step(&mut self, step: &Step) {
-        let Action::Move(it) = &step.action else { return };
-        let Some(way) = tip_move(it) else { return };
+        let Action::Move(movement) = &step.action else { return };
+        let Some(way) = tip_move(movement) else { return };
         let Clamps { all, map, radius } = self.clamps;
         for clamp in map.entered_clamps(&way, *radius, self.slack) {
             let KeepOut { layer, at, height, .. } = &all[clamp];
@@ -61,7 +61,7 @@ impl<'c> ClampCollisions<'c> {
                     .quoting("layer", layer.as_str())
                     .with("clamp", Point::new(at.x, at.y))
                     .with("height", *height)
-                    .with("what", kind_of_move(it))
+                    .with("what", kind_of_move(movement))
                     .with("z", way.lowest())
             });
         }

@@ -536,7 +536,7 @@ impl ExpectedTraverse<'_> {
 
     /// Returns the start of the expected moves, and the positions that they reach before they go below the start height S0.
     fn clear_places(&self) -> impl Iterator<Item = Position> {
-        let ends = self.expected.iter().map(|(_, it)| it.to);
+        let ends = self.expected.iter().map(|(_, movement)| movement.to);
         let is_clear = |at: &Position| at.known == Axes::ALL && self.is_clear(at.z());
         std::iter::once(self.start).chain(ends.take_while(is_clear))
     }

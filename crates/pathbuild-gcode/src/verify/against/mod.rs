@@ -110,7 +110,7 @@ pub struct Agreement {
     pub differences: Vec<Diagnostic>,
     /// Number of the drawing's moves that the program contains before the first difference between the moves.
     pub equal: usize,
-    /// Whether the program switches coolant on without it being known whether it must.
+    /// Whether the program switches coolant on although it is unknown whether the program must do so.
     pub has_uncompared_coolant: bool,
 }
 
@@ -121,7 +121,7 @@ pub struct DrawingComparison<'w, M: Iterator<Item = (u32, Move)>> {
     words: WordRules<'w>,
     cuts: CutComparison<M>,
     number: Option<u32>,
-    /// Whether the control must find the program's number in the program, and has not yet.
+    /// Whether the control requires a program number, which has not occurred yet.
     lacks_number: bool,
     problems: Problems,
 }

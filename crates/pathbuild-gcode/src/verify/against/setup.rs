@@ -44,8 +44,8 @@ pub(super) struct Setup<'w> {
     spindle_line: u32,
     /// The line of the last step.
     line: u32,
-    /// Seconds for which the program has dwelt since it last changed the state of the spindle.
-    running: f64,
+    /// Time in seconds that the program has dwelt since it last changed the state of the spindle.
+    dwelt: f64,
     reported: ReportedFaults,
     problems: Problems,
 }
@@ -94,7 +94,7 @@ impl<'w> Setup<'w> {
             at: Position::default(),
             spindle_line: 0,
             line: 0,
-            running: 0.0,
+            dwelt: 0.0,
             reported: ReportedFaults::default(),
             problems: Problems::default(),
         }
@@ -214,7 +214,7 @@ impl<'w> Setup<'w> {
     fn switch_spindle(&mut self, line: u32, before: Spindle, spindle: Spindle) {
         self.spindle_line = line;
         if spindle != before {
-            self.running = 0.0;
+            self.dwelt = 0.0;
             self.reported.spindle = false;
         }
         // If the drawing does not control the spindle, the program must not mention it at all: even a speed of 0 would stop a running spindle.
@@ -228,7 +228,7 @@ impl<'w> Setup<'w> {
     }
 
     fn check_dwell(&mut self, line: u32, seconds: f64) {
-        self.running += seconds;
+        self.dwelt += seconds;
         if self.is_low() {
             self.report_extra_word(line, "G4".to_owned());
         }
@@ -292,7 +292,7 @@ impl<'w> Setup<'w> {
         !self.has_post() || self.words.has('M', 70) || self.words.has('M', 80)
     }
 
-    /// Whether the program switches coolant on without it being known whether it must.
+    /// Whether the program switches coolant on although it is unknown whether the program must do so.
     pub(super) fn has_uncompared_coolant(&self) -> bool {
         self.has_uncompared_coolant
     }
@@ -322,13 +322,13 @@ impl<'w> Setup<'w> {
         }
         let message = if self.turns_otherwise() {
             &say::SPINDLES_DIFFER
-        } else if self.running < self.spin_up && self.is_spindle_on() {
+        } else if self.dwelt < self.spin_up && self.is_spindle_on() {
             &say::SPUN_UP_TOO_SHORT
         } else {
             return;
         };
         self.reported.spindle = true;
-        self.spindle_differs(line, message);
+        self.report_spindle(line, message);
     }
 
     fn is_spindle_on(&self) -> bool {
@@ -339,7 +339,7 @@ impl<'w> Setup<'w> {
         self.tools.turns_otherwise(self.expected.turning, self.expected.speed, SPEED_TOLERANCE)
     }
 
-    fn spindle_differs(&mut self, line: u32, message: &'static Message) {
+    fn report_spindle(&mut self, line: u32, message: &'static Message) {
         let (expected, found) = (self.expected, self.tools.spindle());
         let running = spindle_text(Some(found.turning), found.speed);
         let message = if running.is_empty() { &say::SPINDLE_NOT_SWITCHED } else { message };
