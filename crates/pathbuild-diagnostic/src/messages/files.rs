@@ -83,7 +83,7 @@ messages! {
     }
     /// A file that stands for a drawing in Git LFS.
     LFS_POINTER: InvalidDxf {
-        en: "this is not the drawing, but a pointer of Git LFS to it",
+        en: "this is not the drawing, but a Git LFS pointer to it",
         de: "das ist nicht die Zeichnung, sondern ein Zeiger von Git LFS auf sie",
         help_en: "fetch the drawings with `git lfs pull` (in CI: `lfs: true` of actions/checkout, `git lfs install` for GitLab); a revision that `diff` reads has only the pointers: compare two checked-out directories",
         help_de: "die Zeichnungen mit `git lfs pull` holen (in der CI: `lfs: true` von actions/checkout, `git lfs install` bei GitLab); eine Revision, die `diff` liest, hat nur die Zeiger: zwei ausgecheckte Verzeichnisse vergleichen",

@@ -168,8 +168,8 @@ messages! {
     CURRENT_COPY: StaleOutput {
         en: "{name} contains the current program of path {path}; emit would not give it this name, so it may be a copy, which is not kept up to date",
         de: "{name} enthält das aktuelle Programm von Pfad {path}; emit gäbe ihm nicht diesen Namen, es kann also eine Kopie sein, die nicht aktuell gehalten wird",
-        help_en: "mill with the file that emit writes, and delete this one yourself: emit --remove-stale keeps files that may be copies",
-        help_de: "mit der Datei fräsen, die emit schreibt, und diese selbst löschen: emit --remove-stale lässt Dateien stehen, die Kopien sein können",
+        help_en: "mill with the file that emit writes, and delete {name} yourself: emit --remove-stale keeps files that may be copies",
+        help_de: "mit der Datei fräsen, die emit schreibt, und {name} selbst löschen: emit --remove-stale lässt Dateien stehen, die Kopien sein können",
     }
     /// A program of a path that is not selected and yields another program now.
     STALE_UNSELECTED: StaleOutput {

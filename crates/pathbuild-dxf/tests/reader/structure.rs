@@ -19,7 +19,7 @@ fn pointers_of_git_lfs_are_named() {
         |address: &str| file_findings(format!("version https://{address}\noid sha256:4d7a\nsize 12345\n"));
     assert_eq!(
         pointer("git-lfs.github.com/spec/v1"),
-        "PB002 1 this is not the drawing, but a pointer of Git LFS to it"
+        "PB002 1 this is not the drawing, but a Git LFS pointer to it"
     );
     assert_eq!(pointer("example.com/spec/v1"), "PB002 1 this is not a DXF file: a text without sections");
 }
