@@ -264,7 +264,9 @@ fn an_accepted_rapid_move_holds_while_it_is_not_deeper() {
     assert!(shallower.status == Some(0) && shallower.stderr.contains("known: 1"), "{shallower}");
     for (roughed, depth) in [("-2.94", "0.06"), ("1", "3")] {
         let deeper = run(program("", roughed));
-        let note = format!("pathbuild-baseline.txt:3 accepts this finding only up to 0.05 mm; here it is {depth} mm");
+        let note = format!(
+            "pathbuild-baseline.txt:3 accepts this finding only up to 0.05 mm; here it is {depth} mm"
+        );
         assert!(deeper.status == Some(1) && deeper.stderr.contains(&note), "{deeper}");
     }
     let baseline = place.path().join("pathbuild-baseline.txt");
