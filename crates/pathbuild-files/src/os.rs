@@ -199,7 +199,8 @@ fn read_whole(file: &File, limit: u64, bytes: &mut Vec<u8>) -> Result<(), ReadEr
         return Err(ReadError::TooLarge { size });
     }
     bytes.clear();
-    // The file may grow while it is read, so the read is limited as well. One byte more than its size avoids a second reallocation.
+    // The file may grow while it is read, so the read is limited as well. With one byte more than its size, `read_to_end` need not reallocate to
+    // notice the end of the file.
     bytes.reserve(usize::try_from(size).unwrap_or_default().saturating_add(1));
     file.take(limit.saturating_add(1)).read_to_end(bytes)?;
     let size = bytes.len() as u64;

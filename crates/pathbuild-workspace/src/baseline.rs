@@ -342,6 +342,7 @@ impl Workspace {
     }
 }
 
+/// What a run covered, which decides whether an entry without a match is no longer needed.
 struct Run<'a> {
     workspace: &'a Workspace,
     checked: BTreeSet<Utf8PathBuf>,
@@ -396,8 +397,8 @@ impl Entry {
         self.depth.or_else(|| described().map(rounded_up))
     }
 
-    /// Returns the files that the description may name after the code, several because file names may contain spaces; `None` if the description
-    /// does not begin with a code.
+    /// Returns the files that the description may name after the code. There are several, because it is unclear where a name with spaces ends. `None`
+    /// if the description does not begin with a code.
     fn possible_files(&self, bases: [&Utf8Path; 2]) -> Option<Vec<Utf8PathBuf>> {
         let (code, rest) = self.description.split_once(' ')?;
         code.parse::<Code>().ok()?;

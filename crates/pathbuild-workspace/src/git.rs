@@ -44,7 +44,7 @@ pub enum EntryKind {
 /// Callback that gets the index of a blob and its bytes, or its size if that exceeds the limit.
 pub type TakeBlob<'t> = &'t mut dyn FnMut(usize, Result<&mut dyn Read, u64>) -> io::Result<()>;
 
-/// Maximum length in bytes of a `.git` file, and of a line in which Git lists a file or introduces a blob. Linux opens no longer paths.
+/// Maximum length in bytes of a `.git` file, and of a line in which Git lists a file or introduces a blob. Linux cannot open paths that are longer.
 const MAX_LINE_BYTES: u64 = 4096;
 
 /// Maximum total size in bytes of the blobs in a single request, because a few Git objects can expand to any size.
@@ -91,7 +91,7 @@ impl<'a> Repository<'a> {
     /// will report the error.
     ///
     /// # Errors
-    /// The repository is untrusted, and its `.git` refers to a directory outside.
+    /// If the repository is untrusted and its `.git` refers to a directory outside of it.
     pub fn of(workspace: &'a Workspace, place: &Utf8Path) -> Result<Self, String> {
         let real = |place: &Utf8Path| workspace.system.canonical(&workspace.working_directory.join(place));
         let place = real(place);
@@ -150,7 +150,7 @@ impl<'a> Repository<'a> {
     /// Returns all entries of a tree and its subtrees.
     ///
     /// # Errors
-    /// There are more entries than the limit permits (a few objects can describe any number), or Git cannot read the tree.
+    /// If there are more entries than the limit permits (a few objects can describe any number), or if Git cannot read the tree.
     pub fn entries(&self, tree: &str) -> Result<Vec<Entry>, String> {
         let most = self.workspace.settings.limits.library_entries.value;
         let arguments = ["ls-tree", "-r", "-z", "--full-tree", tree];
@@ -163,7 +163,7 @@ impl<'a> Repository<'a> {
     /// Passes the contents of blobs to `take`, in order. For a blob larger than `most` bytes, passes only its size.
     ///
     /// # Errors
-    /// A blob is missing, the total size is too large, or `take` fails.
+    /// If a blob is missing, the total size is too large, or `take` fails.
     pub fn each_blob(&self, ids: &[&str], most: u64, take: TakeBlob<'_>) -> Result<(), String> {
         let lines = |ids: &mut dyn Iterator<Item = &str>| ids.flat_map(|id| [id, "\n"]).collect::<String>();
         let (sizes, _) = self.run_with_input(
@@ -192,7 +192,7 @@ impl<'a> Repository<'a> {
     /// UTF-8.
     ///
     /// # Errors
-    /// A blob is missing.
+    /// If a blob is missing.
     pub fn targets(&self, ids: &[&str]) -> Result<Vec<Option<String>>, String> {
         let mut targets = Vec::with_capacity(ids.len());
         self.each_blob(ids, MAX_LINK_BYTES, &mut |_, bytes| {
@@ -333,7 +333,7 @@ fn is_other_on_windows(part: &str) -> bool {
 /// Refuses the name of a revision that Git would take for an option.
 ///
 /// # Errors
-/// The name begins with a hyphen.
+/// If the name begins with a hyphen.
 pub fn revision<'a>(workspace: &Workspace, name: &'a str) -> Result<&'a str, String> {
     if name.starts_with('-') {
         return Err(workspace.phrase("{} is not a revision", "{} ist keine Revision", &format!("{name:?}")));

@@ -24,7 +24,8 @@ pub fn replace_report(context: &Workspace, file: &Utf8Path, text: &str) -> Resul
     }
 }
 
-/// Returns the reason why an output must not replace a file: it is a source, or has the name of a program of any post or of one of these.
+/// Returns the reason why an output must not replace a file: it is a source, or has the name of a program, with a common extension or as `post` or
+/// the configured post-processor names programs. `None` for other files.
 pub(crate) fn reason_to_keep(
     context: &Workspace,
     post: Option<&PostProcessor>,

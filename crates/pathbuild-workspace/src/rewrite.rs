@@ -30,7 +30,7 @@ pub struct Request<'a> {
     pub file: &'a Utf8Path,
     /// Options for reading it.
     pub reading: ReadingOptions,
-    /// Height in mm of the material's upper face; `None` for the one that the program states, if it does.
+    /// Height in mm of the material's upper face; if `None`, it is taken from the program, provided that the program states it.
     pub surface: Option<f64>,
     /// The file that is going to be written; `None` for standard output.
     pub to: Option<&'a Utf8Path>,
@@ -132,7 +132,7 @@ impl Request<'_> {
         Ok(found)
     }
 
-    /// Returns the output of the post-processor for an error-free program, whose steps are dropped.
+    /// Returns the output of the post-processor for an error-free program. Removes the steps from `program`, because they take much memory.
     fn output(
         &self,
         program: &mut Program,
@@ -191,7 +191,7 @@ fn is_judged_in_output(problem: &Diagnostic) -> bool {
     )
 }
 
-/// Replaces the message that a word is not checked with the message that it is left out, because the post does not write it either.
+/// Turns the finding that a word is not checked into the finding that the word is left out, because the post-processor does not write it.
 fn report_as_left_out(problem: &mut Diagnostic) {
     if problem.message == &gcode::FOREIGN_WORD {
         problem.message = &gcode::WORD_LEFT_OUT;

@@ -53,7 +53,7 @@ pub(super) const MEASURE_BOUNDS: RangeInclusive<f64> = 0.001..=1e6;
 pub(in crate::config) const SECONDS: ValueType<Duration> = ValueType {
     read: |value, reader| match number(value).and_then(|number| Duration::try_from_secs_f64(number).ok()) {
         Some(time) if !time.is_zero() => Some(time),
-        _ => reader.expected(&messages::POSITIVE, value),
+        _ => reader.report_unexpected(&messages::POSITIVE, value),
     },
     show: |time| Some(time.as_secs_f64().to_string()),
     schema: || json!({ "type": "number", "exclusiveMinimum": 0 }),
@@ -247,7 +247,7 @@ fn digits_and_unit(text: &str) -> Option<(u64, &str)> {
 /// A non-empty string.
 pub(in crate::config) const TEXT: ValueType<Box<str>> = ValueType {
     read: |value, reader| match reader.text(value)? {
-        "" => reader.expected(&messages::NOT_EMPTY, value),
+        "" => reader.report_unexpected(&messages::NOT_EMPTY, value),
         text => Some(text.into()),
     },
     show: |text| Some(quoted(text)),
@@ -276,7 +276,7 @@ pub(in crate::config) const DIRECTORIES: ValueType<Directories> = ValueType {
 pub(in crate::config) const ABSOLUTE_DIRECTORY: ValueType<Utf8PathBuf> = ValueType {
     read: |value, reader| match reader.text(value)? {
         name if Utf8Path::new(name).is_absolute() => reader.path(name, value),
-        _ => reader.expected(&messages::ABSOLUTE, value),
+        _ => reader.report_unexpected(&messages::ABSOLUTE, value),
     },
     show: |path| Some(quoted(path.as_str())),
     schema: || json!({ "type": "string" }),
@@ -288,7 +288,7 @@ pub(in crate::config) const ABSOLUTE_DIRECTORIES: ValueType<Directories> = Value
         if names.iter().all(|(name, _)| Utf8Path::new(name).is_absolute()) {
             Some(names.into_iter().filter_map(|(name, value)| reader.path(name, value)).collect())
         } else {
-            reader.expected(&messages::ABSOLUTES, value)
+            reader.report_unexpected(&messages::ABSOLUTES, value)
         }
     },
     ..DIRECTORIES
@@ -302,7 +302,7 @@ pub(in crate::config) const fn choices<T: Choice>() -> ValueType<Vec<T>> {
     ValueType {
         read: |value, reader| {
             let Some(items) = value.get_ref().as_array() else {
-                return reader.expected(&messages::LIST_OF_TEXTS, value);
+                return reader.report_unexpected(&messages::LIST_OF_TEXTS, value);
             };
             collect_all(items.iter().map(|item| read_choice(item, reader)))
         },
@@ -434,7 +434,7 @@ pub(in crate::config) fn split_restriction(text: &str) -> Option<Restriction> {
 const MAX_COMPILED_REGEX_BYTES: usize = 1 << 19;
 
 fn check_regex(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> bool {
-    if !reader.counts(LimitedKind::Regex, span.clone()) {
+    if !reader.count_limited(LimitedKind::Regex, span.clone()) {
         return false;
     }
     let Some(reason) = regex_fault(text) else { return true };
@@ -453,7 +453,7 @@ fn restriction(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> O
 }
 
 fn pattern(text: &str, span: Range<usize>, reader: &mut TomlReader<'_>) -> Option<Pattern> {
-    if !reader.counts(LimitedKind::Glob, span.clone()) {
+    if !reader.count_limited(LimitedKind::Glob, span.clone()) {
         return None;
     }
     match Pattern::new(text) {

@@ -42,7 +42,7 @@ pub fn load(
         diagnostics.extend(discovery.misplaced_inputs(file.as_deref()));
     }
     diagnostics.extend(faults);
-    let not_used = if file.is_none() { discovery.of_working_directory() } else { None };
+    let not_used = if file.is_none() { discovery.for_working_directory() } else { None };
     let misnamed = if file.is_none() { discovery.misnamed() } else { None };
     let is_unexpected =
         given.config.is_none() && file.as_deref().is_some_and(|file| discovery.is_unexpected(file));
@@ -168,10 +168,10 @@ impl Discovery<'_> {
                 return configuration;
             }
         }
-        self.of_working_directory()
+        self.for_working_directory()
     }
 
-    pub(super) fn of_working_directory(&self) -> Option<Utf8PathBuf> {
+    pub(super) fn for_working_directory(&self) -> Option<Utf8PathBuf> {
         self.find_above(&clean(self.working_directory))
     }
 
@@ -199,7 +199,7 @@ impl Discovery<'_> {
         let tree = file.parent().unwrap_or(Utf8Path::new(""));
         let mut programs =
             self.inputs.iter().filter(|input| input.is_program(|place| self.is_directory(place))).peekable();
-        programs.peek().is_some() && self.of_working_directory().as_deref() != Some(file)
+        programs.peek().is_some() && self.for_working_directory().as_deref() != Some(file)
             || programs.any(|program| !self.search_start_of(program).starts_with(tree))
     }
 

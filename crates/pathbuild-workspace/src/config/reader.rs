@@ -126,7 +126,7 @@ impl<'a> TomlReader<'a> {
     }
 
     /// Reports that the table being read lacks a key.
-    pub(super) fn missing(&mut self, name: &'static str, span: Range<usize>) {
+    pub(super) fn report_missing(&mut self, name: &'static str, span: Range<usize>) {
         self.report(self.fault(&messages::MISSING_KEY, span).quoting("missing", name));
     }
 
@@ -141,7 +141,7 @@ impl<'a> TomlReader<'a> {
     }
 
     /// Counts a value of a limited kind. Returns whether the limit allows this value. Exceeding the limit is reported only once.
-    pub(super) fn counts(&mut self, what: LimitedKind, span: Range<usize>) -> bool {
+    pub(super) fn count_limited(&mut self, what: LimitedKind, span: Range<usize>) -> bool {
         let (most, word) = what.maximum();
         let count = &mut self.counts[what as usize];
         *count += 1;
@@ -177,11 +177,15 @@ impl<'a> TomlReader<'a> {
         expected: &'static Text,
         value: &Spanned<DeValue<'_>>,
     ) -> Option<T> {
-        found.or_else(|| self.expected(expected, value))
+        found.or_else(|| self.report_unexpected(expected, value))
     }
 
     /// Reports that a value is not of the expected kind, and returns `None`.
-    pub(super) fn expected<T>(&mut self, expected: &'static Text, value: &Spanned<DeValue<'_>>) -> Option<T> {
+    pub(super) fn report_unexpected<T>(
+        &mut self,
+        expected: &'static Text,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Option<T> {
         let found = self.source.slice(value.span()).lines().next().unwrap_or_default();
         let fault = self
             .fault(&messages::INVALID_VALUE, value.span())
@@ -245,7 +249,7 @@ impl<'a> Table<'_, '_, 'a> {
     pub(super) fn report_incompatible(&mut self, name: &'static str, expected: &'static Text) {
         let Some(value) = self.content.get(name) else { return };
         self.reader.key = format!("{}{name}", self.prefix);
-        _ = self.reader.expected::<()>(expected, value);
+        _ = self.reader.report_unexpected::<()>(expected, value);
     }
 
     /// Reads a nested table; a missing one is treated as empty. If `name` is empty, its keys are in this table itself.
@@ -262,7 +266,7 @@ impl<'a> Table<'_, '_, 'a> {
         self.reader.key = format!("{}{name}", self.prefix);
         match value.get_ref().as_table() {
             Some(table) => self.reader.table(table, &format!("{}{name}.", self.prefix), read),
-            None => self.reader.expected(&messages::TABLE, value).unwrap_or_default(),
+            None => self.reader.report_unexpected(&messages::TABLE, value).unwrap_or_default(),
         }
     }
 
@@ -355,7 +359,7 @@ impl KeyIndex {
         Self(all)
     }
 
-    /// Finds the table for a key that is unknown in the table that contains it: by this name, or else by a similar one.
+    /// Finds the table to which a misplaced key belongs: one that has a key of this name, or else one that has a key of a similar name.
     pub(super) fn find(&self, name: &str) -> Option<KeyPlace<'_>> {
         let exact = self.keys().find(|home| home.key == name);
         exact.or_else(|| {

@@ -56,7 +56,7 @@ pub(in crate::config) const SEVERITY_IN: ValueType<Vec<FileSeverities>> = ValueT
             value.get_ref().as_array().map(|array| array.iter().map(|item| item.get_ref().as_table()));
         match tables.and_then(Iterator::collect::<Option<Vec<_>>>) {
             Some(tables) => Some(tables.into_iter().map(|table| severities_in(table, reader)).collect()),
-            None => reader.expected(&messages::LIST_OF_TABLES, value),
+            None => reader.report_unexpected(&messages::LIST_OF_TABLES, value),
         }
     },
     show: |parts| {
@@ -202,7 +202,7 @@ fn entries<'v, 't>(
 ) -> Option<Vec<Entry<'v, 't>>> {
     match value.get_ref().as_table() {
         Some(table) => Some(table.iter().collect()),
-        None => reader.expected(&messages::TABLE, value),
+        None => reader.report_unexpected(&messages::TABLE, value),
     }
 }
 
@@ -271,7 +271,9 @@ fn severities_in(table: &DeTable<'_>, reader: &mut TomlReader<'_>) -> FileSeveri
         match &**name.get_ref() {
             "files" => {
                 if value.get_ref().as_array().is_some_and(|globs| globs.is_empty()) {
-                    reader.read_within("files", |reader| reader.expected::<()>(&messages::GLOBS, value));
+                    reader.read_within("files", |reader| {
+                        reader.report_unexpected::<()>(&messages::GLOBS, value)
+                    });
                 }
                 part.files = (PATTERNS.read)(value, reader).unwrap_or_default();
             }
@@ -281,7 +283,7 @@ fn severities_in(table: &DeTable<'_>, reader: &mut TomlReader<'_>) -> FileSeveri
         }
     }
     if !table.contains_key("files") {
-        reader.missing("files", table.keys().next().map(Spanned::span).unwrap_or_default());
+        reader.report_missing("files", table.keys().next().map(Spanned::span).unwrap_or_default());
     }
     part
 }
@@ -294,17 +296,17 @@ fn date(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<Dat
     };
     let date = text.and_then(|text| text.parse().ok());
     if date.is_none() {
-        return reader.read_within("until", |reader| reader.expected(&messages::DATE, value));
+        return reader.read_within("until", |reader| reader.report_unexpected(&messages::DATE, value));
     }
     date
 }
 
 fn tool((name, value): Entry<'_, '_>, reader: &mut TomlReader<'_>) -> Option<Tool> {
     let Some(table) = value.get_ref().as_table() else {
-        return reader.expected(&messages::TABLE, value);
+        return reader.report_unexpected(&messages::TABLE, value);
     };
     if !table.contains_key("diameter") {
-        reader.missing("diameter", name.span());
+        reader.report_missing("diameter", name.span());
     }
     let prefix = format!("{}.", reader.key());
     reader.table(table, &prefix, |table| read_tool(name.get_ref(), table))

@@ -100,7 +100,7 @@ choice! {
         Drawing = "drawing",
         /// Moves must not enter the clamps in the drawing.
         Clamps = "clamps",
-        /// The control must round corners by no more than the program permits. Only for controls that take such a limit.
+        /// The control must round corners by no more than the program permits. Applies only to controls that take such a limit.
         Corners = "corners",
         /// The coolant must be that of the drawing's tool, if the program switches any on.
         Coolant = "coolant",
@@ -193,7 +193,7 @@ impl Pattern {
     /// Compiles a glob, in which `*` does not match `/`.
     ///
     /// # Errors
-    /// A description of the error.
+    /// If the glob is invalid or too long, with a description of the fault.
     pub fn new(text: &str) -> Result<Self, Value> {
         if text.len() > MAX_GLOB_BYTES {
             return Err(text_too_long(MAX_GLOB_BYTES).into());

@@ -169,7 +169,7 @@ impl MachineStates {
         Self::default().with_drawn_cutter(cutter)
     }
 
-    /// Replaces the cutters by that of the drawing, which every program of the path has.
+    /// Replaces the cutters that comments state by that of the drawing, which applies to every program of the path.
     pub(super) fn with_drawn_cutter(mut self, cutter: Option<f64>) -> Self {
         self.stated[StateKind::Cutter as usize] = None;
         if let Some(diameter) = cutter {

@@ -256,6 +256,7 @@ impl Emitter<'_> {
     }
 }
 
+/// The results of [`Emitter::perform`], with which [`Emitter::conclude`] goes on.
 struct Run {
     selection: TargetSelection,
     plans: Vec<Answer<Plan>>,

@@ -350,7 +350,7 @@ fn program_text(
     let files =
         session.map_guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(BuiltProgram::default()));
     let files = files.map_err(|problem| vec![*problem])?;
-    // Without a known dialect, read the text in LinuxCNC's, as when it is read back.
+    // If the dialect is unknown, assume that of LinuxCNC, as for reading the text back.
     let dialect = post_processor
         .map_or(Dialect::Native, |post_processor| post_processor.reader().unwrap_or(Dialect::LinuxCnc));
     match files.outputs.into_iter().find(|output| output.kind.is_program()) {

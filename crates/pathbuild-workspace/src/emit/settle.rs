@@ -276,6 +276,6 @@ fn difference(present: &[u8], expected: &[u8], dialect: Dialect) -> Vec<Diagnost
     difference.iter().map(verify::Difference::diagnostic).collect()
 }
 
-/// One unit in the last printed digit, because two programs may round the same value differently.
+/// One unit in the last printed digit of mm and mm/min, with a margin, because two programs may round the same value differently.
 const LAST_DIGIT_TOLERANCE: Tolerance =
     Tolerance { place: 0.001 * (1.0 + 1e-6), feed: 0.001 * (1.0 + 1e-6), chord: 0.0, ends: Ends::All };

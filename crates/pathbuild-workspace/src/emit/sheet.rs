@@ -1,4 +1,4 @@
-//! Setup sheets of programs, from the same queries as the programs. (book: program/sheet)
+//! Setup sheets of programs. They are built from the results of the same queries as the programs. (book: program/sheet)
 
 use std::sync::Arc;
 

@@ -219,7 +219,7 @@ impl WrittenPrograms {
         problems: &mut Vec<Diagnostic>,
     ) -> Vec<StaleProgram> {
         problems.extend(self.leave_out_clashes(session));
-        let programs = self.in_order();
+        let programs = self.sorted_programs();
         let targets: Vec<Target> = programs.iter().map(|(target, _)| *target).collect();
         let jobs: Vec<&Job> = programs.iter().filter_map(|(_, plan)| plan.job.as_ref()).collect();
         problems.extend(warn_of_numbers(session, post_processor, &jobs));
@@ -252,7 +252,8 @@ impl WrittenPrograms {
 
     /// Leaves out the jobs that share a file with another job, and returns PB514 for each clash.
     pub fn leave_out_clashes(&mut self, session: &Session<'_>) -> Vec<Diagnostic> {
-        let jobs: Vec<&Job> = self.in_order().into_iter().filter_map(|(_, plan)| plan.job.as_ref()).collect();
+        let jobs: Vec<&Job> =
+            self.sorted_programs().into_iter().filter_map(|(_, plan)| plan.job.as_ref()).collect();
         let (clashing, problems) = clashes(session, &jobs);
         let clashing: HashSet<Target> = clashing.into_iter().map(|index| jobs[index].targets[0]).collect();
         if !clashing.is_empty() {
@@ -263,7 +264,7 @@ impl WrittenPrograms {
     }
 
     /// Returns the programs in the order in which `emit` reports them.
-    fn in_order(&self) -> Vec<&(Target, Plan)> {
+    fn sorted_programs(&self) -> Vec<&(Target, Plan)> {
         let mut drawings: Vec<_> = self.by_drawing.iter().collect();
         drawings.sort_by(|(a, _), (b, _)| compare_paths(a, b));
         drawings.into_iter().flat_map(|(_, programs)| programs).collect()

@@ -17,7 +17,7 @@ use crate::config::is_too_round;
 /// A function that returns the text of a tool bit named in a FreeCAD library.
 pub(super) type ReadBit<'r> = &'r dyn Fn(&str) -> Result<String, Shown>;
 
-/// Whether the text is a tool table of `LinuxCNC`: whether the first line that is not a comment is an entry.
+/// Whether the text is a tool table of `LinuxCNC`: its first line that is neither empty nor a comment is the entry of a tool.
 pub(super) fn is_table(text: &str) -> bool {
     let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with(';'));
     lines.next().is_some_and(is_tool)

@@ -404,7 +404,7 @@ pub(crate) fn read_drawings(
     memo.get_or(paths, subject, |_, result| Some(result), read)
 }
 
-/// Like [`read_drawings`], for drawings that arguments name, in the order in which [`find`] finds them.
+/// Like [`read_drawings`], for drawings that arguments name. The results are sorted by path, as [`find`] requires.
 pub(crate) fn read_named(
     session: &Session<'_>,
     memo: &Memo,

@@ -76,7 +76,7 @@ impl<'a> Session<'a> {
         self.db.touch_directory(path);
     }
 
-    /// Opens a session in which a drawing exists that has not been written to disk.
+    /// Opens a session in which the drawing at `path` consists of these bytes, whether or not it exists on disk.
     pub fn with_drawing(context: &'a Workspace, path: &Utf8Path, bytes: Vec<u8>) -> Self {
         let overlay = OverlaySystem::new(Arc::clone(&context.system), path.to_owned(), bytes);
         Self::with_system(context, false, Arc::new(overlay))
@@ -132,8 +132,8 @@ impl<'a> Session<'a> {
         clean(&self.context.working_directory.join(path))
     }
 
-    /// Returns the path of a file relative to a directory, which is given by its absolute path, or else the file's own path. Files outside the
-    /// working directory may have relative or absolute paths.
+    /// Returns the path of a file relative to `directory`, which is an absolute path; `file` unchanged if the file is not below the directory. `file`
+    /// may be relative or absolute.
     pub(crate) fn place_below(&self, directory: &Utf8Path, file: &Utf8Path) -> Utf8PathBuf {
         self.absolute(file).strip_prefix(directory).unwrap_or(file).to_owned()
     }

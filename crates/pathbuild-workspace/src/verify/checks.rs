@@ -177,7 +177,7 @@ pub fn summary(records: &[CheckRecord], lang: Lang) -> String {
         match &record.outcome {
             Outcome::Made(_) | Outcome::Assumed(..) => checked.push(record.text(lang)),
             Outcome::Incomplete(values, blind) => {
-                checked.push(format!("{name} {}", with_cutter(values, lang)));
+                checked.push(format!("{name} {}", describe_cutter(values, lang)));
                 unchecked.push(format!(
                     "{} ({})",
                     blind_text(*blind, lang),
@@ -217,12 +217,12 @@ impl CheckRecord {
             (Outcome::NotMade(reason), _) => format!("{name}: {}", reason.text().in_lang(lang)),
             (Outcome::Incomplete(values, blind), _) => {
                 let but = lang.choose("but not", "aber nicht");
-                format!("{name} {}, {but} {}", with_cutter(values, lang), blind_text(*blind, lang))
+                format!("{name} {}, {but} {}", describe_cutter(values, lang), blind_text(*blind, lang))
             }
             (Outcome::Assumed(values, Assumption::MachineValues), _) => {
-                format!("{name} {} ({})", with_cutter(values, lang), MACHINE_VALUES_ASSUMED.in_lang(lang))
+                format!("{name} {} ({})", describe_cutter(values, lang), MACHINE_VALUES_ASSUMED.in_lang(lang))
             }
-            (_, Some(values)) => format!("{name} {}", with_cutter(values, lang)),
+            (_, Some(values)) => format!("{name} {}", describe_cutter(values, lang)),
             (_, None) => name.to_owned(),
         }
     }
@@ -426,7 +426,7 @@ impl Reason {
     }
 }
 
-fn with_cutter(values: &RapidValues, lang: Lang) -> String {
+fn describe_cutter(values: &RapidValues, lang: Lang) -> String {
     let against = lang.choose("against a cutter of", "mit einem Fräser von");
     format!("{against} {}", values.in_lang(lang))
 }

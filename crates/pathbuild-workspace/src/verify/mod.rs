@@ -346,7 +346,7 @@ impl<I: Iterator<Item = (u32, Move)>> NominalRules<'_, I> {
         self.bent_rapids.iter_mut().for_each(|rules| rules.step(step));
     }
 
-    /// Handles a word that the translation by means of a definition leaves out.
+    /// Applies the rules about words to a word that the translation by means of a definition leaves out.
     fn check_omitted_word(&mut self, line: u32, word: &str) {
         if let Some(words) = &mut self.words {
             words.check_omitted_word(line, word);
@@ -443,7 +443,7 @@ struct Examination<'v> {
     words: Arc<PostWords>,
     /// Whether the program may be the probing run of the path that it is compared with, which is a separate program.
     is_probing: bool,
-    /// The path to compare moves with; `None` if there is none, or if the program is its native probing run, whose text is compared.
+    /// The path to compare moves with; `None` if there is none, or if the program is the native probing run of the path, which is compared as text.
     reference: Option<&'v ReferenceProgram>,
 }
 

@@ -92,12 +92,12 @@ impl<'a> Library<'a> {
         let db = self.session.db();
         self.open = drawings.into_iter().map(|file| (file.path(db).clone(), file)).collect();
         self.unfollowed.extend(self.open.keys().cloned().chain(ignore_files(&self.session, &selection)));
-        self.problems = self.take_selection(selection);
+        self.problems = self.store_selection(selection);
         Update { now: self.problems.clone(), ..Update::default() }
     }
 
     /// Stores the selection, and returns the diagnostics of arguments and directories.
-    fn take_selection(&mut self, selection: Selection) -> Vec<Diagnostic> {
+    fn store_selection(&mut self, selection: Selection) -> Vec<Diagnostic> {
         let mut problems = selection.problems;
         problems.extend(unused_configurations(&self.session, &selection.below));
         (self.found_drawings, self.directories) = (selection.drawings, selection.below);
@@ -132,7 +132,7 @@ impl<'a> Library<'a> {
         let files = self.changed_files(changes);
         let mut is_other_library = self.apply_names(changes, &files, &mut concerned) || changes.is_incomplete;
         for path in &files {
-            concerned.extend(self.reverse.of_file(self.session.db().file(path)));
+            concerned.extend(self.reverse.dependents_of_file(self.session.db().file(path)));
             self.session.touch_file(path);
         }
         is_other_library |= changes.paths.iter().any(|path| self.may_be_other_library(path));
@@ -176,7 +176,9 @@ impl<'a> Library<'a> {
         let found = self.drawings.values().flat_map(|result| &result.diagnostics);
         let found = found.filter(|found| is_transient(found)).filter_map(|found| found.file.as_ref());
         let files: BTreeSet<Utf8PathBuf> = found.chain(further).cloned().collect();
-        concerned.extend(files.iter().flat_map(|path| self.reverse.of_file(db.file(path))).chain(unsure));
+        concerned.extend(
+            files.iter().flat_map(|path| self.reverse.dependents_of_file(db.file(path))).chain(unsure),
+        );
         concerned.retain(|drawing| !checked_files.contains(drawing));
         if !concerned.is_empty() {
             // A diagnostic about a directory means that the directory could not be listed.
@@ -306,7 +308,7 @@ impl<'a> Library<'a> {
     fn relist_names(&mut self, directory: &Utf8Path, concerned: &mut HashSet<SourceFile>) -> bool {
         let changed = self.names.relist(&mut self.session, directory);
         let names = changed.iter().map(|name| &**name);
-        concerned.extend(self.reverse.of_names(directory, names, &self.coverage));
+        concerned.extend(self.reverse.dependents_on_names(directory, names, &self.coverage));
         !changed.is_empty()
     }
 
@@ -350,7 +352,7 @@ impl<'a> Library<'a> {
             update.changed.insert(drawing.clone());
             update.removed.insert(drawing);
         }
-        let problems = self.take_selection(selection);
+        let problems = self.store_selection(selection);
         if self.problems != problems {
             update.now.extend_from_slice(&problems);
             update.before.extend(std::mem::replace(&mut self.problems, problems));
@@ -391,7 +393,7 @@ impl<'a> Library<'a> {
         let results = self.session.with_stable_files(|session| check_drawings(session, &all, false));
         for (file, (result, traces)) in checked_files.iter().zip(results) {
             for directory in searched(&traces) {
-                self.names.take(&self.session, directory);
+                self.names.add_missing(&self.session, directory);
             }
             let files =
                 traces.iter().flat_map(|trace| &trace.files).filter(|read| !self.reverse.knows(**read));
@@ -465,7 +467,8 @@ fn parent(path: &Utf8Path) -> &Utf8Path {
     path.parent().unwrap_or(Utf8Path::new(""))
 }
 
-/// Returns the possible ignore files of the searched directories, and of the configuration's. They may be links.
+/// Returns the paths that ignore files have or would have in the searched directories and in that of the configuration. Such files may be links,
+/// whose targets must be watched as well.
 fn ignore_files(session: &Session<'_>, selection: &Selection) -> Vec<Utf8PathBuf> {
     let top = session.workspace().settings.directory().map(|directory| session.normal(directory));
     let directories = selection.below.iter().chain(&top);
@@ -519,12 +522,12 @@ impl ReverseIndex {
     }
 
     /// Returns the drawings that depend on the contents of a file.
-    pub(super) fn of_file(&self, file: SourceFile) -> impl Iterator<Item = SourceFile> {
+    pub(super) fn dependents_of_file(&self, file: SourceFile) -> impl Iterator<Item = SourceFile> {
         self.by_file.get(&file).into_iter().flatten().copied()
     }
 
     /// Returns the drawings that looked up names in a directory and may get other results if files of these names appear or disappear.
-    pub(super) fn of_names<'n>(
+    pub(super) fn dependents_on_names<'n>(
         &self,
         directory: &Utf8Path,
         names: impl IntoIterator<Item = &'n str>,
@@ -560,7 +563,7 @@ pub(super) struct NameSnapshots(BTreeMap<Utf8PathBuf, BTreeSet<Box<str>>>);
 
 impl NameSnapshots {
     /// Stores the names in a directory, unless they are stored already. Must be called in the revision of the results that depend on the directory.
-    pub(super) fn take(&mut self, session: &Session<'_>, directory: &Utf8Path) {
+    pub(super) fn add_missing(&mut self, session: &Session<'_>, directory: &Utf8Path) {
         if !self.0.contains_key(directory) {
             self.0.insert(directory.to_owned(), names_of(session, directory));
         }

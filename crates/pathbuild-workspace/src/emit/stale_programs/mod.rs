@@ -108,9 +108,9 @@ impl<'a> EarlierPrograms<'a> {
         outcome
     }
 
-    /// Whether a program is never removed: one that may belong to another library, one of a drawing that can still be emitted by its name, one that
-    /// was copied, edited or left in another directory, because that work would be lost, one whose drawing may become readable again, and one without
-    /// a successor in the output directory.
+    /// Whether a program is kept even if stale programs are to be removed: because it may belong to another library, because its drawing can still be
+    /// emitted by name or may become readable again, because it was copied, edited or left in another directory and that work would be lost, or
+    /// because it has no successor in the output directory.
     fn is_kept(&self, stale: &StaleProgram) -> bool {
         match &stale.reason {
             Reason::Copied
@@ -161,7 +161,7 @@ impl<'a> EarlierPrograms<'a> {
         }
         let former = search.former_files(directories);
         stale.extend(former.filter_map(|path| search.program_if_stale(path, None)));
-        // An output directory on the command line is for this run only.
+        // An output directory on the command line is for this run only, so it does not make programs elsewhere stale.
         let is_configured = self.session.workspace().settings.general.out_dir.origin.line().is_some();
         if out_dir.is_none() || is_configured {
             stale.extend(search.programs_elsewhere(out_dir.as_deref(), directories, diagnostics));

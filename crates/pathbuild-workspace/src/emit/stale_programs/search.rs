@@ -100,7 +100,7 @@ impl<'a> StaleSearch<'a> {
             stale.extend(self.stale_in(directory, &names, None));
         }
         let Some(out_dir) = out_dir else { return stale };
-        stale.extend(self.beside_drawings_of_jobs(out_dir));
+        stale.extend(self.programs_beside_drawings(out_dir));
         // The output directory may have several names, and a link beside the drawing may lead to the program in it.
         let canonical = |path: &Utf8Path| session.db().system().canonical(path);
         stale.retain(|stale| canonical(&stale.path).parent() != Some(&canonical(out_dir)));
@@ -126,7 +126,7 @@ impl<'a> StaleSearch<'a> {
 
     /// Returns the programs of the jobs that lie beside their drawings outside the searched directories, although programs are written into
     /// `out_dir`.
-    fn beside_drawings_of_jobs(&self, out_dir: &Utf8Path) -> Vec<StaleProgram> {
+    fn programs_beside_drawings(&self, out_dir: &Utf8Path) -> Vec<StaleProgram> {
         let EarlierPrograms { session, directories, jobs, .. } = *self.run;
         let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
         let title = |path: &Utf8PathBuf| provenance(session, path).map(|(_, title)| title);
@@ -165,7 +165,8 @@ impl<'a> StaleSearch<'a> {
         }
     }
 
-    /// Returns the reason why a program that is none of the run's, and may join several paths, is stale.
+    /// Returns the reason why a program that the run does not write, and that may join several paths, is stale. `None` if it is not, or if that is
+    /// unknown.
     fn reason_without_job(
         &self,
         path: &Utf8Path,
@@ -197,7 +198,8 @@ impl<'a> StaleSearch<'a> {
         current.map_or(Reason::Copied, |job| Reason::CurrentCopy { path: job.path.to_string() })
     }
 
-    /// Returns the reason why a program may be stale whose path the run did not select.
+    /// Returns the reason why a program may be stale if the run did not select its path. `None` if it did, or if the title does not identify a single
+    /// path.
     fn reason_if_unselected(&self, directory: &Utf8Path, found: &Provenance, title: &str) -> Option<Reason> {
         let session = self.run.session;
         let (drawing, name) = self.known_titles.idle_path(directory, title)?;
