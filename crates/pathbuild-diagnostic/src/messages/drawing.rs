@@ -287,8 +287,8 @@ messages! {
     LABEL_WITHOUT_EFFECT: TextOnOtherLayer {
         en: "the text \"{text}\" of this {entity} has no effect: only a TEXT or MTEXT gives parameters",
         de: "der Text \"{text}\" des Objekts {entity} hat keine Wirkung: nur TEXT und MTEXT geben Parameter an",
-        help_en: "write it as a text over its element, on the layer of the element; if it is a remark, add words",
-        help_de: "als Text über das Element schreiben, auf dessen Layer; ist er eine Bemerkung, durch Wörter ergänzen",
+        help_en: "write it as a text over its element, on the layer of the element; if it is a remark, add words, so that it does not look like parameters",
+        help_de: "als Text über das Element schreiben, auf dessen Layer; ist er eine Bemerkung, Wörter ergänzen, damit er nicht wie Parameter aussieht",
     }
     /// A Z-probe on a layer without a path.
     PROBE_ON_OTHER_LAYER: TextOnOtherLayer {
