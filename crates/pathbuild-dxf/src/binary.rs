@@ -101,7 +101,8 @@ impl BinaryGroups<'_> {
         }
     }
 
-    /// Writes the value of a group. A group of unknown type ends the conversion with a line that the reader rejects as a group code.
+    /// Writes the value of a group; `None` if the file ends within it. A group of unknown type ends the conversion with a line that the reader
+    /// rejects as a group code.
     fn value(&mut self, code: i16, text: &mut Vec<u8>) -> Option<()> {
         match value_type(code) {
             ValueType::String => self.string(text)?,

@@ -30,10 +30,10 @@ pub(crate) fn may_hold_wanted<'a>(
     })
 }
 
-/// Whether any text (code 1) in these blocks satisfies `is`. Texts in records on a wanted layer are left out.
+/// Whether any text (code 1) in these blocks satisfies `is_noted`. Texts in records on a wanted layer are left out.
 pub(crate) fn has_text<'a>(
     blocks: &Pairs<'a>,
-    is: &dyn Fn(&[u8]) -> bool,
+    is_noted: &dyn Fn(&[u8]) -> bool,
     layers: &mut Layers<'a, '_>,
     decoder: &mut Decoder<'_>,
 ) -> bool {
@@ -41,7 +41,7 @@ pub(crate) fn has_text<'a>(
     let bytes = &blocks.bytes()[blocks.consumed()..];
     any_digit(b'1', bytes, |one| {
         let after = line_after_code(bytes, one, line_end);
-        if !after.is_some_and(|at| is(line_from(&bytes[at..], line_end))) {
+        if !after.is_some_and(|at| is_noted(line_from(&bytes[at..], line_end))) {
             return false;
         }
         let layer = layer_before(&bytes[..one], line_end);

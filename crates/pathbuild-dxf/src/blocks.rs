@@ -22,7 +22,7 @@ use crate::pairs::{Pair, Pairs, Stop};
 pub(crate) struct Blocks<'a> {
     /// Blocks by folded name: of several with the same name, the first.
     by_name: HashMap<SmolStr, BlockId>,
-    /// Further blocks with the name of an earlier block, by that block.
+    /// Further blocks with the same name, by the first block of that name.
     namesakes: BTreeMap<BlockId, Vec<BlockId>>,
     all: Vec<Block<'a>>,
     /// The wanted layers on which an insertion draws, by the inserted block and the layer of the insertion.
@@ -292,7 +292,7 @@ pub(crate) struct StepBudget {
     most_entities: usize,
 }
 
-/// Number of block entities, wanted or not, that may be visited per entity of the limit.
+/// Number of block entities, wanted or not, that may be visited per entity that the limit allows.
 const STEPS_PER_ENTITY: usize = 16;
 
 impl StepBudget {

@@ -30,7 +30,7 @@ pub(crate) struct Collector<'d> {
     drawing: &'d mut Drawing,
     /// Indices into [`Drawing::layers`] by folded name.
     layers: BTreeMap<SmolStr, u32>,
-    /// The notes that were given about each layer.
+    /// The notes given so far, with the number of entities that each is about.
     noted: BTreeMap<(u32, LayerNote), CountedNote>,
     /// The folded names of missing blocks that are inserted on layers that are not read, to report each of them once.
     missing_blocks: BTreeSet<SmolStr>,
@@ -342,8 +342,8 @@ impl<'d> Collector<'d> {
         }
     }
 
-    /// Reports an entity that is invisible, or that is in a block inserted on a frozen layer. Texts are reported apart from elements, because one
-    /// that is overlooked changes a visible element.
+    /// Reports an entity that is invisible, or that is in a block inserted on a frozen layer. Texts are reported separately from elements, because a
+    /// text that the user does not see may still change a visible element.
     fn note_hidden(&mut self, placed: &PlacedEntity<'_>, layer: u32, frozen: Option<&SmolStr>) {
         let is_text = matches!(placed.kind, EntityKind::Text | EntityKind::MText);
         let (note, problem) = match frozen {
@@ -404,8 +404,8 @@ impl<'d> Collector<'d> {
     fn count(&self) -> Result<(), Fatal> {
         let drawing = &self.drawing;
         let troubles = drawing.faults.len() + drawing.left_out.len();
-        let dear = (FAULT_WEIGHT - 1) * troubles.saturating_sub(MAX_CHEAP_FAULTS);
-        if drawing.entities.len() + drawing.hatches.len() + drawing.labels.len() + troubles + dear
+        let surcharge = (FAULT_WEIGHT - 1) * troubles.saturating_sub(MAX_CHEAP_FAULTS);
+        if drawing.entities.len() + drawing.hatches.len() + drawing.labels.len() + troubles + surcharge
             < self.limits.entities
         {
             return Ok(());

@@ -5,8 +5,8 @@ use smol_str::SmolStr;
 
 /// Options of the reader.
 pub struct Options<'a> {
-    /// Decides by a layer's name (trimmed, xref prefix dropped, `\U+` decoded) whether its entities are wanted. Numbers on other layers are
-    /// not even parsed, so they cannot be wrong.
+    /// Decides by a layer's name (trimmed, xref prefix dropped, `\U+` decoded) whether its entities are wanted. Numbers of entities on other layers
+    /// are not parsed, so that errors in them are not reported.
     pub keep_layer: &'a dyn Fn(&str) -> bool,
     /// A test for the undecoded bytes of each TEXT, or last part of an MTEXT, on an unwanted layer, and of each label on any layer. If one passes,
     /// [`Drawing::has_noted_text`] is set.
@@ -106,7 +106,8 @@ pub struct Fault {
     pub diagnostic: Diagnostic,
 }
 
-/// An unsupported curve on a wanted layer, or an insertion whose block is missing, scaled differently in x and y, or drawn on other layers.
+/// An unsupported curve on a wanted layer, or an insertion whose block is missing, clipped, scaled differently in x and y, or drawn only on other
+/// layers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OmittedCurve {
     /// Index into [`Drawing::layers`].
@@ -209,15 +210,15 @@ pub struct Circle {
 pub struct Text {
     /// The decoded string; `%%c` and similar codes are not replaced yet.
     pub string: SmolStr,
-    /// The alignment point: 11/21 if 72 or 73 say so, the middle of 10/20 and 11/21 for 72 = 3 and 5, else 10/20.
+    /// The alignment point: 10/20 if the groups 72 and 73 are 0, the middle of 10/20 and 11/21 if group 72 is 3 or 5, else 11/21.
     pub anchor: Point3,
     /// Height in mm.
     pub height: f64,
     /// Rotation in degrees, counterclockwise.
     pub rotation: f64,
-    /// Horizontal alignment from 72; aligned, middle and fitted texts (3 to 5) are centred.
+    /// Horizontal alignment from group 72; aligned, middle and fitted texts (3 to 5) are centred.
     pub horizontal: HorizontalAlign,
-    /// Vertical alignment from 73, except for middle texts (72 = 4).
+    /// Vertical alignment from group 73, except for middle texts (group 72 is 4).
     pub vertical: VerticalAlign,
     /// Whether the text is mirrored in x, so that letters run from right to left (71 bit 2, or extrusion 0,0,-1; both together cancel out).
     pub backwards: bool,
@@ -234,19 +235,19 @@ pub struct MText {
     pub plain: SmolStr,
     /// Insertion point.
     pub anchor: Point3,
-    /// Height of the letters in mm: that of the first letter if `\H` changes it, else 40.
+    /// Height of the letters in mm: that of the first letter if `\H` changes it, else that of group 40.
     pub height: f64,
-    /// Width in mm (41) at which the CAD program breaks lines, if it does.
+    /// Width in mm (group 41) at which the CAD program breaks lines, if it does.
     pub width: Option<f64>,
-    /// Rotation in degrees, from 50 or the direction 11/21.
+    /// Rotation in degrees, from group 50 or the direction 11/21.
     pub rotation: f64,
     /// Horizontal position of the anchor (group code 71).
     pub horizontal: HorizontalAlign,
     /// Vertical position of the anchor (group code 71).
     pub vertical: VerticalAlign,
-    /// Alignment of the paragraphs within the width: that of 71, unless `\p` changes it.
+    /// Alignment of the paragraphs within the width: that of group 71, unless `\p` changes it.
     pub paragraphs: HorizontalAlign,
-    /// Formatting because of which the place of the letters is unknown.
+    /// Formatting that makes the places of the letters unknown, if there is any.
     pub obstacle: Option<LayoutObstacle>,
     /// Whether blanks at the ends of rows count for the size, as they do for PathDxf2GCode.
     pub counts_blanks: bool,

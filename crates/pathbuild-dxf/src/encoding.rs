@@ -23,7 +23,7 @@ use crate::header::Header;
 #[derive(Debug)]
 pub(crate) struct Decoder<'a> {
     charset: Charset<'a>,
-    /// The name of the encoding in PB008.
+    /// The name of the encoding, for PB008.
     name: Cow<'a, str>,
     doubt: Option<Diagnostic>,
 }
@@ -56,7 +56,7 @@ impl<'a> Decoder<'a> {
     /// Decodes a string that starts on this line. Undecodable bytes become U+FFFD and one PB008 per file.
     #[inline]
     pub(crate) fn decode<'b>(&mut self, bytes: &'b [u8], line: u32) -> Cow<'b, str> {
-        // ASCII is valid Latin-1, which is borrowed and recognised faster than UTF-8.
+        // ASCII is also valid Latin-1, which is checked and borrowed faster than UTF-8.
         if is_plain(bytes) { decode_latin1(bytes) } else { self.decode_others(bytes, line) }
     }
 
@@ -68,7 +68,7 @@ impl<'a> Decoder<'a> {
         Cow::Owned(self.decode_others(bytes, line).into_owned().into_bytes())
     }
 
-    /// Returns PB008 if any string was doubtful.
+    /// Returns PB008 for the first string that could not be decoded with certainty, if there was one.
     pub(crate) fn into_doubt(self) -> Option<Diagnostic> {
         self.doubt
     }

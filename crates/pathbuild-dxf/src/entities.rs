@@ -28,7 +28,7 @@ pub(crate) struct EntityReader<'a, 'o> {
     pub(crate) fields: Fields<'a>,
     /// The BLOCKS section, until it has been searched for texts to note.
     unnoted_blocks: Option<Pairs<'a>>,
-    /// Layer of the last insertion, to which the attributes after it belong.
+    /// Layer of the last insertion. The attributes that follow belong to that insertion.
     last_insertion: Option<LayerId>,
     /// Whether a text on an unwanted layer has been noted. After the first one, no others are tested.
     pub(crate) has_noted_text: bool,
@@ -154,8 +154,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         let Some(traits) = self.read_common_properties(records, kind, space)? else { return Ok(None) };
         let visibility = self.fields.check_visibility();
         let shape = match (kind, visibility) {
-            // Labels draw nothing themselves. The array of insertions keeps a bad visibility: whether it matters depends on the layers that the block
-            // draws on.
+            // Labels draw nothing themselves. An insertion keeps the error of a bad visibility in its `array`, because the error matters only if the
+            // block draws on a wanted layer.
             (RecordKind::Insert | RecordKind::Label(_), _) => self.shape(kind),
             (_, Err(bad)) => Err(bad.into()),
             (RecordKind::Polyline, _) => self.polyline(records)?,
@@ -237,7 +237,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         Ok((want, found))
     }
 
-    /// Notes the texts of all blocks, once there is an insertion.
+    /// Applies [`Options::note_text`] to the texts of all blocks. Only the first insertion does this.
     fn note_text_in_blocks(&mut self) {
         if let (Some(blocks), Some(is_noted)) = (self.unnoted_blocks.take(), self.options.note_text) {
             let Self { layers, decoder, .. } = self;
@@ -245,7 +245,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         }
     }
 
-    /// Notes the text on an unwanted layer, or the label, that was just read.
+    /// Applies [`Options::note_text`] to the text on an unwanted layer, or the label, that was just read.
     fn note_text(&mut self) {
         if let (Some(text), Some(is_noted)) = (self.fields.get(1), self.options.note_text) {
             self.has_noted_text = is_noted(text.bytes);
@@ -388,7 +388,8 @@ const ANNOTATIONS: [&str; 14] = [
 ];
 
 impl RecordKind {
-    /// Returns the kind with this name, ignoring case; `None` for annotations and ends. (`3DLINE` is the three-dimensional LINE of R10.)
+    /// Returns the kind with this name, ignoring case; `None` for annotations and for records that end a section or block. (`3DLINE` is the
+    /// three-dimensional LINE of R10.)
     #[inline]
     pub(crate) fn of(name: &[u8]) -> Option<Self> {
         Self::upper_case(name).or_else(|| Self::unusual(&name.trim_ascii().to_ascii_uppercase()))
@@ -487,7 +488,7 @@ impl RecordKind {
     }
 }
 
-/// An entity whose layer is one of those to read, or may turn out to be one when its block is inserted.
+/// An entity that is on a wanted layer, or may turn out to be on one when its block is inserted.
 #[derive(Clone, Debug)]
 pub(crate) struct Item<'a> {
     pub(crate) traits: CommonProperties,

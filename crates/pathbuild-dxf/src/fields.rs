@@ -67,8 +67,8 @@ pub(crate) enum FillDecision {
     Note,
 }
 
-/// Number of slots: one per role that keeps its value, one for all others, and one for the extension dictionary. That of code 101 has the number of
-/// columns of an embedded object.
+/// Number of slots: one per role that keeps its value, one for all others, and one for the extension dictionary. The slot of code 101 holds the
+/// number of columns of an embedded object.
 const SLOTS: usize = 89;
 
 const TEXT: Role = Role::of(1);
@@ -159,7 +159,7 @@ impl<'a> Fields<'a> {
                 let next = self.store_first(|role| role == COLUMN_COUNT, Role::EMBEDDED, groups)?;
                 return Ok(Some((next, FillDecision::Keep)));
             }
-            // The lines of the arrow, which follow the text, have the same code.
+            // In a multileader, the lines of the arrow follow the text and have the same code.
             Role::LEADER_TEXT if self.get(1).is_none() => self.store(&group.with_role(TEXT)),
             Role::LEADER_TEXT => {}
             _ if group.raw.trim_ascii().starts_with(b"{") => {

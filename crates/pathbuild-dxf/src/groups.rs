@@ -17,7 +17,7 @@ pub(crate) struct Group<'a> {
     pub(crate) raw: &'a [u8],
 }
 
-/// Iterator over pairs.
+/// Fast iterator over the pairs from a position on.
 #[derive(Clone, Copy)]
 pub(crate) struct Groups<'a> {
     /// The position where iteration started.
@@ -110,7 +110,7 @@ impl<'a> Groups<'a> {
         self.bytes.get(self.ahead.stretch.consumed()..).unwrap_or_default()
     }
 
-    /// Scans the bytes ahead, unless that was already tried without success.
+    /// Scans the bytes ahead and returns whether this may have found pairs. At a place where a scan has already failed, it is not repeated.
     #[inline]
     fn look_ahead(&mut self) -> bool {
         if self.ahead.stretch.consumed() == 0 && !self.ahead.stretch.is_empty() {
@@ -349,7 +349,8 @@ impl Role {
         Some((length + 1, Self::of(code)))
     }
 
-    /// Returns the slot in which an entity keeps the value. All codes of [`Role::WITHOUT_ROLE`] share one slot; the roles after it have none.
+    /// Returns the slot in which an entity keeps the value. All codes of [`Role::WITHOUT_ROLE`] share one slot; the values of the later roles are not
+    /// stored (the slot of code 101 is used for the columns of an embedded object).
     #[inline]
     pub(crate) fn slot(self) -> usize {
         usize::from(self.0)

@@ -38,7 +38,7 @@ impl<'a> Header<'a> {
         }
     }
 
-    /// Reads variables up to a pair with code 0 and returns it.
+    /// Reads variables up to a pair with code 0 and returns that pair.
     pub(crate) fn read_on(&mut self, first: Pair<'a>, pairs: &mut Pairs<'a>) -> Result<Pair<'a>, Stop<'a>> {
         let mut variable: &[u8] = first.trimmed();
         loop {
@@ -111,7 +111,7 @@ fn units_error(number: i64, name: &'static Text) -> Diagnostic {
     Diagnostic::new(&WRONG_UNITS).with("unit", name).quoting("number", number.to_string())
 }
 
-/// Returns the name of a unit and its length in millimetres.
+/// Returns the name of a unit and its length in millimetres; `None` for an unknown number.
 fn unit(number: i64) -> Option<(&'static Text, f64)> {
     let index = usize::try_from(number).ok()?;
     UNITS.get(index).map(|(name, factor)| (name, *factor))

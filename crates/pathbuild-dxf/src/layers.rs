@@ -192,11 +192,11 @@ pub(crate) struct LayerRecord<'a> {
     line_type: Option<Cow<'a, [u8]>>,
     colour: Option<Value<'a>>,
     flags: Option<Value<'a>>,
-    /// Line of the first further record with this name that says something else.
+    /// Line of the first further record with this name whose properties differ.
     contradiction: Option<u32>,
 }
 
-/// Number of layers that are looked up one by one in the tables; most drawings of paths have no more.
+/// Maximum number of layers that are looked up one by one in the tables; most drawings of paths have no more.
 const MAX_SINGLE_LOOKUPS: usize = 4;
 
 /// Minimum length in bytes of a text to search for: shorter texts occur nearly everywhere, so searching for them does not pay.
@@ -276,7 +276,7 @@ impl<'a> KnownLayers<'a> {
 }
 
 impl LayerRecord<'_> {
-    /// Notes a further record with the same name, if it says something else.
+    /// Notes a further record with the same name if its properties differ.
     fn compare(&mut self, other: &Self) {
         let properties = |record: &Self| (record.line_type(), record.is_hidden(), record.is_frozen());
         if self.line != other.line && self.contradiction.is_none() && properties(self) != properties(other) {

@@ -70,7 +70,7 @@ struct Site<'s, 'a> {
     around: &'s EntityContext,
 }
 
-/// Deepest nesting of blocks, in levels.
+/// Maximum nesting of blocks, in levels. A deeper insertion is an error.
 const MAX_BLOCK_DEPTH: usize = 64;
 
 impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
@@ -203,7 +203,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
     }
 
-    /// Returns the reason why a block cannot be drawn: it contains itself, the layer of its insertion is faulty, or only a part of it is visible.
+    /// Returns the reason why a block cannot be drawn: it contains itself or is nested too deep, the layer of its insertion is faulty, or only a part
+    /// of it is visible.
     fn fault_of_insertion(
         &mut self,
         site: &Site<'_, 'a>,
@@ -268,7 +269,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         Ok(())
     }
 
-    /// Reports PB111 for a block on a wanted layer that draws nothing visible, except for hatches, on layers that are read, but something on others.
+    /// Reports PB111 for an insertion on a wanted layer whose block draws elements on other layers, but nothing visible, except for hatches, on
+    /// wanted ones.
     fn check_elsewhere(&mut self, site: &Site<'_, 'a>, block: BlockId) -> Result<(), Fatal> {
         if !self.reader.layers.is_kept(site.layer) {
             return Ok(());
@@ -315,7 +317,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
 
 impl<'a> Site<'_, 'a> {
     fn point(&self) -> Option<Point> {
-        self.insert.array.as_ref().ok().map(Array::begin)
+        self.insert.array.as_ref().ok().map(Array::insertion_point)
     }
 
     fn left_out(&self, message: &'static Message, layers: Arc<[SmolStr]>) -> EntityError<'a> {

@@ -114,7 +114,7 @@ impl ShortSpelling {
         Some(Self { length, characters })
     }
 
-    /// Returns the preferred slot, found by a hash that separates usual names.
+    /// Returns the preferred slot, found by a hash that gives different slots to most usual names.
     #[inline]
     fn preferred_slot(&self) -> usize {
         const MULTIPLIER: u64 = 0x9E37_79B9_7F4A_7C15;

@@ -1,8 +1,8 @@
 //! Parses numbers as CAD programs write them. (book: reference/dxf: "numbers")
 //!
-//! Nearly all numbers of a drawing are plain decimals. Their parser works on eight characters at a time, because branches on the number of
-//! digits or the place of the point cannot be predicted. The value is exactly that of a general parser: up to 15 digits and powers of ten up
-//! to 10^22 are exact, so a single division rounds correctly; 16 digits have no point, and are rounded once, by the conversion.
+//! Nearly all numbers of a drawing are plain decimals. Their parser works on eight characters at a time, because branches on the number of digits or
+//! the place of the point cannot be predicted. The value is exactly that of a general parser: up to 15 digits and powers of ten up to 10^22 are
+//! exact, so a single division rounds correctly; a number of 16 digits has no point and is rounded only once, by the conversion to f64.
 
 /// The reason why a value is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -97,7 +97,7 @@ fn biarc(from: Ray, to: Ray) -> Option<[CurvePiece; 2]> {
     Some([first, second])
 }
 
-/// Returns the distance of the control polygon's corners from the ends.
+/// Returns the distance of the control polygon's corners from the ends; `None` if there is no such polygon.
 fn control_distance(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
     let along = chord.dot(from.plus(to));
     let turn = 2.0 * (1.0 - from.dot(to)).max(0.0);
@@ -264,16 +264,16 @@ fn fit(curve: &impl Curve, from: f64, to: f64, distance: f64) -> Option<Vec<Curv
 }
 
 /// Returns a point of the curve with its direction. If the derivative vanishes at the point, the direction is taken slightly inside the span, on the
-/// side of `inwards`.
+/// side of `inwards`. `None` if the curve has no direction there either.
 fn ray(curve: &impl Curve, parameter: f64, inwards: f64) -> Option<Ray> {
     /// Distance, as a fraction of the span, of the point inside the span that gives the direction.
     const STEP: f64 = 1e-3;
     /// Derivatives shorter than this fraction of the difference quotient are treated as zero.
     const ZERO_DERIVATIVE: f64 = 1e-6;
     let (point, derivative) = curve.at(parameter);
-    let way = curve.at(parameter + inwards * STEP).0.minus(point).times(1.0 / (inwards * STEP));
-    let has_direction = derivative.length() > ZERO_DERIVATIVE * way.length();
-    let direction = if has_direction { derivative } else { way };
+    let quotient = curve.at(parameter + inwards * STEP).0.minus(point).times(1.0 / (inwards * STEP));
+    let has_direction = derivative.length() > ZERO_DERIVATIVE * quotient.length();
+    let direction = if has_direction { derivative } else { quotient };
     Some(Ray { point, direction: direction.unit()? })
 }
 

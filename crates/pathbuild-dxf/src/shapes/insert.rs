@@ -59,7 +59,7 @@ impl Array {
         let is_mirrored = is_mirrored(fields)?;
         let [x, y, z] = [scale(fields, 41)?, scale(fields, 42)?, scale(fields, 43)?];
         let Some(scaled) = Placement::scaled_by(x, y, z) else {
-            let at = object(is_mirrored).point(at);
+            let at = object_placement(is_mirrored).point(at);
             let point = Some(Point::new(at.x, at.y));
             return Err(EntityError::LeftOut {
                 message: &INSERT_SCALED,
@@ -79,7 +79,7 @@ impl Array {
     }
 
     /// Returns the insertion point, in the coordinates of the space that contains the INSERT.
-    pub(crate) fn begin(&self) -> Point {
+    pub(crate) fn insertion_point(&self) -> Point {
         let at = self.first().point(Point3::default());
         Point::new(at.x, at.y)
     }
@@ -87,7 +87,7 @@ impl Array {
     /// Returns the placement of the first copy. It maps the block's coordinates, with the base point at the origin, to those of the space that
     /// contains the INSERT.
     fn first(&self) -> Placement {
-        let moved = object(self.is_mirrored).composed_after(&Placement::translated(self.at));
+        let moved = object_placement(self.is_mirrored).composed_after(&Placement::translated(self.at));
         moved.composed_after(&Placement::rotated(self.turn)).composed_after(&self.scaled)
     }
 
@@ -99,7 +99,7 @@ impl Array {
             z: -base.z,
         }));
         // The grid of copies is turned but not scaled.
-        let direction = object(self.is_mirrored).composed_after(&Placement::rotated(self.turn));
+        let direction = object_placement(self.is_mirrored).composed_after(&Placement::rotated(self.turn));
         let column_step = direction.direction(self.columns.distance, 0.0);
         let row_step = direction.direction(0.0, self.rows.distance);
         let places = (0..self.rows.count)
@@ -120,7 +120,7 @@ impl Steps {
 }
 
 /// Returns the placement that maps object coordinates to those of the space that contains the INSERT.
-fn object(is_mirrored: bool) -> Placement {
+fn object_placement(is_mirrored: bool) -> Placement {
     if is_mirrored { Placement::MIRRORED } else { Placement::IDENTITY }
 }
 

@@ -76,8 +76,8 @@ pub(crate) fn mtext<'a>(
     }))
 }
 
-/// Reads the text of a multileader or dimension, without formatting, with its [tip](crate::Label::tip). `None` for an entity without a text of its own,
-/// or with a longer one than `max_text` bytes, which are no parameters.
+/// Reads the text of a multileader or dimension, without formatting, with its [tip](crate::Label::tip). `None` for an entity without a point or a
+/// text of its own, or with a text longer than `max_text` bytes, which cannot hold parameters.
 pub(crate) fn label(fields: &Fields<'_>, max_text: usize) -> Option<(SmolStr, Circle)> {
     let text = fields.get(1).filter(|text| !text.bytes.is_empty() && text.bytes.len() <= max_text)?;
     let numbers = |code: i32| {
@@ -90,7 +90,7 @@ pub(crate) fn label(fields: &Fields<'_>, max_text: usize) -> Option<(SmolStr, Ci
     let tip = tip(10).zip(tip(20)).map(|(x, y)| Point3 { x, y, z: 0.0 });
     // A dimension has no repeated groups. Its text is at 11.
     let centre = tip.or_else(|| fields.point(if fields.repeated.is_empty() { 11 } else { 10 }).ok())?;
-    // A character that cannot be decoded is no finding, since no parameter has any.
+    // An undecodable character is not reported, since no parameter contains one.
     let text = PlainText::read(&String::from_utf8_lossy(text.bytes), 1.0, HorizontalAlign::Left);
     let radius = tip.map_or(0.0, |_| height / 2.0);
     Some((text.plain.finish(), Circle { centre, radius }))
@@ -227,9 +227,9 @@ struct PlainText {
     first: Option<(f64, HorizontalAlign)>,
     /// Whether letters are aligned differently, or distributed.
     has_several_alignments: bool,
-    /// Whether the next letters are not in the first column.
+    /// Whether a column break precedes the next letters.
     is_in_new_column: bool,
-    /// The last character that counts.
+    /// The last character that is not struck out.
     last: Option<char>,
     obstacle: Option<LayoutObstacle>,
 }
@@ -328,7 +328,7 @@ impl PlainText {
                 let (stacked, length) = stacked(&text[short..]);
                 let is_behind_digit = self.last.is_some_and(|last| last.is_ascii_digit());
                 if is_behind_digit && stacked.starts_with(|letter: char| letter.is_ascii_digit()) {
-                    // A raised or lowered digit is no further digit of the number before it.
+                    // The caret keeps a raised or lowered digit from being read as a further digit of the number before it.
                     self.push("^");
                 }
                 self.push(&stacked);
