@@ -157,7 +157,7 @@ impl Context {
         self.printer.json(self.output.stream, lines::serialize_with_type(kind, &row));
     }
 
-    /// Like [`row`](Self::row), but only if the format is JSON, and also for JSON reports.
+    /// Like [`row`](Self::row), but prints the row only if the format is JSON, and also keeps it for JSON reports.
     pub(crate) fn json_row(&self, row: impl FnOnce() -> (&'static str, Value)) {
         if self.output.writes_json() {
             let (kind, row) = row();
@@ -226,7 +226,7 @@ impl Context {
     /// Returns the view for machine-readable formats, in which file names are relative to the repository's root.
     fn machine_view(&self) -> View {
         let directory = self.settings.directory().unwrap_or(&self.working_directory);
-        // A configuration outside of any repository may serve drawings in the repository of the working directory.
+        // A configuration outside of any repository may apply to drawings in the repository of the working directory.
         let of_configuration = config::repository(&OsSystem, directory);
         let root = of_configuration.or_else(|| config::repository(&OsSystem, &self.working_directory));
         View { root: Some(root.unwrap_or(directory).to_owned()), ..self.plain_view() }
@@ -303,8 +303,8 @@ impl Context {
         self.usage(&(reason + advice))
     }
 
-    /// Reports a usage error: on stderr, and as a finding in machine-readable output and reports, which would otherwise tell of a run without
-    /// findings.
+    /// Reports a usage error: on stderr, and as a finding in machine-readable output and reports, which would otherwise look like those of a run
+    /// without findings.
     pub fn usage(&self, reason: &str) -> ExitStatus {
         let refused = Diagnostic::new(&messages::REFUSED).quoting("reason", reason);
         let findings = Findings::new(vec![refused]);

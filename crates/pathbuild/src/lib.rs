@@ -55,8 +55,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     }
 }
 
-/// Returns the error for an empty argument, as in a script whose variable is not set. As the name of a file it would mean the working directory, and
-/// the script would write all programs instead of one.
+/// Returns the error for an empty argument, as in a script whose variable is not set. Taken as the name of a file, an empty argument would mean the
+/// working directory, and the script would write all programs instead of one.
 fn empty_argument_error(number: usize, lang: Lang) -> String {
     match lang {
         Lang::En => format!(

@@ -22,8 +22,8 @@ pub(crate) struct Output {
     /// Stream on which machine-readable formats are written.
     pub(crate) stream: Stream,
     pub(crate) reports: Vec<ReportFile>,
-    /// Whether the command has a document, because it reports findings.
-    is_document: bool,
+    /// Whether the command has a machine-readable document.
+    has_document: bool,
     found: RefCell<Findings>,
     figures: RefCell<Map<String, Value>>,
     /// Results for JSON reports, one per line.
@@ -37,7 +37,7 @@ impl Output {
             format: common.format.unwrap_or_default(),
             stream: if command.owns_stdout() { Stream::Stderr } else { Stream::Stdout },
             reports: common.report.clone(),
-            is_document: command.has_document(),
+            has_document: command.has_document(),
             found: RefCell::default(),
             figures: RefCell::default(),
             rows: RefCell::default(),
@@ -49,7 +49,7 @@ impl Output {
         let on_stdout = self.reports.iter().filter(|report| report.is_stdout()).count();
         let taken = usize::from(self.format.is_for_machines() || self.stream == Stream::Stderr);
         let is_json = self.format == Format::Json && self.command != "config";
-        if !self.is_document && (!self.reports.is_empty() || self.format.is_report() || is_json) {
+        if !self.has_document && (!self.reports.is_empty() || self.format.is_report() || is_json) {
             return Some(workspace.phrase(
                 "`{}` has no findings to report",
                 "`{}` hat keine Befunde für einen Bericht",
@@ -91,12 +91,12 @@ impl Output {
     /// Whether the document or a report is written to stdout, so that results for users go to stderr.
     pub(crate) fn takes_stdout(&self) -> bool {
         let reports = self.reports.iter().any(ReportFile::is_stdout);
-        self.is_document && self.stream == Stream::Stdout && (reports || self.format.is_for_machines())
+        self.has_document && self.stream == Stream::Stdout && (reports || self.format.is_for_machines())
     }
 
     /// Returns the first line of a JSON document; `None` if the run has none.
     pub(crate) fn header(&self) -> Option<String> {
-        (self.is_document && self.format == Format::Json).then(|| lines::header(self.command))
+        (self.has_document && self.format == Format::Json).then(|| lines::header(self.command))
     }
 
     /// Collects findings. Returns the text to show now and its stream; `None` if the format is only written at the end.
@@ -143,7 +143,7 @@ impl Output {
     /// Returns the rest of the document, which is printed at the end.
     pub(crate) fn end(&self, status: u8, view: &View) -> Option<RenderedText> {
         match self.format {
-            _ if !self.is_document => None,
+            _ if !self.has_document => None,
             Format::Json => Some(lines::escaped_lines(&self.summary(status))),
             format if format.is_whole() => Some(self.whole_report(format, status, view)),
             _ => None,

@@ -270,7 +270,7 @@ const BAR_WIDTH: usize = 30;
 #[derive(Debug)]
 pub struct Progress {
     counters: Arc<Counters>,
-    drawing: Option<JoinHandle<()>>,
+    thread: Option<JoinHandle<()>>,
 }
 
 #[derive(Debug)]
@@ -288,7 +288,7 @@ impl Progress {
         let counters =
             Arc::new(Counters { done: AtomicUsize::new(0), total, is_over: Mutex::new(false), over });
         let drawn = Arc::clone(&counters);
-        Self { counters, drawing: Some(thread::spawn(move || drawn.draw(stream))) }
+        Self { counters, thread: Some(thread::spawn(move || drawn.draw(stream))) }
     }
 }
 
@@ -302,9 +302,9 @@ impl Drop for Progress {
     fn drop(&mut self) {
         *self.counters.is_over.lock().unwrap_or_else(PoisonError::into_inner) = true;
         self.counters.over.notify_all();
-        if let Some(drawing) = self.drawing.take() {
+        if let Some(thread) = self.thread.take() {
             // A panic of the drawing thread is ignored: the progress bar does not affect the results.
-            _ = drawing.join();
+            _ = thread.join();
         }
     }
 }

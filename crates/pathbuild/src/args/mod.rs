@@ -229,7 +229,7 @@ impl Cli {
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut Self::command()))
     }
 
-    /// Parses a command line with the given definition. Errors are in the language of the definition.
+    /// Parses a command line with the given definition. A drawing in place of a command is checked. Errors are in the language of the definition.
     ///
     /// # Errors
     /// A usage error, or a request for help or the version, which clap also treats as an error.

@@ -34,7 +34,7 @@ pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
     let mut jobs: Vec<Job> = Vec::new();
     let out_dir = context.settings.general.out_dir.value.as_deref();
     for file in &args.files {
-        match Job::adjustments_of_argument(context, file, out_dir) {
+        match Job::jobs_of_argument(context, file, out_dir) {
             Ok(all) => {
                 for job in all {
                     if jobs.iter().all(|known| known.clean != job.clean) {
@@ -101,7 +101,7 @@ impl Job {
     ///
     /// # Errors
     /// PB006 if listing the programs' directory triggers a bug.
-    fn adjustments_of_argument(
+    fn jobs_of_argument(
         context: &Context,
         argument: &Utf8Path,
         out_dir: Option<&Utf8Path>,
@@ -122,7 +122,7 @@ impl Job {
         let Ok(listing) = listed else { return Ok(vec![job]) };
         let programs = listing.files.iter().filter(|name| without_suffix(name, CLEAN_SUFFIX).is_some());
         let mut named: Vec<&str> =
-            programs.filter(|name| is_of(context, &join(&directory, name), &drawing)).collect();
+            programs.filter(|name| names_drawing(context, &join(&directory, name), &drawing)).collect();
         named.sort_unstable();
         let found = |name: &&str| Self {
             drawing: job.drawing.clone(),
@@ -164,7 +164,7 @@ pub(super) fn stem_of_program(name: &str) -> Option<&str> {
 }
 
 /// Whether the header of a program names this drawing.
-fn is_of(context: &Context, program: &Utf8Path, drawing: &str) -> bool {
+fn names_drawing(context: &Context, program: &Utf8Path, drawing: &str) -> bool {
     let text = context.system.read(program, context.settings.limits.file_size.value).unwrap_or_default();
     Provenance::of_head(&text).is_some_and(|(_, title)| native::is_title_of(&title, drawing))
 }

@@ -25,7 +25,7 @@ use crate::german;
 
 /// Options of the original tools with the options of pathbuild that replace them in every command. `/x` and `/m` are not among them, because their
 /// replacement depends on the command.
-const VALUES: &[(char, &str)] = &[
+const OPTIONS_WITH_VALUES: &[(char, &str)] = &[
     ('f', "--feed"),
     ('v', "--rapid"),
     ('s', "--sweep-height"),
@@ -199,7 +199,7 @@ impl CompatArguments {
             'm' => self.max_correction = Some(value.to_owned()),
             'd' => self.options.push(format!("--search={}", with_native_separators(value))),
             _ => {
-                let known = VALUES.iter().find(|(known, _)| *known == letter);
+                let known = OPTIONS_WITH_VALUES.iter().find(|(known, _)| *known == letter);
                 let Some((_, name)) = known else { return false };
                 self.options.push(format!(
                     "{name}={}",

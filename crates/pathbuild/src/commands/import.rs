@@ -47,7 +47,7 @@ struct Facts<'a> {
     /// First line with unknown moves. If there is one, lengths, times and the extent are unknown as well.
     unfollowed: Option<u32>,
     /// Diagnostics about assumptions that were made while reading.
-    taken: Vec<&'a Diagnostic>,
+    assumptions: Vec<&'a Diagnostic>,
 }
 
 impl<'a> Facts<'a> {
@@ -62,7 +62,7 @@ impl<'a> Facts<'a> {
                 .filter(|_| unfollowed.is_none())
                 .map(|machine| estimate::seconds(steps, &machine)),
             unfollowed,
-            taken: program.read.problems.iter().filter(|problem| is_guess(problem)).collect(),
+            assumptions: program.read.problems.iter().filter(|problem| is_guess(problem)).collect(),
         }
     }
 
@@ -88,8 +88,10 @@ fn kinematics(context: &Context) -> Option<Kinematics> {
 
 fn json(context: &Context, facts: &Facts<'_>) -> Value {
     let (program, summary) = (facts.program, &facts.summary);
-    let taken =
-        facts.taken.iter().map(|taken| json!({ "line": taken.place.line, "message": taken.text(Lang::En) }));
+    let assumptions = facts
+        .assumptions
+        .iter()
+        .map(|assumption| json!({ "line": assumption.place.line, "message": assumption.text(Lang::En) }));
     let whole =
         |extent: &AxisRanges| if facts.unfollowed.is_some() { AxisRanges::default() } else { *extent };
     json!({
@@ -101,14 +103,14 @@ fn json(context: &Context, facts: &Facts<'_>) -> Value {
         "unfollowed_line": facts.unfollowed,
         "box": extent(&whole(&summary.extent)),
         "cutting_box": extent(&whole(&summary.cut)),
-        "tools": summary.tools.iter().map(used).collect::<Vec<_>>(),
+        "tools": summary.tools.iter().map(tool_json).collect::<Vec<_>>(),
         "minutes": facts.minutes(),
         "rapid": facts.rapid,
         "machine_seconds": facts.machine_seconds,
         "dwell_seconds": summary.dwell,
         "stops": summary.stops,
         "tool_changes": summary.tool_changes,
-        "taken": taken.collect::<Vec<_>>(),
+        "taken": assumptions.collect::<Vec<_>>(),
     })
 }
 
@@ -129,8 +131,8 @@ fn extent(extent: &AxisRanges) -> Value {
     json!({ "x": axis(&extent[0]), "y": axis(&extent[1]), "z": axis(&extent[2]) })
 }
 
-fn used(used: &ToolTotals) -> Value {
-    json!({ "tool": used.tool, "moves": tally(&used.tally), "feeds": used.feeds, "speeds": used.speeds })
+fn tool_json(totals: &ToolTotals) -> Value {
+    json!({ "tool": totals.tool, "moves": tally(&totals.tally), "feeds": totals.feeds, "speeds": totals.speeds })
 }
 
 /// Formats the summary. The first line begins with the file's name.
@@ -169,18 +171,18 @@ impl Formatter<'_> {
         }
         let is_layer = facts.program.dialect == Dialect::Xpertmill;
         let tools = if is_layer { self.choose("layers", "Layer") } else { self.choose("tools", "Werkzeuge") };
-        for (index, used) in summary.tools.iter().enumerate() {
-            lines.push((if index == 0 { tools } else { "" }, self.used(used, is_layer, facts)));
+        for (index, totals) in summary.tools.iter().enumerate() {
+            lines.push((if index == 0 { tools } else { "" }, self.tool_line(totals, is_layer, facts)));
         }
         lines.push((self.choose("time", "Zeit"), self.time(facts)));
         let waits = describe_waits(&facts.summary, self.0.lang());
         lines.extend(waits.map(|waits| (self.choose("waits", "Halte"), waits)));
-        for (index, taken) in facts.taken.iter().enumerate() {
+        for (index, assumption) in facts.assumptions.iter().enumerate() {
             let label = if index == 0 { self.choose("assumed", "angenommen") } else { "" };
-            let line = taken.place.line.unwrap_or(0);
+            let line = assumption.place.line.unwrap_or(0);
             lines.push((
                 label,
-                format!("{} {line}: {}", self.choose("line", "Zeile"), taken.text(self.0.lang())),
+                format!("{} {line}: {}", self.choose("line", "Zeile"), assumption.text(self.0.lang())),
             ));
         }
         lines
@@ -243,22 +245,22 @@ impl Formatter<'_> {
         (!axes.is_empty()).then(|| axes.join(", "))
     }
 
-    fn used(&self, used: &ToolTotals, is_layer: bool, facts: &Facts<'_>) -> String {
-        let name = match used.tool {
+    fn tool_line(&self, totals: &ToolTotals, is_layer: bool, facts: &Facts<'_>) -> String {
+        let name = match totals.tool {
             Some(number) if is_layer => number.to_string(),
             Some(number) => format!("T{number}"),
             None => self.choose("none named", "keins genannt").to_owned(),
         };
-        let (moves, length) = (used.tally.moves(), used.tally.cutting().length);
+        let (moves, length) = (totals.tally.moves(), totals.tally.cutting().length);
         let mut line = format!("{name}: {}", counted(moves, MOVE, self.0.lang()));
         if facts.unfollowed.is_none() {
             _ = write!(line, ", {} mm {}", self.tenths(length), self.choose("cutting", "Fräsen"));
         }
-        if !used.feeds.is_empty() {
-            _ = write!(line, ", F {}", numbers(&used.feeds));
+        if !totals.feeds.is_empty() {
+            _ = write!(line, ", F {}", numbers(&totals.feeds));
         }
-        if !used.speeds.is_empty() {
-            _ = write!(line, ", S {}", numbers(&used.speeds));
+        if !totals.speeds.is_empty() {
+            _ = write!(line, ", S {}", numbers(&totals.speeds));
         }
         line
     }

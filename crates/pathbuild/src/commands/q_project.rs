@@ -131,7 +131,7 @@ fn draw_q_project(
     let (original, written) = (preview.file(drawing.path(session.db())), preview.file(output));
     let problems = preview.with_stable_files(|preview| {
         let compared = pathbuild_db::q_project_findings(preview.db(), original, written);
-        // The Q-project copies the errors of proxy lines, which are to be corrected in the drawing.
+        // Errors of proxy lines recur in the Q-project, but must be corrected in the drawing, so that only the comparison reports them.
         let copied =
             if compared.iter().any(Diagnostic::is_error) { Vec::new() } else { faults(preview, written) };
         [copied, compared.clone()].concat()
@@ -141,8 +141,8 @@ fn draw_q_project(
     if problems.iter().any(is_wrong) { Err(problems) } else { Ok((bytes, count)) }
 }
 
-/// Returns names for the paths of a Q-project, one per cutter, chosen among the given one and free names with higher last numbers: the first
-/// one that selects the right tool (`paths` of a `[tool]`), or else the first one. `None` if not enough names are free.
+/// Returns the names of a Q-project's paths, one per cutter. The candidates are the given name and free names whose last number is higher. Each path
+/// gets the first candidate that selects its tool (`paths` of a `[tool]`), or else the first that is left. `None` if there are not enough candidates.
 fn names(
     first: &PathName,
     planned: &[QProject],
@@ -166,7 +166,7 @@ fn names(
 
 const MAX_TRIED_NAMES: u64 = 1000;
 
-/// Returns the diagnostics of a drawing and of all its paths, including PB513 if it has none.
+/// Returns the diagnostics of a drawing and of all its paths, including PB513 if there are no paths.
 fn faults(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
     let db = session.db();
     let mut problems = check_file(db, drawing).to_vec();

@@ -199,7 +199,7 @@ fn table_of(context: &Context, db: &Database, file: SourceFile, path: &PathName)
         Format::Json => {
             let name = context.file(file);
             placed
-                .map(|(element, at)| OutputItem::Row("element", object_cell(&name, path, element, at)))
+                .map(|(element, at)| OutputItem::Row("element", parameters_json(&name, path, element, at)))
                 .collect()
         }
         _ => vec![OutputItem::Lines(table(context, file.as_str(), path, placed))],
@@ -247,7 +247,7 @@ fn option(context: &Context, word: &str, name: &str) -> String {
     }
 }
 
-fn object_cell(file: &str, path: &PathName, element: &ElementParameters, position: Position) -> Json {
+fn parameters_json(file: &str, path: &PathName, element: &ElementParameters, position: Position) -> Json {
     let ElementParameters { origin, what, parameters } = element;
     let parameter = |Parameter { letter, value, from }: &Parameter| json!({ "letter": letter.as_char(), "value": value.as_str(), "from": from.name(), "which": from.provider_name() });
     json!({

@@ -34,7 +34,8 @@ pub fn run(context: &Context, args: &ViewArgs) -> Result<ExitStatus, Failure> {
     Ok(deliver(context, output.file.as_deref(), output.format.bytes(scene, output.shown), &findings))
 }
 
-/// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown. The options are for programs only.
+/// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown. Only for programs, the message names the options
+/// that would help.
 fn report_missing_stock(context: &Context, findings: &Findings, is_program: bool) -> ExitStatus {
     let reason = context.choose(
         "view --stock: nothing is cut, or the cutter or the height of the material is unknown",

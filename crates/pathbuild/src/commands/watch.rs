@@ -25,7 +25,7 @@ use crate::serving::Server;
 use crate::text::{DRAWING, ERROR, PATH, WARNING, counted};
 use pathbuild_workspace::findings::Findings;
 
-/// Watches until the user ends it.
+/// Watches until the user ends the program or a problem prevents watching.
 ///
 /// # Errors
 /// The reason, as a sentence, why the configuration must be loaded again and watching restarted.
@@ -107,7 +107,7 @@ struct WatchPrinter<'a> {
 
 impl WatchPrinter<'_> {
     /// Writes the numbers of findings after the first check or a change as a line of JSON, and adds them to the last line of the document.
-    fn count(&self, number: u64, mut row: Value, counts: FindingCounts, new: usize) {
+    fn write_counts(&self, number: u64, mut row: Value, counts: FindingCounts, new: usize) {
         let FindingCounts { errors, warnings, known } = counts;
         for (name, count) in [("errors", errors), ("warnings", warnings), ("known", known)] {
             self.context.output.add_figure(name, count);
@@ -118,7 +118,7 @@ impl WatchPrinter<'_> {
         self.context.json_row(|| ("watch_change", row));
     }
 
-    /// Ends watching if nobody reads what is printed any more, unless a page is served.
+    /// Ends watching if writing to a stream has failed, usually because its reader has ended, unless a page is served.
     fn end_without_reader(&self) {
         if let Some(wake_handle) = self.wake_handle.get()
             && self.context.printer.has_failed()
@@ -164,7 +164,7 @@ impl Listener for WatchPrinter<'_> {
         context.name_date();
         let counts = FindingCounts::of(findings);
         let checked = json!({ "paths": paths, "drawings": drawings });
-        self.count(0, checked, counts, findings.diagnostics.len());
+        self.write_counts(0, checked, counts, findings.diagnostics.len());
         let counted = |number, noun| counted(number, noun, context.lang());
         let milliseconds = time.as_secs_f64() * 1000.0;
         let (paths, drawings) = (counted(*paths, PATH), counted(*drawings, DRAWING));
@@ -196,7 +196,7 @@ impl Listener for WatchPrinter<'_> {
             "open": update.open,
             "fixed": gone,
         });
-        self.count(update.revision, change, update.counts, new.len());
+        self.write_counts(update.revision, change, update.counts, new.len());
         let (count, revision) = (update.checked_files.len(), update.revision);
         let milliseconds = update.time.as_secs_f64() * 1000.0;
         let phrase = |en, de| context.choose(en, de);

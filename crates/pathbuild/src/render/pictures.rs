@@ -109,12 +109,13 @@ fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<FindingP
     Some(FindingPlace { at, related, circle, is_error: diagnostic.is_error() })
 }
 
-/// Returns the place in the drawing of a finding with the program's coordinates in its message: the damage, or else the element that does it. `file` is
-/// the drawing of the scene. A message about a drawing that is embedded in another one has the coordinates of the other's program, so only its
-/// element is marked.
+/// Returns the place in the drawing of a finding whose message has coordinates of the program: the element that causes the damage, and the damaged
+/// spot as a related point. `file` is the drawing of the scene. For an embedded drawing, the coordinates are those of the embedding path's program,
+/// so only the element is marked.
 fn spot_in_program(diagnostic: &Diagnostic, scene: &Scene, file: &Utf8Path) -> Option<FindingPlace> {
     let zero = scene.paths.first()?.zero;
-    // The outline of the part is drawn anyway; marking where it begins would only shrink a small cut into it.
+    // A neighbour's place is where the outline of the part begins. The outline is drawn anyway, and a detail that includes that point would show a
+    // small cut into the part at a smaller scale.
     let is_marked = diagnostic.trace.is_empty() && diagnostic.code() != Code::GougedNeighbour;
     let related = match diagnostic.argument("place") {
         Some(Value::Point(place)) if is_marked => vec![[0, 1].map(|axis| pair(*place)[axis] + zero[axis])],

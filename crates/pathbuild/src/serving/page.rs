@@ -40,7 +40,7 @@ impl<'a> Page<'a> {
     }
 
     /// Returns the scene or picture of a drawing or path in the list. Other drawings are not accessible.
-    fn seen(
+    fn drawing_answer(
         &self,
         session: &mut Session<'_>,
         file: &str,
@@ -152,7 +152,9 @@ impl Listener for Page<'_> {
                 continue;
             }
             _ = answer.send(match subject {
-                Subject::Drawing { file, path, form } => self.seen(session, &file, path.as_deref(), form),
+                Subject::Drawing { file, path, form } => {
+                    self.drawing_answer(session, &file, path.as_deref(), form)
+                }
                 Subject::Program(program) => Some(program.scene(session)),
             });
         }

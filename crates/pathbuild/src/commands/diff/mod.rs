@@ -31,7 +31,7 @@ use crate::render::Format;
 use output::Output;
 use revision::Revision;
 
-/// Runs the command. A changed path is no error. A path that cannot be compared, because it has errors now, is one.
+/// Runs the command. Changed paths are no error. Paths that have errors now, and therefore cannot be compared, are one.
 ///
 /// # Errors
 /// If the sides cannot be read or have nothing in common to compare.
@@ -59,7 +59,7 @@ fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<
     let mut after = Tree { session: after, inputs: &new.inputs, root: &new.root };
     let mut comparison = compare_trees(&mut before, &mut after, pictures);
     for (problems, side) in comparison.problems.iter_mut().zip([old, new]) {
-        side.name(context, problems);
+        side.name_files(context, problems);
     }
     comparison
 }
@@ -70,7 +70,7 @@ fn compare_two_programs(old: ComparedProgram, new: ComparedProgram, pictures: Op
         [true, true] => {
             let changed = compare_moves(&old.path, &new.path, pictures);
             let mut states = old.states.changes(&new.states);
-            // The corrections belong to the moves.
+            // Corrections by measured heights show as changed moves, so they are listed separately only if no move has changed.
             states.retain(|state| state.kind != StateKind::Correction || changed.groups.is_empty());
             let is_same = changed.groups.is_empty() && states.is_empty();
             (!is_same).then(|| Outcome::Changed(Box::new(ProgramDiff { states, ..changed })))
@@ -207,7 +207,7 @@ fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revisio
     let (workspace, mut faults) = context.workspace_of_inputs(&named);
     if !faults.is_empty() {
         if let Some(revision) = &revision {
-            revision.name(context, &mut faults);
+            revision.name_files(context, &mut faults);
         }
         return Err(Failure::Refused(faults));
     }
@@ -257,11 +257,12 @@ fn refuse_submodules(
 }
 
 impl Drawings {
-    /// Names the files of a revision in diagnostics as the user knows them. Removes the error that the revision has no drawings: all are new.
-    pub(super) fn name(&self, context: &Context, problems: &mut Vec<Diagnostic>) {
+    /// Names the files of a revision in diagnostics as the user knows them. Removes the error that the revision has no drawings: in that case, all
+    /// drawings are new.
+    pub(super) fn name_files(&self, context: &Context, problems: &mut Vec<Diagnostic>) {
         let Some(revision) = &self.revision else { return };
         problems.retain(|problem| *problem.message != outputs::NO_DRAWING);
-        revision.name(context, problems);
+        revision.name_files(context, problems);
     }
 }
 

@@ -105,7 +105,7 @@ pub(super) fn place(path: &PathDiff) -> String {
 /// Describes the outcome of a path in a few words.
 pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &'static str {
     let (en, de) = match &path.outcome {
-        // The problems include this error, such as a limit that only programs exceed: `check` builds no programs and would not report it.
+        // The error is shown among the problems, so there is no need to refer to `check`, which would not report errors that only programs have.
         Outcome::Broken if path.files[0].is_none() => ("new, has errors", "neu, hat Fehler"),
         Outcome::Broken if comparison.has_error_of(path) => ("has errors now", "hat jetzt Fehler"),
         Outcome::Added => ("new", "neu"),

@@ -145,8 +145,9 @@ impl Revision {
         Some(if place.is_file() { place } else { self.empty.clone() })
     }
 
-    /// Renames the revision's files and directories in diagnostics to `REVISION:NAME`, as Git does, also those that would be outside of the repository.
-    pub(super) fn name(&self, context: &Context, problems: &mut [Diagnostic]) {
+    /// Renames the revision's files and directories in diagnostics to `REVISION:NAME`, as Git does, including those in the temporary directory that
+    /// lie outside of the checkout.
+    pub(super) fn name_files(&self, context: &Context, problems: &mut [Diagnostic]) {
         let [checkout, _] = &self.roots;
         let temporary = checkout.parent().unwrap_or(checkout);
         let renamed = |name: &str| {
@@ -213,7 +214,7 @@ impl Checkout<'_> {
         let links: Vec<&Entry> = of_kind(EntryKind::Link).collect();
         let targets = self.repository.targets(&ids(&links))?;
         let links: Vec<(&Entry, Option<String>)> = links.into_iter().zip(targets).collect();
-        // If a drawing is a link to a file of another kind, the target is needed as well.
+        // If a drawing is a link to a file of another kind, all files are checked out, since any of them may be the target.
         let leads_elsewhere = |(entry, target): &(&Entry, Option<String>)| {
             is_drawing(Utf8Path::new(&entry.name)) && !target.as_deref().is_some_and(is_needed)
         };
@@ -290,8 +291,8 @@ fn link_to(_: &str, _: &Utf8Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Whether its name alone shows that a file is needed: a drawing, a configuration or definition of a post-processor, or an ignore file. Most other
-/// files, of which a large repository may contain many, are not checked out.
+/// Whether the name of a file alone shows that the file is needed: a drawing, a configuration or definition of a post-processor, or an ignore file.
+/// Most other files, of which a large repository may contain many, are not checked out.
 fn is_needed(name: &str) -> bool {
     let name = Utf8Path::new(name);
     let is_text =
