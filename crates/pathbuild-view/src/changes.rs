@@ -29,7 +29,7 @@ pub struct ComparedMoves {
     pub has_undivided_moves: bool,
 }
 
-/// A move, or a piece of a move of which the rest changed otherwise.
+/// A move, or a piece of a move whose other pieces changed differently.
 #[derive(Clone, Debug)]
 pub struct ComparedMove {
     /// The geometry of the move or piece.
@@ -78,9 +78,9 @@ const ORIGIN: Point = [0.0; 2];
 
 /// Compares two programs.
 ///
-/// Equal moves are ignored, except for the deepest pass along a line on which other passes changed. Among the others, a run of moves that occurs at
-/// another place is shifted. All other cuts are divided where cuts end on them, unless they are too many, and each piece is classified by comparing
-/// the final depth, the feed and the number of passes along its line in the plane.
+/// Equal moves are ignored, except for the deepest pass along a line on which other passes changed. Among the others, a run of moves that recurs at
+/// another place counts as shifted. All other cuts are divided where cuts end on them, unless they are too many, and each piece is classified by
+/// comparing the final depth, the feed and the number of passes along its line in the plane.
 pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
     let [old, new] = [old, new].map(without_standing_moves);
     let (old, new) = (&*old, &*new);
@@ -91,14 +91,14 @@ pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
     let mut divider = Divider::new(differing);
     let mut milled = |divider: &mut Divider| {
         if rows.is_empty() {
-            return [Milled::default(), Milled::default()];
+            return [MillingResults::default(), MillingResults::default()];
         }
-        sides.map(|moves| Milled::of(moves, divider, &mut identities))
+        sides.map(|moves| MillingResults::of(moves, divider, &mut identities))
     };
     let mut milling = milled(&mut divider);
     let has_undivided_moves = divider.is_exhausted();
     if has_undivided_moves {
-        // Whole moves again: what only one side divides would be a change.
+        // Compare whole moves: where only one of the programs was divided before the limit, the pieces would count as changes.
         milling = milled(&mut divider);
     }
     divider.restart();
@@ -119,9 +119,9 @@ pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
     ComparedMoves { has_undivided_moves, ..comparison.result }
 }
 
-/// Adds the moves that are in both programs, but are the deepest pass of the new one along a line with another result. Without them, a program from
-/// which the deepest passes were removed would have no changed move.
-fn with_deepest_passes(mut rows: Vec<Rows>, [old, new]: &[Milled; 2]) -> Vec<Rows> {
+/// Adds the moves that are in both programs, but are the deepest pass of the new program along a line whose result changed. Without them, a program
+/// from which the deepest passes were removed would have no changed move.
+fn with_deepest_passes(mut rows: Vec<Rows>, [old, new]: &[MillingResults; 2]) -> Vec<Rows> {
     let is_altered = |line, is| old.lines.get(line).is_some_and(|was| was.change(is).is_some());
     let altered = new.lines.iter().filter(|(line, is)| is_altered(*line, *is));
     let deepest: BTreeSet<usize> = altered.map(|(_, is)| is.deepest).collect();
@@ -137,7 +137,8 @@ fn with_deepest_passes(mut rows: Vec<Rows>, [old, new]: &[Milled; 2]) -> Vec<Row
     rows
 }
 
-/// Gives alterations along slopes that differ only in their heights the same range of heights: on a relief, each move would be a kind of its own.
+/// Gives alterations along slopes that differ only in their heights the same range of heights: otherwise, each move of a relief would have a kind of
+/// change of its own.
 fn unite_slopes(changes: &mut [Change]) {
     let slope = |kind: &ChangeKind| match *kind {
         ChangeKind::Altered { raised: [least, most], feed, passes } if least != most => {
@@ -186,8 +187,8 @@ fn without_standing_moves(moves: &[SceneMove]) -> Cow<'_, [SceneMove]> {
 struct Comparison<'a> {
     /// The moves of the old and the new program.
     sides: [&'a [SceneMove]; 2],
-    /// What the programs mill.
-    milled: [Milled; 2],
+    /// The results of the old and the new program along each line.
+    milled: [MillingResults; 2],
     identities: Identities,
     divider: Divider,
     /// Number of moves of each program that are in the result.
@@ -309,7 +310,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Returns the kind of change of an old piece; `None` if the new program mills its line, whose new pieces are classified instead.
+    /// Returns the kind of change of an old piece; `None` if the new program mills the same line: then, the new pieces there are classified instead.
     fn kind_of_old(&mut self, piece: &SceneMove) -> Option<ChangeKind> {
         let is_milled = !is_rapid(piece)
             && (self.milled[1].lines.contains_key(&self.identities.line(piece))
@@ -331,7 +332,8 @@ impl Comparison<'_> {
         was.change(is).unwrap_or(ChangeKind::Reordered)
     }
 
-    /// Returns the kind of change of a new piece that is in the old program too: if it is the deepest pass along its line, that of the line's result.
+    /// Returns the kind of change of a piece that is in both programs: if the piece is the deepest pass along its line, the change of the line's
+    /// result.
     fn kind_of_equal(&mut self, piece: &ComparedMove) -> Option<ChangeKind> {
         if is_rapid(&piece.movement) {
             return None;
@@ -368,7 +370,7 @@ pub struct Group {
 pub fn groups(compared: &ComparedMoves) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut rapids = Group { kind: None, moves: 0, length: 0.0, at: None };
-    // Number of the last move that a group counts: it may have several pieces in the group.
+    // For each group, the number of the last move that was counted: a move may have several pieces in the group.
     let mut counted: Vec<(Option<ChangeKind>, usize)> = Vec::new();
     for change in &compared.changes {
         let moves = match change.kind {
@@ -433,7 +435,8 @@ struct Line {
     middle: u32,
 }
 
-/// Numbers for points, and with them keys for moves. Points are the same within tolerances, so that rounding in programs makes no difference.
+/// Assigns numbers to points, and derives from them the keys of moves. Points are the same within tolerances, so that rounding in programs makes no
+/// difference.
 #[derive(Debug)]
 struct Identities {
     ends: Snapper,
@@ -543,13 +546,13 @@ impl MillingResult {
 
 /// The results of milling along each line in the plane that a program's moves follow. Rapid moves are ignored.
 #[derive(Debug, Default)]
-struct Milled {
+struct MillingResults {
     lines: HashMap<Line, MillingResult>,
     /// Lowest Z in mm that is milled at each end of a line.
     points: HashMap<u32, f64>,
 }
 
-impl Milled {
+impl MillingResults {
     fn of(moves: &[SceneMove], divider: &mut Divider, identities: &mut Identities) -> Self {
         let mut milled = Self::default();
         for (number, movement) in moves.iter().enumerate().filter(|(_, movement)| !is_rapid(movement)) {

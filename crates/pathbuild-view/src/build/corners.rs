@@ -2,7 +2,7 @@
 
 use crate::scene::{Corner, Point, Shape};
 
-/// Returns the inner corners of rings at which a stretch begins or ends that the cutter does not reach. `radius` is that of the cutter.
+/// Returns the inner corners of rings at which an unreached stretch of the outline begins or ends. `radius` is that of the cutter, in mm.
 pub(super) fn unreached(rings: &[Vec<Shape>], stretches: &[Shape], radius: f64) -> Vec<Corner> {
     let of_ring = |ring: &Vec<Shape>| {
         let next = ring.iter().cycle().skip(1);

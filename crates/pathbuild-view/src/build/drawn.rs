@@ -241,7 +241,7 @@ pub fn outline(curves: &[Curve]) -> Vec<Shape> {
     curves.iter().map(curve_shape).collect()
 }
 
-/// Whether two shapes of the same entity are equal. Circles are compared by their centres only, because those of markers get a fixed radius.
+/// Whether two shapes of the same entity are equal. Circles are compared by their centres only, because the circles of markers get a fixed radius.
 fn is_same(a: &DrawnShape, b: &DrawnShape) -> bool {
     match (a, b) {
         (DrawnShape::Circle { centre: a, .. }, DrawnShape::Circle { centre: b, .. }) => a == b,

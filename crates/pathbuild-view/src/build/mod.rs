@@ -16,7 +16,7 @@ pub use program::{EmittedText, GcodeSource, ProgramSource, gcode_path, program_p
 
 impl Scene {
     /// Sets the findings of a scene. `file` is the drawing shown. A finding about a parameter text is placed at that text; one about a finished part
-    /// at what is wrong with the part; one about an element at the middle of the element.
+    /// at the defect of the part; one about an element at the middle of the element.
     pub fn set_findings(&mut self, diagnostics: &[Diagnostic], file: &str) {
         let mut findings = findings(diagnostics, file);
         let places = self.places(file);
@@ -58,7 +58,7 @@ impl Places<'_> {
     }
 
     /// Returns the place at which a part, or a support bar of it, is not as drawn. The finding's own place is the element that cuts there, which may
-    /// be far away: the element of a project embeds a whole path. A message about a drawing that is embedded in the one shown has the coordinates of
+    /// be far away: the element of a project embeds a whole path. `None` for a finding about an embedded drawing, whose coordinates are those of
     /// another program.
     fn damage(&self, diagnostic: &Diagnostic) -> Option<Point> {
         diagnostic.file.as_ref().filter(|found| *found == self.file && diagnostic.trace.is_empty())?;

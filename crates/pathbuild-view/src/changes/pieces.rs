@@ -185,7 +185,7 @@ impl Divider {
             step += 1.0;
             self.searched += 1;
             let to = point(step);
-            // An eighth of a circle is at most a tenth of its chord away from it.
+            // An eighth of a circle deviates from its chord by at most a tenth of the chord's length.
             let margin = CURVE_TOLERANCE + 0.1 * libm::hypot(to[0] - from[0], to[1] - from[1]);
             let cell = |at: f64| floor(at / self.cell_size);
             let [xs, ys] = [0, 1].map(|axis| {
@@ -222,7 +222,7 @@ fn shares_nearest_to(way: &Move, point: Point) -> impl Iterator<Item = f64> + us
     times.take_while(move |share| *share < 1.0 - margin).filter(move |share| *share > margin)
 }
 
-/// Returns the shape of a piece, which ends before or when the move has turned once.
+/// Returns the shape of a piece of a move. A piece makes at most one full turn.
 fn single_turn(shape: MoveShape) -> MoveShape {
     match shape {
         MoveShape::Arc(arc) => MoveShape::Arc(pathbuild_motion::Arc { extra_turns: 0, ..arc }),

@@ -45,7 +45,7 @@ pub enum Picture {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Pair<'a> {
+struct ChangesPicture<'a> {
     compared: &'a ComparedMoves,
     /// The groups of changes, which are the entries of the legend.
     groups: &'a [Group],
@@ -57,26 +57,26 @@ pub fn changes_svg(compared: &ComparedMoves, picture: Picture, lang: Lang) -> St
     let frame = frame(old.iter().chain(new).map(|compared| &compared.movement));
     let place = frame.of_drawing();
     let groups = groups(compared);
-    let pair = Pair { compared, groups: &groups };
+    let changes_picture = ChangesPicture { compared, groups: &groups };
     let legend = if picture == Picture::Changes { groups.len() as f64 * LINE_HEIGHT } else { 0.0 };
     let mut canvas = Canvas::new(Frame::WIDTH, frame.bottom() + legend);
     canvas.open("fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
     match picture {
         Picture::Old => stroke_all(&mut canvas, old, &place, REMOVED_COLOUR),
         Picture::New => stroke_all(&mut canvas, new, &place, ADDED_COLOUR),
-        Picture::Changes => pair.draw(&mut canvas, &place),
+        Picture::Changes => changes_picture.draw(&mut canvas, &place),
     }
     canvas.close();
     if picture == Picture::Changes {
         for (index, group) in groups.iter().enumerate() {
-            let style = pair.has_line(group).then(|| Style::of(group.kind, &groups));
+            let style = changes_picture.has_line(group).then(|| Style::of(group.kind, &groups));
             entry(&mut canvas, group, style, frame.bottom() + index as f64 * LINE_HEIGHT, lang);
         }
     }
     canvas.finish()
 }
 
-impl Pair<'_> {
+impl ChangesPicture<'_> {
     /// Draws unchanged moves in grey, and changed moves on top.
     fn draw(&self, canvas: &mut Canvas, place: &PageTransform) {
         let mut is_changed = vec![false; self.compared.new.len()];

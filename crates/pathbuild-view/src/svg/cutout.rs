@@ -102,8 +102,8 @@ fn window(spot: &FindingPlace) -> [Point; 2] {
     [[0, 1].map(|axis| middle[axis] - half[axis]), [0, 1].map(|axis| middle[axis] + half[axis])]
 }
 
-/// Returns the elements, texts and clamps of a scene that lie in an area. With the others, the picture of each finding would contain the
-/// whole drawing.
+/// Returns the elements, texts and clamps of a scene that lie in an area. Without this selection, the picture of each finding would contain the whole
+/// drawing.
 fn scene_near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
     let is_in = |[from, to]: [Point; 2]| (0..2).all(|axis| from[axis] <= high[axis] && to[axis] >= low[axis]);
     let is_near = |shape: &Shape| is_in(shape.extent());

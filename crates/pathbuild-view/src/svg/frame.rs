@@ -252,7 +252,7 @@ impl OccupiedSpace {
 
     /// Like [`occupy_beside`](Self::occupy_beside), but also tries positions farther away. If all are occupied, the label is placed where it
     /// overlaps least.
-    pub(super) fn beside(&mut self, at: Point, preferred: Point, size: f64, text: &str) -> Point {
+    pub(super) fn place_beside(&mut self, at: Point, preferred: Point, size: f64, text: &str) -> Point {
         let (starts, candidates) = candidates_beside(at, preferred, size, text);
         let cost = |number: &usize| {
             (self.occupied_cells(candidates[*number]), self.crossed_length(candidates[*number]))

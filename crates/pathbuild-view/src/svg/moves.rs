@@ -15,7 +15,7 @@ const MIN_ARROW_LENGTH: f64 = 26.0;
 /// Number of lines that replace an arc whose plane is not XY.
 const PIECES_PER_ARC: u32 = 24;
 
-/// All moves along one line, regardless of direction. It has the direction of the first move and the depth of the deepest one.
+/// All moves along one line, regardless of direction. The line has the direction of the first move and the depth of the deepest one.
 pub(super) struct CutLine<'a> {
     way: &'a SceneMove,
     depth: Option<f64>,

@@ -19,8 +19,8 @@ use crate::scene::{FinishedPart, Point, Scene, ScenePath, Tip};
 use hits::hits;
 use parts::{draw_corners, draw_defects, draw_leftovers};
 use strokes::{
-    Cut, MovePiece, SLOPE_STEPS, Stroke, StrokeBuilder, StrokeKind, SweptArea, cuts, cutting_conditions,
-    is_known, low_rapids, number, raise_edges, sort, swept_area,
+    MovePiece, SLOPE_STEPS, StockMove, Stroke, StrokeBuilder, StrokeKind, SweptArea, cuts,
+    cutting_conditions, is_known, low_rapids, number, raise_edges, sort, swept_area,
 };
 
 const UNTOUCHED_COLOUR: &str = "#dbbd85";
@@ -77,7 +77,7 @@ impl<'s> MilledStock<'s> {
         for cut in cuts(scene) {
             let Some(extent) = cut.extent() else { continue };
             match blanks.iter_mut().find(|(_, top)| *top == cut.setting.top) {
-                Some((blank, _)) => *blank = joined(*blank, extent),
+                Some((blank, _)) => *blank = enclosing_box(*blank, extent),
                 None => blanks.push((extent, cut.setting.top)),
             }
             low = cut.movement.depth().map_or(low, |z| low.min(z));
@@ -87,7 +87,7 @@ impl<'s> MilledStock<'s> {
         // Extend the stock to the rapid moves below every upper face: if the real stock reaches that far, they run through material.
         if let Some((blank, top)) = blanks.first_mut() {
             for extent in low_rapids(scene, *top).filter_map(|rapid| rapid.extent()) {
-                *blank = joined(*blank, extent);
+                *blank = enclosing_box(*blank, extent);
             }
         }
         let low = if count > 0 { low } else { 0.0 };
@@ -97,7 +97,7 @@ impl<'s> MilledStock<'s> {
             (0..).zip(&scene.paths).flat_map(|(index, path)| hits(scene, path, index, &blanks)).collect();
         let band = step.max((top - low) * count as f64 / MAX_ROUND_STROKES);
         let mut painter = StrokeBuilder { strokes: Vec::with_capacity(2 * count), step, band };
-        for Cut { at, movement, setting, .. } in cuts(scene) {
+        for StockMove { at, movement, setting, .. } in cuts(scene) {
             painter.cut(at, &movement.way, &setting);
         }
         let mut strokes = painter.strokes;
@@ -180,16 +180,16 @@ impl<'s> MilledStock<'s> {
         ));
         let middle = self.strokes.partition_point(|stroke| stroke.kind < StrokeKind::ThroughEdge);
         self.strokes(canvas, &place, &self.strokes[..middle]);
-        self.parts(|part, path, number| {
+        self.each_part(|part, path, number| {
             draw_leftovers(canvas, part, &frame.of_path(path), &format!("{id}-outside-{number}"));
         });
         if self.has_corners {
-            self.parts(|part, path, number| {
+            self.each_part(|part, path, number| {
                 draw_corners(canvas, part, &frame.of_path(path), &format!("{id}-corners-{number}"));
             });
         }
         self.strokes(canvas, &place, &self.strokes[middle..]);
-        self.parts(|part, path, number| {
+        self.each_part(|part, path, number| {
             draw_defects(canvas, part, &frame.of_path(path), &format!("{id}-inside-{number}"));
         });
         let hits: Vec<SweptArea> = self.hits.iter().map(|hit| swept_area(&self.paths, *hit)).collect();
@@ -200,7 +200,7 @@ impl<'s> MilledStock<'s> {
         canvas.close();
         draw_uncut_parts(canvas, self.scene, &place);
         canvas.open(&format!("fill=\"none\" stroke=\"{OUTLINE_COLOUR}\" stroke-width=\"1.2\""));
-        self.parts(|part, path, _| {
+        self.each_part(|part, path, _| {
             for ring in &part.rings {
                 canvas.path(&symbols::outline(ring, &frame.of_path(path)), "");
             }
@@ -247,7 +247,7 @@ impl<'s> MilledStock<'s> {
         depth_color(((top - z) / (top - low).max(1e-6)).clamp(0.0, 1.0))
     }
 
-    fn parts(&self, mut each: impl FnMut(&FinishedPart, &ScenePath, usize)) {
+    fn each_part(&self, mut each: impl FnMut(&FinishedPart, &ScenePath, usize)) {
         let parts = self.scene.paths.iter().flat_map(|path| path.parts.iter().map(move |part| (part, path)));
         for (number, (part, path)) in parts.enumerate() {
             each(part, path, number);
@@ -433,7 +433,7 @@ fn rectangle(place: &PageTransform, corners: [Point; 2]) -> String {
     format!("M{left} {top}H{right}V{bottom}H{left}Z")
 }
 
-fn joined(blank: [Point; 2], extent: [Point; 2]) -> [Point; 2] {
+fn enclosing_box(blank: [Point; 2], extent: [Point; 2]) -> [Point; 2] {
     let mut corners = Some(blank);
     widen(&mut corners, extent);
     corners.unwrap_or(blank)

@@ -166,7 +166,7 @@ pub(super) fn draw_texts(
     let is_start = |index: &u32| path.elements[*index as usize].kind == ElementKind::Start;
     let is_shown = |label: &&Label| label.path == 0 || !label.elements.iter().any(is_start);
     let mut labels: Vec<&Label> = path.texts.iter().filter(is_shown).collect();
-    // Place short texts first. They keep their positions, so that a circle around a text encloses it; long texts give way.
+    // Place short texts first. They keep their positions, so that the circle of a text still encloses the text; long texts give way.
     labels.sort_by_key(|label| longest_line(label));
     for label in labels {
         let lines: Vec<&str> = label.text.lines().collect();
@@ -247,7 +247,7 @@ fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &m
         let label = probe.label.as_deref().map(|label| format!(" {label}")).unwrap_or_default();
         let (style, label) =
             (format!("stroke=\"none\" fill=\"{PROBE_COLOUR}\""), format!("#{}{label}", probe.number));
-        let at = room.beside(at, [size + 2.0, -3.0], 9.0, &label);
+        let at = room.place_beside(at, [size + 2.0, -3.0], 9.0, &label);
         canvas.text(at, 9.0, Anchor::Start, &style, &label);
     }
     canvas.close();
@@ -486,7 +486,7 @@ const ARC_PIECES: u32 = 8;
 
 fn label(canvas: &mut Canvas, room: &mut OccupiedSpace, at: Point, offset: Point, text: &str, color: &str) {
     let halo = "stroke=\"#fff\" stroke-width=\"2.5\" paint-order=\"stroke\"";
-    let at = room.beside(at, offset, 9.5, text);
+    let at = room.place_beside(at, offset, 9.5, text);
     canvas.text(at, 9.5, Anchor::Start, &format!("fill=\"{color}\" {halo}"), text);
 }
 
@@ -525,7 +525,7 @@ pub(super) fn findings(
         let numbers = numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
         let halo = "stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\" font-weight=\"bold\"";
         let style = format!("fill=\"{color}\" {halo}");
-        let at = room.beside(at, [12.0, -11.0], 13.0, &numbers);
+        let at = room.place_beside(at, [12.0, -11.0], 13.0, &numbers);
         canvas.text(at, 13.0, Anchor::Start, &style, &numbers);
     }
     canvas.close();

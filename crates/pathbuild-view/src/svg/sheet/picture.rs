@@ -189,7 +189,7 @@ impl PlacedPicture {
         symbols::findings(canvas, &sheet.scene, &frame, &mut room, sheet.scene.findings.len());
         canvas.close();
         if let Some(box_) = removed_box(sheet) {
-            draw(canvas, box_, &place, [left, bottom]);
+            draw_dimensions(canvas, box_, &place, [left, bottom]);
         }
         if self.has_inset {
             self.inset(canvas, sheet, lang);
@@ -293,7 +293,7 @@ const DIMENSION_DISTANCE: f64 = 22.0;
 
 /// Draws the dimensions of the removed material: its size, and the coordinates of its edges. The dimension lines are to the left of `left` and below
 /// `bottom`, which are positions on the page.
-pub(super) fn draw(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransform, [left, bottom]: Point) {
+fn draw_dimensions(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransform, [left, bottom]: Point) {
     let ([x0, y1], [x1, y0]) = (place.to_page(low), place.to_page(high));
     canvas.open(&format!("id=\"measures\" fill=\"none\" stroke=\"{INK_COLOUR}\" stroke-width=\"0.7\""));
     canvas.raw(&format!(

@@ -39,20 +39,20 @@ pub(super) fn checks(sheet: &Sheet, lang: Lang) -> Vec<String> {
     distinct(raised.iter().map(|run| run.heights)).into_iter().flat_map(sentences).collect()
 }
 
-/// Returns the number of different heights of milled material: those at which it lies, and those of its upper face.
+/// Returns the number of different positions of milled material in Z, each given by the heights of its lower and its upper face.
 pub(super) fn height_count(sheet: &Sheet) -> usize {
     distinct(sheet.scene.paths.iter().flat_map(runs).map(|run| run.heights)).len()
 }
 
 /// Returns the materials (M) of the paths and of the milled pieces, each once.
 pub(super) fn materials(sheet: &Sheet) -> Vec<&str> {
-    distinct(sheets(sheet).into_iter().filter_map(|(material, _)| material))
+    distinct(materials_with_thickness(sheet).into_iter().filter_map(|(material, _)| material))
 }
 
-/// Returns the distinct thicknesses (T) in mm of the paths and of the milled pieces that are of a material, or of all if it is `None`, in ascending
-/// order.
+/// Returns the distinct thicknesses (T) in mm of the paths and of the milled pieces, in ascending order: only those of this material, or all if
+/// `material` is `None`.
 pub(super) fn thicknesses(sheet: &Sheet, material: Option<&str>) -> Vec<f64> {
-    let sheets = sheets(sheet).into_iter();
+    let sheets = materials_with_thickness(sheet).into_iter();
     let of_material = sheets.filter(|(other, _)| material.is_none() || *other == material);
     let mut thicknesses = distinct(of_material.filter_map(|(_, thickness)| thickness));
     thicknesses.sort_by(f64::total_cmp);
@@ -60,7 +60,7 @@ pub(super) fn thicknesses(sheet: &Sheet, material: Option<&str>) -> Vec<f64> {
 }
 
 /// Returns M and T in mm of the paths and of the milled pieces.
-fn sheets(sheet: &Sheet) -> Vec<(Option<&str>, Option<f64>)> {
+fn materials_with_thickness(sheet: &Sheet) -> Vec<(Option<&str>, Option<f64>)> {
     let paths = sheet.scene.paths.iter();
     let pieces = paths.clone().flat_map(runs);
     let pieces = pieces.map(|run| (run.material, Some(rounded(run.heights[1] - run.heights[0]))));

@@ -5,7 +5,7 @@ use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapid_hits};
 use pathbuild_motion::{Move, MoveShape, Pace, Position, Step};
 
 use super::strokes::{CuttingConditions, MovePiece, Piece, cutting_conditions};
-use super::{Blank, joined};
+use super::{Blank, enclosing_box};
 use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath};
 
 /// Length, in cutter diameters, of the pieces of a rapid move that are checked for material.
@@ -15,10 +15,11 @@ const SEARCH_PIECE: f64 = 0.25;
 const MAX_PIECES: f64 = 400.0;
 
 /// Returns the pieces of a path's rapid moves that hit material. `index` is that of the path. Several blanks, whose upper faces are in ascending
-/// order, may overlap: away from cuts, there is certainly material up to the lowest upper face only.
+/// order, may overlap: away from cuts, material is certain only up to the lowest of their upper faces.
 pub(super) fn hits(scene: &Scene, path: &ScenePath, index: u32, blanks: &[Blank]) -> Vec<MovePiece> {
     let Some((_, lowest)) = blanks.first() else { return Vec::new() };
-    let everywhere = blanks.iter().map(|(corners, _)| *corners).reduce(joined).map(|all| (all, *lowest));
+    let everywhere =
+        blanks.iter().map(|(corners, _)| *corners).reduce(enclosing_box).map(|all| (all, *lowest));
     let mut hits = hits_in(scene, path, index, everywhere);
     if blanks.len() > 1 {
         hits.extend(hits_in(scene, path, index, None));
@@ -55,7 +56,7 @@ struct HitSearch<'s> {
     path: &'s ScenePath,
     /// Z in mm of the highest upper face.
     highest: f64,
-    /// A move that makes the blank known, and its stock.
+    /// A move that makes the blank known to the search (see [`move_touching_blank`]), and its stock.
     touch: Option<(Move, StockSpan)>,
 }
 
@@ -68,7 +69,7 @@ impl HitSearch<'_> {
             && movement.depth().is_some_and(|z| z < self.highest)
     }
 
-    /// Passes on each piece with the number of its step, which is 1 for the move that touches the blank.
+    /// Passes each piece to `take`, with the number of its step, which is 1 for the move that touches the blank.
     fn each_piece(&self, take: &mut dyn FnMut(u32, &Move, Option<FoundPiece<'_>>)) {
         let mut last = 0;
         if let Some((way, _)) = &self.touch {

@@ -87,7 +87,7 @@ impl SweptArea {
         [first[0], first[1], last[0], last[1], x, y, i64::from(is_clockwise), diameter]
     }
 
-    /// Returns the keys of the area and of the discs at its ends, which a plunge sweeps alone.
+    /// Returns the keys of the area and of the discs at its ends. A plunge sweeps only such a disc.
     pub(super) fn keys(&self) -> [[i64; 8]; 3] {
         let disc = |end: Position| {
             let way = Move { from: end, to: end, shape: MoveShape::Line, ..self.way };
@@ -102,7 +102,7 @@ impl Stroke {
         SweptArea { diameter: self.diameter, ..swept_area(paths, self.at) }
     }
 
-    /// Returns the height that remains after the cut. All cuts through the material have the same height.
+    /// Returns the Z in mm of the ground after the cut. All cuts through the material count as equally deep.
     pub(super) fn height(&self) -> f64 {
         if self.kind >= StrokeKind::ThroughEdge { f64::NEG_INFINITY } else { self.z }
     }
@@ -169,14 +169,14 @@ pub(super) fn swept_area(paths: &[&ScenePath], MovePiece { path, movement, piece
 }
 
 /// A move that has a known place and known material.
-pub(super) struct Cut<'s> {
+pub(super) struct StockMove<'s> {
     pub(super) path: &'s ScenePath,
     pub(super) movement: &'s SceneMove,
     pub(super) at: MovePiece,
     pub(super) setting: CuttingConditions,
 }
 
-impl Cut<'_> {
+impl StockMove<'_> {
     /// Returns the corners of the stock that the move needs, in the coordinates of the drawing: the cutter's diameter around it.
     pub(super) fn extent(&self) -> Option<[Point; 2]> {
         let [from, to] = self.movement.extent()?;
@@ -188,12 +188,12 @@ impl Cut<'_> {
     }
 }
 
-pub(super) fn cuts(scene: &Scene) -> impl Iterator<Item = Cut<'_>> {
+pub(super) fn cuts(scene: &Scene) -> impl Iterator<Item = StockMove<'_>> {
     moves(scene).filter(|cut| cut.movement.kind.cuts())
 }
 
 /// Returns the rapid moves that go below both this upper face and the upper face of the stock that applies to them.
-pub(super) fn low_rapids(scene: &Scene, top: f64) -> impl Iterator<Item = Cut<'_>> {
+pub(super) fn low_rapids(scene: &Scene, top: f64) -> impl Iterator<Item = StockMove<'_>> {
     moves(scene).filter(move |cut| {
         matches!(cut.movement.kind, MoveKind::Sweep | MoveKind::Lift)
             && cut.movement.depth().is_some_and(|z| z < top.min(cut.setting.top))
@@ -201,14 +201,14 @@ pub(super) fn low_rapids(scene: &Scene, top: f64) -> impl Iterator<Item = Cut<'_
 }
 
 /// Returns the moves with a known place, cutter and material.
-fn moves(scene: &Scene) -> impl Iterator<Item = Cut<'_>> {
+fn moves(scene: &Scene) -> impl Iterator<Item = StockMove<'_>> {
     let all = (0..).zip(&scene.paths).flat_map(|(index, path)| {
         (0..).zip(&path.moves).map(move |(movement, way)| (index, path, movement, way))
     });
     let known = all.filter(|(.., movement)| is_known(&movement.way) && movement.extent().is_some());
     known.filter_map(move |(index, path, number, movement)| {
         let at = MovePiece { path: index, movement: number, piece: Piece::Whole };
-        Some(Cut { path, movement, at, setting: cutting_conditions(scene, path, movement)? })
+        Some(StockMove { path, movement, at, setting: cutting_conditions(scene, path, movement)? })
     })
 }
 
