@@ -172,9 +172,9 @@ impl Error {
     pub(crate) fn from_failure(failure: Failure) -> Self {
         match failure {
             Failure::Usage(reason) => Self::Refused(reason),
-            Failure::Refused(faults) => Self::Baseline(unchanged(faults)),
-            Failure::Post(found) => Self::Post(unchanged(found)),
-            Failure::Found(found) => Self::Findings(unchanged(found)),
+            Failure::Refused(faults) => Self::Baseline(with_own_severities(faults)),
+            Failure::Post(found) => Self::Post(with_own_severities(found)),
+            Failure::Found(found) => Self::Findings(with_own_severities(found)),
         }
     }
 
@@ -188,7 +188,7 @@ impl Error {
 }
 
 /// Converts the errors that prevent a result, whose severities the configuration cannot change.
-fn unchanged(diagnostics: Vec<Diagnostic>) -> Vec<Finding> {
+fn with_own_severities(diagnostics: Vec<Diagnostic>) -> Vec<Finding> {
     Finding::reported_and_accepted(Findings::new(diagnostics)).0
 }
 

@@ -1,10 +1,10 @@
 //! pathbuild as a library: checks drawings of milling paths and compiles them to G-code.
 //!
-//! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It offers what the command-line program does, whose
-//! commands `check`, `emit`, `list` and `verify` ask a library themselves: it checks the drawings ([`check`](Library::check)), lists their
-//! paths ([`paths`](Library::paths)), returns the moves of a path ([`path`](Library::path)) and its G-code ([`program`](Library::program)),
-//! writes programs ([`emit`](Library::emit)), tells which path embeds which ([`embedders`](Library::embedders)), verifies programs of any
-//! origin ([`verify`](Library::verify)), and checks again whenever a drawing changes ([`watch`](Library::watch)).
+//! A [`Library`] is a directory of drawings with the `pathbuild.toml` that applies there. It offers what the command-line program does; the program's
+//! own commands `check`, `emit`, `list` and `verify` use it. It checks the drawings ([`check`](Library::check)), lists their paths
+//! ([`paths`](Library::paths)), returns the moves of a path ([`path`](Library::path)) and its G-code ([`program`](Library::program)), writes programs
+//! ([`emit`](Library::emit)), tells which path embeds which ([`embedders`](Library::embedders)), verifies programs of any origin
+//! ([`verify`](Library::verify)), and checks again whenever a drawing changes ([`watch`](Library::watch)).
 //!
 //! ```
 //! use pathbuild_api::{Error, Lang, Library};
@@ -15,7 +15,7 @@
 //!     println!("{} {}", finding.code(), finding.message(Lang::En));
 //! }
 //! let path = library.path("8001.1P")?;
-//! let fastest = path.moves.iter().filter_map(|it| it.feed).fold(0.0, f64::max);
+//! let fastest = path.moves.iter().filter_map(|movement| movement.feed).fold(0.0, f64::max);
 //! println!("{}: {} moves, at most {fastest} mm/min", path.name, path.moves.len());
 //! # assert!(fastest > 0.0);
 //! # Ok(())

@@ -26,8 +26,8 @@ pub struct Path {
     pub zero: [f64; 2],
     /// The elements on the layers of the path and of the paths that it embeds.
     pub elements: Vec<Element>,
-    /// The tool's moves, in order. Empty if errors leave them unknown. Cuts into parts, support bars and clamps do not, so that these moves can be
-    /// displayed.
+    /// The tool's moves, in order. Empty if errors leave them unknown. Errors about cuts into parts, support bars or clamps do not, so that these
+    /// moves can be displayed.
     pub moves: Vec<Move>,
     /// Lengths and times; `None` if the path has errors, so that there is no program.
     pub statistics: Option<Statistics>,

@@ -129,8 +129,8 @@ pub struct EmitReport {
     pub left_out: Vec<LeftOutElements>,
     /// Names of the files that were removed because they were stale.
     pub removed: Vec<String>,
-    /// Names of stale programs that are reported as errors (PB520), as a comparison does: programs of earlier drawings, or adjusted ones that no
-    /// longer match the program of their path.
+    /// Names of stale programs, which a comparison reports as errors (PB520): programs of earlier drawings, or adjusted ones that no longer match the
+    /// program of their path.
     pub outdated: Vec<String>,
     /// Commands that the post-processor requests for files that were written. See [`EmitOptions::post_builds`](crate::EmitOptions::post_builds).
     pub post_builds: Vec<PostBuild>,
@@ -331,7 +331,7 @@ pub struct GraphReport {
     pub findings: Vec<Finding>,
 }
 
-/// A path and another path that it embeds directly, or whose parameters it has by @.
+/// A path and another path that it embeds directly, or from which it takes parameters by @.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub struct GraphEdge {

@@ -51,17 +51,17 @@ pub(crate) fn with_absolute_paths(workspace: &Workspace) -> Workspace {
 pub(crate) struct ReportForwarder<'w, F> {
     /// The workspace of the library, which names files relative to its directory.
     workspace: &'w Workspace,
-    seen: RefCell<F>,
+    on_report: RefCell<F>,
     bell: RefCell<Option<WakeHandle>>,
 }
 
 impl<'w, F: FnMut(WatchReport) -> bool> ReportForwarder<'w, F> {
-    pub(crate) fn new(workspace: &'w Workspace, seen: F) -> Self {
-        Self { workspace, seen: RefCell::new(seen), bell: RefCell::default() }
+    pub(crate) fn new(workspace: &'w Workspace, on_report: F) -> Self {
+        Self { workspace, on_report: RefCell::new(on_report), bell: RefCell::default() }
     }
 
     fn forward(&self, report: WatchReport) {
-        let goes_on = (self.seen.borrow_mut())(report);
+        let goes_on = (self.on_report.borrow_mut())(report);
         if let Some(bell) = self.bell.borrow().as_ref().filter(|_| !goes_on) {
             bell.end();
         }
