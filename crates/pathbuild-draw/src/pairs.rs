@@ -149,8 +149,8 @@ impl StringPlaceholders {
         }
     }
 
-    fn original_string(&self, ticket: &str) -> Option<&str> {
-        let number = ticket.strip_prefix('<')?.strip_suffix('>')?;
+    fn original_string(&self, placeholder: &str) -> Option<&str> {
+        let number = placeholder.strip_prefix('<')?.strip_suffix('>')?;
         self.strings.get(number.parse::<usize>().ok()?).map(String::as_str)
     }
 }

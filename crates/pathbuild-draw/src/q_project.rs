@@ -117,7 +117,7 @@ fn place_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>
         pieces: vec![element.shape],
     };
     let candidates: Vec<Candidate> = elements.iter().enumerate().map(candidate).collect();
-    let mut seats = TextPositions::new(&candidates);
+    let mut positions = TextPositions::new(&candidates);
     let mut errors = Vec::new();
     let mut placed = Vec::new();
     for (index, element) in elements.iter().enumerate() {
@@ -125,12 +125,16 @@ fn place_texts<'a>(elements: &[Element<'a>]) -> Result<Vec<Option<PlacedText<'a>
         placed.push(text.and_then(|text| {
             let lines: Vec<&str> = text.split('\n').collect();
             let extent = |height| TextSize::of_mtext(&lines, height);
-            let seat =
-                seats.find_position(index, &candidates[index].layer, &letter_heights(LETTER_HEIGHT), extent);
-            if seat.is_none() {
+            let position = positions.find_position(
+                index,
+                &candidates[index].layer,
+                &letter_heights(LETTER_HEIGHT),
+                extent,
+            );
+            if position.is_none() {
                 errors.push(no_space_message(&escaped(text)));
             }
-            let (centre, extent, height) = seat?;
+            let (centre, extent, height) = position?;
             let corner = Point::new(centre.x - extent.width / 2.0, centre.y + extent.height / 2.0);
             Some(PlacedText { text, corner, height })
         }));
@@ -145,16 +149,16 @@ const DXF_TEMPLATE: &str = include_str!("frame.txt");
 /// Handle of the first entity.
 const FIRST_HANDLE: u64 = 0x100;
 
-/// The number in [`DXF_TEMPLATE`] of the handles of the first layer, of the plot style of layers, of the table of layers, and of model space,
-/// which comes after the layers.
+/// The numbers in [`DXF_TEMPLATE`] of the handles of the first layer, of the plot style of layers, of the table of layers, and of model space, which
+/// is numbered after the layers.
 const FIRST_LAYER_HANDLE: u64 = 31;
 const PLOT_STYLE_HANDLE: u64 = 10;
 const LAYER_TABLE_HANDLE: u64 = 30;
 const MODEL_SPACE_HANDLE: u64 = 40;
 
 fn to_dxf(layers: &[&str], elements: &[Element<'_>], texts: &[Option<PlacedText<'_>>]) -> Vec<u8> {
-    let mut tickets = StringPlaceholders::default();
-    let written = entities(elements, texts, &mut tickets);
+    let mut placeholders = StringPlaceholders::default();
+    let written = entities(elements, texts, &mut placeholders);
     let after_entities = FIRST_HANDLE + (elements.len() + texts.iter().flatten().count()) as u64;
     let after_layers = after_entities + layers.len() as u64;
     let number = |text: &str| text.parse::<u64>().unwrap_or_default();
@@ -171,7 +175,7 @@ fn to_dxf(layers: &[&str], elements: &[Element<'_>], texts: &[Option<PlacedText<
             }
             Some("entities") => {
                 let owner = after_layers + MODEL_SPACE_HANDLE;
-                pairs.extend(entity_pairs(&written, &tickets, owner));
+                pairs.extend(entity_pairs(&written, &placeholders, owner));
             }
             Some(handle) => {
                 let handle = match handle.strip_prefix('+') {
@@ -206,7 +210,7 @@ fn layer(name: &str, handle: u64, after_entities: u64) -> Record<'_> {
 fn entities(
     elements: &[Element<'_>],
     texts: &[Option<PlacedText<'_>>],
-    tickets: &mut StringPlaceholders,
+    placeholders: &mut StringPlaceholders,
 ) -> String {
     let mut drawing = Drawing::new();
     drawing.clear();
@@ -214,9 +218,9 @@ fn entities(
     for (element, text) in elements.iter().zip(texts) {
         let mut entity = Entity::new(shape(&element.shape));
         element.line_type.clone_into(&mut entity.common.line_type_name);
-        let text = text.as_ref().map(|text| Entity::new(mtext(text, tickets)));
+        let text = text.as_ref().map(|text| Entity::new(mtext(text, placeholders)));
         for mut entity in std::iter::once(entity).chain(text) {
-            entity.common.layer = tickets.placeholder_for(element.layer);
+            entity.common.layer = placeholders.placeholder_for(element.layer);
             entity.common.lineweight_enum_value = -1;
             drawing.add_entity(entity);
         }
@@ -240,7 +244,7 @@ fn shape(shape: &ElementPart) -> EntityType {
     }
 }
 
-fn mtext(placed: &PlacedText<'_>, tickets: &mut StringPlaceholders) -> EntityType {
+fn mtext(placed: &PlacedText<'_>, placeholders: &mut StringPlaceholders) -> EntityType {
     let mut chunks = chunks(&escaped(placed.text), CHUNK);
     let last = chunks.pop().unwrap_or_default();
     EntityType::MText(CrateMText {
@@ -248,21 +252,21 @@ fn mtext(placed: &PlacedText<'_>, tickets: &mut StringPlaceholders) -> EntityTyp
         initial_text_height: placed.height,
         reference_rectangle_width: 0.0,
         attachment_point: AttachmentPoint::TopLeft,
-        extended_text: chunks.iter().map(|chunk| tickets.placeholder_for(chunk)).collect(),
-        text: tickets.placeholder_for(&last),
+        extended_text: chunks.iter().map(|chunk| placeholders.placeholder_for(chunk)).collect(),
+        text: placeholders.placeholder_for(&last),
         ..Default::default()
     })
 }
 
 /// Returns the entities in the crate's output, corrected, with handles and owner.
-fn entity_pairs<'a>(written: &'a str, tickets: &'a StringPlaceholders, owner: u64) -> Vec<Pair<'a>> {
+fn entity_pairs<'a>(written: &'a str, placeholders: &'a StringPlaceholders, owner: u64) -> Vec<Pair<'a>> {
     let records = records(written).into_iter();
     let entities = records
         .skip_while(|record| kind(record) != "SECTION" || value(record, 2) != Some("ENTITIES"))
         .skip(1)
         .take_while(|record| kind(record) != "ENDSEC");
     let corrected = entities.zip(FIRST_HANDLE..).flat_map(|(mut record, handle)| {
-        tickets.restore_strings(&mut record);
+        placeholders.restore_strings(&mut record);
         remove_unwanted_pairs(&mut record);
         if kind(&record) == "MTEXT" {
             reduce_mtext(&mut record, &[50]);

@@ -182,19 +182,20 @@ impl<'a> TextPositions<'a> {
             return None;
         }
         let rules: [Rule<'a>; 2] = [Self::is_clear_of_others, Self::is_assigned_by_rules];
-        let seat = rules.iter().find_map(|rule| {
+        let position = rules.iter().find_map(|rule| {
             heights.iter().find_map(|height| {
                 let extent = extent(*height);
-                let mut seats = self.candidates[target]
+                let mut positions = self.candidates[target]
                     .pieces
                     .iter()
                     .flat_map(|piece| piece.text_positions(extent.radius));
-                let centre = seats.find(|seat| rule(self, target, layer, *seat, extent.radius))?;
+                let centre =
+                    positions.find(|position| rule(self, target, layer, *position, extent.radius))?;
                 Some((centre, extent, *height))
             })
         });
-        self.taken[target] |= seat.is_some();
-        seat
+        self.taken[target] |= position.is_some();
+        position
     }
 
     /// Whether the circle overlaps the target and keeps well clear of all other elements on the layer that take texts.
