@@ -136,10 +136,10 @@ impl OpenedFiles {
     fn index(&self, file: &str) -> Vec<Value> {
         let whole = Place { file: file.to_owned(), path: None };
         if let Some(problem) = self.lost.get(&whole) {
-            return self.of_drawing(vec![problem.clone()]).into_iter().collect();
+            return self.drawing_row(vec![problem.clone()]).into_iter().collect();
         }
         let (db, file) = (self.session.db(), self.file(file));
-        let whole = self.of_drawing(check_file(db, file).to_vec());
+        let whole = self.drawing_row(check_file(db, file).to_vec());
         let mut targets = TargetPatterns::new(&self.session.workspace().settings);
         let rows = path_names(db, file).iter().map(
             |name| json!({ "path": name.as_str(), "emitted": self.is_emitted(&mut targets, file, name) }),
@@ -148,7 +148,7 @@ impl OpenedFiles {
     }
 
     /// Returns the row of a drawing whose own diagnostics include errors; `None` if they do not.
-    fn of_drawing(&self, found: Vec<Diagnostic>) -> Option<Value> {
+    fn drawing_row(&self, found: Vec<Diagnostic>) -> Option<Value> {
         drawing_json(&self.session.workspace().findings(found))
     }
 
