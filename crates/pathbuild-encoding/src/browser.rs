@@ -66,8 +66,8 @@ impl Encoding {
     pub fn decode_without_bom_handling<'b>(&self, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
         let (text, all_known) = match self.kind {
             Kind::Utf8 => return (String::from_utf8_lossy(bytes), std::str::from_utf8(bytes).is_err()),
-            Kind::Big5 => big5::decode(bytes, |pair| whole(decoded(self.label, &pair))),
-            Kind::Single | Kind::Multiple => decoded(self.label, bytes),
+            Kind::Big5 => big5::decode(bytes, |pair| whole(decode_in_browser(self.label, &pair))),
+            Kind::Single | Kind::Multiple => decode_in_browser(self.label, bytes),
         };
         (Cow::Owned(text), !all_known)
     }
@@ -93,7 +93,7 @@ pub fn decode_latin1(bytes: &[u8]) -> Cow<'_, str> {
 
 /// Decodes through the browser. Also returns whether the input was well-formed.
 #[expect(unsafe_code, reason = "the browser is handed addresses")]
-fn decoded(label: &str, bytes: &[u8]) -> (String, bool) {
+fn decode_in_browser(label: &str, bytes: &[u8]) -> (String, bool) {
     #[link(wasm_import_module = "browser")]
     unsafe extern "C" {
         /// Writes at most `room` bytes of UTF-8 to `text` and returns their number, or its complement if the input is malformed.
