@@ -300,7 +300,7 @@ impl FromStr for Code {
     type Err = ();
 
     fn from_str(text: &str) -> Result<Self, ()> {
-        let is_it = |code: &&Self| code.to_string().eq_ignore_ascii_case(text) || code.name() == text;
-        Self::ALL.iter().find(is_it).copied().ok_or(())
+        let is_match = |code: &&Self| code.to_string().eq_ignore_ascii_case(text) || code.name() == text;
+        Self::ALL.iter().find(is_match).copied().ok_or(())
     }
 }

@@ -44,7 +44,7 @@ pub(crate) type Arguments = Vec<(&'static str, Value)>;
 pub struct Message {
     /// Code under which the message is reported. A note has the code of the diagnostics that it usually accompanies.
     pub code: Code,
-    /// Severity, unless the place that reports the message changes it. Usually that of the code.
+    /// Default severity, usually that of the code. The stage that reports the message may change the severity.
     pub severity: Severity,
     /// Unique name, derived from the names of the static and its module. It is stable within a version, for caches and tests.
     pub key: &'static str,

@@ -33,13 +33,14 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
             return None;
         }
         let distance = osa_distance(&name, &other);
-        (distance <= most && numbers.may_mean(&Numbers::of(candidate))).then_some((distance, candidate))
+        (distance <= most && numbers.match_except_for_typo(&Numbers::of(candidate)))
+            .then_some((distance, candidate))
     };
     known.into_iter().filter_map(near).min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
 }
 
-/// Whether two names differ by a single typing error: a character changed, added, left out or swapped with its neighbour. Case and leading
-/// zeros are ignored. A changed digit is no typing error, because names with different numbers are different names.
+/// Whether two names differ by a single typing error: a character changed, added, left out or swapped with its neighbour. Case and leading zeros are
+/// ignored. A changed digit does not count as a typing error, because names with different numbers are different names.
 pub fn is_slip(name: &str, other: &str) -> bool {
     let plain = |name: &str| {
         let name = name.to_lowercase();
@@ -48,7 +49,7 @@ pub fn is_slip(name: &str, other: &str) -> bool {
     };
     name.len().max(other.len()) <= MAX_NAME_BYTES
         && osa_distance(&plain(name), &plain(other)) <= 1
-        && Numbers::of(name).may_mean(&Numbers::of(other))
+        && Numbers::of(name).match_except_for_typo(&Numbers::of(other))
 }
 
 /// The numbers in a name, in order and without leading zeros.
@@ -77,7 +78,7 @@ impl Numbers {
     }
 
     /// Whether the numbers are the same, except for a single typing error in one of them.
-    fn may_mean(&self, others: &Self) -> bool {
+    fn match_except_for_typo(&self, others: &Self) -> bool {
         if self.0.len() != others.0.len() {
             return self.0.concat() == others.0.concat();
         }

@@ -146,7 +146,7 @@ fn without_runner_commands<'a>(text: Cow<'a, str>, hash: &str) -> Cow<'a, str> {
     all.into()
 }
 
-/// Returns the offset of the last two `#` in each run of at least two.
+/// Returns, for each run of at least two `#`, the offset of the last two.
 fn hashes(text: &str) -> impl Iterator<Item = usize> {
     text.match_indices('#').map(|(at, _)| at).filter(|at| {
         let rest = &text.as_bytes()[at + 1..];
