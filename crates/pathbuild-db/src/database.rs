@@ -58,9 +58,9 @@ struct SharedState {
     system: Arc<dyn System>,
     inputs: Mutex<Inputs>,
     listings: Listings,
-    /// Drawings that no longer match their indexes; may contain duplicates.
+    /// Drawings found not to match their indexes since the last [`Database::apply_noted_changes`]; may contain duplicates.
     changed: Mutex<Vec<SourceFile>>,
-    /// All drawings that ever changed during the run.
+    /// All drawings that ever changed after they were indexed.
     drifted: Mutex<FxHashSet<SourceFile>>,
     scratch: ScratchPool,
 }
@@ -278,7 +278,8 @@ impl Database {
         WorkInProgress { begun: self.system().now(), token: self.cancellation_token() }
     }
 
-    /// Runs work on this handle.
+    /// Runs work on this handle. `limit` is only quoted in PB005; [`WorkInProgress::stop_after`] enforces it. `work` runs again if a query that it
+    /// waited for panicked on another thread.
     ///
     /// # Errors
     /// PB005 if it exceeded the time limit, PB001 if a drawing changed meanwhile, PB006 if it panicked; all without a place.
@@ -314,6 +315,7 @@ pub struct ScratchPool(Mutex<Vec<Scratch>>);
 
 /// Size in bytes up to which a buffer is kept for reuse. Few drawings need more.
 const MAX_BUFFER_BYTES: usize = 1 << 20;
+/// Number of entities for which a buffer that is kept for reuse may have room.
 const MAX_BUFFER_ENTITIES: usize = 1 << 12;
 
 impl ScratchPool {

@@ -82,7 +82,7 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
     }
 }
 
-/// Returns the closure of a checked path without embeddings and findings, which is by far the most common case.
+/// Returns the closure of a checked path without embeddings and findings, which is by far the most common case; `None` for any other path.
 fn closure_without_embeddings<'db>(
     db: &'db dyn Db,
     target: Target,
@@ -119,12 +119,13 @@ pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Dia
 }
 
 impl Closure<'_> {
-    /// Whether any path of the closure has errors.
+    /// Whether any path of the closure has errors, or the target names no path of its file.
     pub fn has_errors(&self) -> bool {
         self.root.is_none() || self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// Whether errors leave the program's moves unknown. Cuts into a part or through a support bar are errors too, but leave the moves known.
+    /// Whether errors or missing options leave the program's moves unknown. Cuts into a part or through a support bar are errors too, but leave the
+    /// moves known.
     pub fn has_unknown_moves(&self) -> bool {
         let is_harm = |problem: &Diagnostic| matches!(problem.code(), Code::GougedPart | Code::BarCutAway);
         let is_other = |problem: &Diagnostic| problem.is_error() && !is_harm(problem);
@@ -157,6 +158,7 @@ struct ClosureWalk<'db> {
     seen: FxHashSet<Instance<'db>>,
     /// The embeddings that lead to the path being visited.
     stack: Vec<VisitedPath<'db>>,
+    /// Whether the limit on the number of paths was exceeded, and this was reported.
     is_full: bool,
 }
 
@@ -238,7 +240,8 @@ impl<'db> ClosureWalk<'db> {
         errors
     }
 
-    /// Runs the stages for one path. Each stage skips errors that merely follow from those of earlier stages.
+    /// Reports the findings in one path, stage by stage, and visits what it embeds. Returns their most serious error. Each stage skips errors that
+    /// merely follow from those of earlier stages.
     fn visit_stages(&mut self, instance: Instance<'db>, depth: u32) -> PathErrors<'db> {
         let summary = summary(self.db, instance);
         let mut has_errors = self.report_all(instance, keep_out_problems(self.db, instance.file(self.db)));
@@ -311,7 +314,7 @@ impl<'db> ClosureWalk<'db> {
         Cow::Owned(signature.sweep_limits.check(height, PathRole::Emitted))
     }
 
-    /// Checks that a path without F of its own gets a feed.
+    /// Checks the feed that a path without F of its own gets in an emitted program, and records `--feed` as missing if there is none.
     fn check_feed(&mut self, instance: Instance<'db>, signature: &PathSignature) {
         if !self.is_emitted || !signature.needs_feed {
             return;

@@ -38,8 +38,8 @@ impl SecondDefinition {
     }
 }
 
-/// Returns the paths that two of these drawings define, if a project beside one of the drawings would find both by their names. Each drawing comes
-/// with the names of its paths.
+/// Returns the paths that two of these drawings define, if a project in the directory of one of them would find both by their file names. Each
+/// drawing comes with the names of its paths.
 pub fn second_definitions<'a>(
     db: &dyn Db,
     drawings: impl IntoIterator<Item = (&'a Utf8Path, &'a [PathName])>,
@@ -61,7 +61,8 @@ pub fn second_definitions<'a>(
     repeated.into_values().flat_map(|files| ambiguous(db, files)).collect()
 }
 
-/// Takes drawings that define the same path. Of those that a project beside one of the drawings would find, returns the first with each other one.
+/// Takes drawings that define the same path. For a project in the directory of each of them, returns the first drawing that the project would find,
+/// paired with every other that it would find.
 fn ambiguous(db: &dyn Db, mut files: BTreeMap<&str, &PathName>) -> impl Iterator<Item = SecondDefinition> {
     files.retain(|file, name| may_define(db, Utf8Path::new(*file), name));
     let directories: BTreeSet<&Utf8Path> = files.keys().map(|file| directory(file)).collect();

@@ -13,7 +13,7 @@ use crate::queries::index::{
     BoundPath, NameKey, PathSummary, bind, file_index, path_index, walk_within_limit,
 };
 use crate::queries::lookup::{ResolvedPath, find_path, own_directory, search_path};
-use crate::queries::nearby_ends::LayerEnds;
+use crate::queries::nearby_ends::LayerHints;
 use crate::queries::raw::{raw_path, read_layers};
 
 /// A subpath segment and the result of resolving it.
@@ -61,14 +61,14 @@ pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<
 fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'db>> {
     let Some(outer) = summary(db, instance).known_signature() else { return Vec::new() };
     let settings = Settings::get(db);
-    let judge = SubpathChecker::new(
+    let checker = SubpathChecker::new(
         outer,
         settings.restrictions(db),
         settings.language(db),
         settings.reading(db).compatible,
     );
     let read_all = || read_layers(db, instance.file(db), &|_| true);
-    let embedder = Embedder { db, file: instance.file(db), judge, ends: LayerEnds::new(&read_all) };
+    let embedder = Embedder { db, file: instance.file(db), checker, hints: LayerHints::new(&read_all) };
     outer.subpaths.iter().map(|call| embedder.embedding(call)).collect()
 }
 
@@ -76,8 +76,8 @@ struct Embedder<'a, 'db> {
     db: &'db dyn Db,
     /// The drawing of the embedding path.
     file: SourceFile,
-    judge: SubpathChecker<'db>,
-    ends: LayerEnds<'a>,
+    checker: SubpathChecker<'db>,
+    hints: LayerHints<'a>,
 }
 
 impl<'db> Embedder<'_, 'db> {
@@ -86,13 +86,13 @@ impl<'db> Embedder<'_, 'db> {
             SubpathName::Found { name, .. } => Some(name.clone()),
             SubpathName::Missing { .. } | SubpathName::Invalid { .. } => None,
         };
-        let outcome = match self.judge.name(call) {
+        let outcome = match self.checker.name(call) {
             Ok(name) => self.resolve_name(call, name),
-            Err(problem) => {
-                Outcome::Refused(self.ends.with_name_hint(Settings::get(self.db).language(self.db), *problem))
-            }
+            Err(problem) => Outcome::Refused(
+                self.hints.with_name_hint(Settings::get(self.db).language(self.db), *problem),
+            ),
         };
-        let warnings = self.judge.warnings(call);
+        let warnings = self.checker.warnings(call);
         Embedding { segment: call.segment, origin: call.origin.clone(), name, outcome, warnings }
     }
 
@@ -108,7 +108,7 @@ impl<'db> Embedder<'_, 'db> {
             [file] => self.bind_values(call, *file, key),
             [first, second, ..] => {
                 let [first, second] = [first, second].map(|file| file.path(self.db).as_str());
-                Outcome::NotFound(self.judge.defined_twice(call, name, first, second))
+                Outcome::NotFound(self.checker.defined_twice(call, name, first, second))
             }
         }
     }
@@ -129,7 +129,7 @@ impl<'db> Embedder<'_, 'db> {
         if problems.is_empty() || !index.names().is_empty() {
             return None;
         }
-        problems.push(self.judge.has_errors(call, name, path.as_str()));
+        problems.push(self.checker.has_errors(call, name, path.as_str()));
         Some(problems)
     }
 
@@ -139,21 +139,21 @@ impl<'db> Embedder<'_, 'db> {
             directories.map(|directory| displayed_directory(directory.path(self.db).as_str())).collect();
         let files: Value = resolved.searched.iter().map(|file| file.path(self.db).as_str()).collect();
         let known = resolved.searched.iter().flat_map(|file| file_index(self.db, *file).names());
-        self.judge.not_found(call, name, directories, files, known.cloned().collect())
+        self.checker.not_found(call, name, directories, files, known.cloned().collect())
     }
 
     /// Checks the values of a segment against the variables of the path that it embeds, then the segment against the path.
     fn bind_values(&self, call: &SubpathCall, file: SourceFile, name: NameKey<'db>) -> Outcome<'db> {
         let problems = path_index(self.db, file, name)
             .as_ref()
-            .map(|inner| self.judge.binding_problems(call, &inner.header))
+            .map(|inner| self.checker.binding_problems(call, &inner.header))
             .unwrap_or_default();
         if !problems.is_empty() {
             return Outcome::Unbound(problems);
         }
         let child = Instance::new(self.db, file, name, call.bindings());
         let inner: Option<&PathSignature> = summary(self.db, child).signature.as_ref();
-        let problems = inner.map(|inner| self.judge.mismatches(call, inner)).unwrap_or_default();
+        let problems = inner.map(|inner| self.checker.mismatches(call, inner)).unwrap_or_default();
         Outcome::Found { child, problems }
     }
 }
@@ -189,7 +189,7 @@ fn summary_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> PathSum
     let file = instance.file(db);
     let Some(raw) = raw_path(db, file, instance.name(db)) else { return PathSummary::default() };
     let read_all = || read_layers(db, file, &|_| true);
-    PathSummary::new(db, raw, instance.bindings(db), &LayerEnds::new(&read_all), &mut |_, _| {})
+    PathSummary::new(db, raw, instance.bindings(db), &LayerHints::new(&read_all), &mut |_, _| {})
 }
 
 /// Returns the bound and checked path. Only programs need it, so few are kept.

@@ -18,7 +18,7 @@ use smol_str::SmolStr;
 
 use crate::database::{Db, TimeoutPanic, catch_bugs};
 use crate::inputs::{Reading, Settings, SourceFile};
-use crate::queries::nearby_ends::LayerEnds;
+use crate::queries::nearby_ends::LayerHints;
 use crate::queries::reading::{Fingerprint, entities, read, read_entities};
 
 /// The index of a drawing. It contains no positions: an edit that only shifts lines and handles leaves it equal, so invalidation ends here.
@@ -49,7 +49,7 @@ struct Content {
 /// The data of a path in the index of its drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathIndex {
-    /// The path before its variables are bound.
+    /// The properties of the path that do not depend on the values of its variables.
     pub header: PathHeader,
     /// Example values for the path's variables.
     pub examples: Bindings,
@@ -107,9 +107,9 @@ pub fn file_index(db: &dyn Db, file: SourceFile) -> FileIndex {
         match read {
             Ok((raw, drawn_parts, keep_outs)) => {
                 let read_all = || entities(bytes, reading, &|_| true);
-                let ends = LayerEnds::new(&read_all);
-                let index = FileIndex::new(db, raw, drawn_parts, &ends, content);
-                index.with_file_name_findings(db, file, &ends).with_keep_outs(keep_outs)
+                let hints = LayerHints::new(&read_all);
+                let index = FileIndex::new(db, raw, drawn_parts, &hints, content);
+                index.with_file_name_findings(db, file, &hints).with_keep_outs(keep_outs)
             }
             Err(bug) => FileIndex::unreadable(*bug, content),
         }
@@ -203,14 +203,14 @@ impl FileIndex {
         db: &dyn Db,
         raw: RawFile,
         parts: Option<DrawnParts>,
-        ends: &LayerEnds<'_>,
+        hints: &LayerHints<'_>,
         content: Content,
     ) -> Self {
         let names: Vec<PathName> = raw.paths.iter().map(|(raw, _)| (*raw.name).clone()).collect();
         let is_checked = Settings::get(db).language(db).part.is_some();
         let has_part_layer = parts.is_some();
         let has_parts = parts.as_ref().is_some_and(|drawn| !drawn.parts.is_empty());
-        // Without parts in its drawing, the cuts of a path matter only to projects, which query them when needed.
+        // In a drawing without parts, only paths that embed others need their cuts here. A project queries those of embedded paths when needed.
         let is_needed = |walked: &WalkedPath| {
             has_parts || walked.items.iter().any(|item| matches!(item, Item::Subpath(_)))
         };
@@ -220,7 +220,7 @@ impl FileIndex {
                 cuts.extend(cuts_of(db, path, walked));
             }
         };
-        let path = |(raw, _): (RawPath, _)| PathIndex::new(db, &raw, ends, &mut add_cuts);
+        let path = |(raw, _): (RawPath, _)| PathIndex::new(db, &raw, hints, &mut add_cuts);
         // Push the paths one by one: `collect` would keep the raw paths' allocation.
         let mut paths: Vec<PathIndex> = Vec::with_capacity(raw.paths.len());
         paths.extend(raw.paths.into_iter().map(path));
@@ -242,18 +242,18 @@ impl FileIndex {
     }
 
     /// Adds findings about the file's name, unless errors leave the drawing's paths unknown.
-    fn with_file_name_findings(mut self, db: &dyn Db, file: SourceFile, ends: &LayerEnds<'_>) -> Self {
+    fn with_file_name_findings(mut self, db: &dyn Db, file: SourceFile, hints: &LayerHints<'_>) -> Self {
         if !self.diagnostics.iter().any(Diagnostic::is_error) {
             let settings = Settings::get(db);
             let stem = file.path(db).file_stem().unwrap_or_default();
             let (files, paths) = (settings.file_pattern(db), &settings.language(db).path_pattern);
             let found = check_file_name(stem, &self.names, files, paths);
-            self.diagnostics.extend(found.into_iter().map(|found| ends.with_near_layer(found)));
+            self.diagnostics.extend(found.into_iter().map(|found| hints.with_near_layer(found)));
         }
         self
     }
 
-    /// Adds the clamps, and their faults to the drawing's diagnostics.
+    /// Adds the clamps, and the findings about them to the drawing's diagnostics.
     fn with_keep_outs(mut self, keep_outs: Option<KeepOuts>) -> Self {
         self.diagnostics.extend(keep_outs.iter().flat_map(|found| found.problems.iter().cloned()));
         self.keep_outs = keep_outs.map(Arc::new);
@@ -315,12 +315,12 @@ impl PathIndex {
     fn new(
         db: &dyn Db,
         raw: &RawPath,
-        ends: &LayerEnds<'_>,
+        hints: &LayerHints<'_>,
         use_path: &mut dyn FnMut(&Path, &WalkedPath),
     ) -> Self {
         let header = PathHeader::of(raw);
         let examples = Bindings::check_values(&header.definitions);
-        let summary = PathSummary::new(db, raw, &examples, ends, use_path);
+        let summary = PathSummary::new(db, raw, &examples, hints, use_path);
         Self { header, examples, summary }
     }
 }
@@ -361,11 +361,11 @@ impl PathSummary {
         db: &dyn Db,
         raw: &RawPath,
         bindings: &Bindings,
-        ends: &LayerEnds<'_>,
+        hints: &LayerHints<'_>,
         use_path: &mut dyn FnMut(&Path, &WalkedPath),
     ) -> Self {
         let language = Settings::get(db).language(db);
-        let with_hint = |found: Diagnostic| ends.with_hint(&raw.name, language, found);
+        let with_hint = |found: Diagnostic| hints.with_hint(&raw.name, language, found);
         let BoundPath { path, diagnostics } = examine(raw, bindings, language);
         let mut problems: Vec<Diagnostic> = diagnostics.into_iter().map(with_hint).collect();
         let Some(path) = path else { return Self { problems, ..Self::default() } };

@@ -91,13 +91,14 @@ struct CollisionKey {
     element: Option<u32>,
     /// The probe, if the probing program makes the moves.
     probe: Option<ProbeOrigin>,
-    what: &'static str,
+    /// The kind of move, by its English name.
+    move_kind: &'static str,
 }
 
 /// Moves of one kind into one clamp: their number, and their lowest Z in mm.
 #[derive(Clone, Copy, Debug)]
 pub struct Collision {
-    what: &'static Text,
+    move_kind: &'static Text,
     moves: u64,
     lowest: f64,
     /// Whether one of the moves is not vertical. Only such a move can be led over the clamp.
@@ -106,8 +107,8 @@ pub struct Collision {
 
 impl Collision {
     /// Creates a collision without moves.
-    pub fn new(what: &'static Text) -> Self {
-        Self { what, moves: 0, lowest: f64::INFINITY, is_sideways: false }
+    pub fn new(move_kind: &'static Text) -> Self {
+        Self { move_kind, moves: 0, lowest: f64::INFINITY, is_sideways: false }
     }
 
     /// Counts a move that hits the clamp.
@@ -129,7 +130,7 @@ impl Collision {
             .with("tool", tool)
             .quoting("layer", clamp.drawn.layer.as_str())
             .with("height", clamp.placed.height - raised)
-            .with("what", self.what)
+            .with("what", self.move_kind)
             .with("z", self.lowest - raised)
             .with("count", self.moves)
     }
@@ -145,24 +146,25 @@ impl<'t> Search<'t> {
         let map =
             KeepOutMap::new(self.clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline)));
         let radius = program.largest_cutter() / 2.0;
-        // Each with the path of its first move.
+        // The collisions, each with the occurrence of the path that makes its first move.
         let mut entries: BTreeMap<CollisionKey, (u32, Collision)> = BTreeMap::new();
         // The last lift belongs to no step.
         let milling = program
             .moves()
-            .filter_map(|(number, it)| Some((*trace.steps.get(number as usize - 1)?, None, it)));
-        let probing = program.probing_moves().map(|(number, it)| {
+            .filter_map(|(number, movement)| Some((*trace.steps.get(number as usize - 1)?, None, movement)));
+        let probing = program.probing_moves().map(|(number, movement)| {
             let probe = trace.probes[number];
-            (StepOrigin { occurrence: probe.occurrence, element: None }, Some(probe), it)
+            (StepOrigin { occurrence: probe.occurrence, element: None }, Some(probe), movement)
         });
-        for (step, probe, it) in milling.chain(probing) {
-            let Some(way) = tip_move(&it) else { continue };
-            let what = kind_of_move(&it);
+        for (step, probe, movement) in milling.chain(probing) {
+            let Some(way) = tip_move(&movement) else { continue };
+            let move_kind = kind_of_move(&movement);
             for clamp in map.entered_clamps(&way, radius, 0.0) {
                 let (occurrence, element) =
                     self.occurrences().innermost_common_path(step, self.clamps[clamp].occurrence);
-                let entry = CollisionKey { clamp, occurrence, element, probe, what: what.en };
-                let (_, collision) = entries.entry(entry).or_insert((step.occurrence, Collision::new(what)));
+                let entry = CollisionKey { clamp, occurrence, element, probe, move_kind: move_kind.en };
+                let (_, collision) =
+                    entries.entry(entry).or_insert((step.occurrence, Collision::new(move_kind)));
                 collision.add(&way);
             }
         }
@@ -178,7 +180,7 @@ impl<'t> Search<'t> {
         let clamp = &self.clamps[entry.clamp];
         let message = match entry.probe {
             Some(_) => &messages::PROBING_INTO_CLAMP,
-            None if collision.what != &words::RAPID_MOVE || !collision.is_sideways => {
+            None if collision.move_kind != &words::RAPID_MOVE || !collision.is_sideways => {
                 &messages::CUTS_INTO_CLAMP
             }
             None if mover != entry.occurrence => &messages::COMPONENT_INTO_CLAMP,

@@ -14,15 +14,15 @@ use pathbuild_path::{
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-/// Everything on all layers of a drawing. The drawing is read again when it is first needed.
-pub(super) struct LayerEnds<'a> {
+/// Finds hints in the elements on all layers of a drawing. The drawing is read again when a hint is first searched.
+pub(super) struct LayerHints<'a> {
     read: &'a dyn Fn() -> Drawing,
     all: OnceCell<AllLayers>,
     /// Indices of the first start marker and the first end marker on layers without a path.
     markers: OnceCell<[Option<usize>; 2]>,
 }
 
-/// A drawing with all its layers. An index of bounding boxes keeps thousands of problems from each scanning all entities.
+/// A drawing with all its layers. Its entities are indexed by bounding box, so that not every one of thousands of problems scans them all.
 struct AllLayers {
     drawing: Drawing,
     boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
@@ -46,7 +46,7 @@ const EXPLAINED: [&Message; 11] = [
 /// Largest distance in mm at which an end or element on another layer is worth a hint.
 const MAX_HINT_DISTANCE: f64 = 1.0;
 
-impl<'a> LayerEnds<'a> {
+impl<'a> LayerHints<'a> {
     pub(super) fn new(read: &'a dyn Fn() -> Drawing) -> Self {
         Self { read, all: OnceCell::new(), markers: OnceCell::new() }
     }
@@ -202,7 +202,7 @@ impl<'a> LayerEnds<'a> {
     }
 }
 
-impl LayerEnds<'_> {
+impl LayerHints<'_> {
     /// Returns a text with O and T on another layer that lies on a start marker without a text.
     fn start_text(&self, problem: &Diagnostic) -> Option<(Note, f64)> {
         let Point { x: Number(x), y: Number(y) } = problem.place.point?;

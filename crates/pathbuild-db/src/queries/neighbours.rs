@@ -169,8 +169,8 @@ impl<'db> PlacedProgram<'db> {
         found
     }
 
-    /// Returns what a path takes away from the parts and support bars of another. Of a path of the same drawing at the same place, which the drawing's
-    /// own check covers, only what the embedding adds; `None` if nothing is compared.
+    /// Returns what the path `cutting` takes away from the parts and support bars of `owner`. If both belong to the same drawing at the same place,
+    /// which the drawing's own check covers, only the bars that are lost because the embedding is turned. `None` if the two are not compared.
     fn harm(&self, owner: usize, cutting: usize) -> Option<NeighbourCuts> {
         let (owned, by, tolerance) =
             (&self.paths[owner].cuts, &self.paths[cutting].cuts, self.settings.tolerance);
@@ -181,7 +181,8 @@ impl<'db> PlacedProgram<'db> {
         self.is_together(owner, cutting).then(|| NeighbourCuts { bars: bars(), ..NeighbourCuts::default() })
     }
 
-    /// Whether two paths of a program belong to the same drawing at the same place, or are the same path.
+    /// Whether two paths of a program belong to the same drawing at the same place, or are the same path. In joined programs, they also belong to
+    /// different programs.
     fn is_together(&self, owner: usize, cutting: usize) -> bool {
         let PlacedPath { instance, cuts, .. } = &self.paths[cutting];
         let is_compared = !self.is_joined || self.root(owner) != self.root(cutting);
@@ -322,7 +323,7 @@ impl<'db> PlacedProgram<'db> {
         std::iter::successors(Some(path), |inner| Some(self.paths[*inner].parent?.path))
     }
 
-    /// Returns the target's own path that a path is, or that embeds it.
+    /// Returns the outermost path that embeds a path, or the path itself if no other embeds it. It is a target's own path.
     fn root(&self, path: usize) -> Option<usize> {
         self.path_and_embedders(path).last()
     }
@@ -413,8 +414,8 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
             let mut part_of_path = placed_here(*part);
             part_of_path.is_loose |= findings.loose.iter().any(|(loose, _)| loose == part);
             part_of_path.corners = &findings.corners[*part];
-            // The material left and the bars are known by path, not by part: list them with the first part only. Bars that stand elsewhere than in the
-            // drawing are among those of the program.
+            // The material left and the bars are known by path, not by part: list them with the first part only. Bars that stand elsewhere than
+            // in the drawing are listed in `bars_lost_to_neighbours` below.
             if index == 0 {
                 part_of_path.left = &findings.left[place];
                 if !has_displaced_bars {

@@ -32,7 +32,7 @@ pub struct TracedProgram {
     pub parts: Vec<Part>,
 }
 
-/// A path with values for its variables.
+/// A path of a program, with values for its variables. Not to be confused with a finished part, [`pathbuild_path::Part`].
 #[derive(Debug)]
 pub struct Part {
     /// The drawing that defines the path.

@@ -160,7 +160,7 @@ pub fn combinations(
 ) -> Option<(Vec<Bindings>, Option<Diagnostic>)> {
     let raw = raw_by_name(db, file, name).filter(|raw| raw.is_sound() && !raw.definitions.is_empty())?;
     let Combinations { chosen, all } = Combinations::new(&raw.definitions, limit);
-    let is_cut = (chosen.len() as u64) < all;
+    let is_truncated = (chosen.len() as u64) < all;
     let warning = || {
         let has_many_values = |definition: &Definition| definition.corner_values().len() > limit;
         let message = if raw.definitions.iter().any(has_many_values) {
@@ -178,6 +178,6 @@ pub fn combinations(
             None => warning,
         }
     };
-    let warning = is_cut.then(warning);
+    let warning = is_truncated.then(warning);
     Some((chosen, warning))
 }

@@ -36,15 +36,15 @@ impl Partners<'_> {
 }
 
 impl<'db> PlacedProgram<'db> {
-    /// Returns PB221 for paths that cut the same part of a drawing, but are embedded less than O away from where they cut it together, or at another
-    /// height.
+    /// Returns PB221 for paths that cut the same part of a drawing, but are embedded so that they place it less than O apart, or at
+    /// different heights.
     pub(super) fn displaced_paths(&self) -> Vec<Diagnostic> {
         let mut reported = BTreeSet::new();
         let mut found = Vec::new();
         for paths in self.paths_by_drawing().values() {
             let displaced = paths.iter().flat_map(|path| self.displaced_partners(path, paths));
             let new = displaced.filter(|partners| reported.insert(partners.paths));
-            found.extend(new.filter_map(|partners| self.displaced(&partners)));
+            found.extend(new.filter_map(|partners| self.displacement_problem(&partners)));
         }
         found
     }
@@ -67,8 +67,8 @@ impl<'db> PlacedProgram<'db> {
         drawings
     }
 
-    /// Returns, for each other path that cuts a part together with this one, its nearest embedding, unless that is farther away than O, or
-    /// has the part at the same place and height.
+    /// Returns this path with the nearest embedding of each other path that cuts a part together with it, unless that embedding is O or farther away,
+    /// or has the part at the same place and height.
     fn displaced_partners(&self, path: &CuttingPath<'db>, all: &[CuttingPath<'db>]) -> Vec<Partners<'db>> {
         let mut nearest: BTreeMap<&str, Partners<'db>> = BTreeMap::new();
         for other in all.iter().filter(|other| other.name != path.name) {
@@ -101,7 +101,7 @@ impl<'db> PlacedProgram<'db> {
         (distance < diameter).then_some(Partners { paths, part, distance, raised })
     }
 
-    fn displaced(
+    fn displacement_problem(
         &self,
         Partners { paths: [earlier, later], part, distance, raised }: &Partners<'db>,
     ) -> Option<Diagnostic> {

@@ -9,7 +9,7 @@ use pathbuild_path::{EarlierCuts, WasteCut};
 
 use super::{PlacedPath, PlacedProgram, diagnostic_point};
 
-/// Cuts of a path between which it embeds no other.
+/// Successive cuts of a path, between which it embeds no other path.
 struct Section<'p, 'db> {
     /// Indices into [`PathCuts::cuts`](pathbuild_path::PathCuts::cuts).
     cuts: Range<usize>,
@@ -40,7 +40,7 @@ impl<'db> PlacedProgram<'db> {
                 let (owned, cutting) = (&self.paths[owner].cuts, &self.paths[later].cuts);
                 owned.cut_in_loose_waste(cutting, section.cuts.clone(), earlier)
             })?;
-            Some(self.loose_waste(owner, later, &cut))
+            Some(self.loose_waste_problem(owner, later, &cut))
         };
         owners.filter_map(cut).collect()
     }
@@ -86,7 +86,7 @@ impl<'db> PlacedProgram<'db> {
         paths.map(|(path, count)| EarlierCuts { path: &self.paths[path].cuts, count }).collect()
     }
 
-    fn loose_waste(&self, owner: usize, later: usize, cut: &WasteCut) -> Diagnostic {
+    fn loose_waste_problem(&self, owner: usize, later: usize, cut: &WasteCut) -> Diagnostic {
         let (path, origin) = self.innermost_common_path(later, cut.element, owner);
         let problem = Diagnostic::new(&messages::CUT_IN_LOOSE_WASTE)
             .quoting("name", self.paths[later].cuts.cuts.name.as_str())
