@@ -180,7 +180,7 @@ impl TargetDatabase {
         }
         let drawings = files.iter().map(|path| Utf8Path::new(path.as_str()));
         let drawings = drawings.map(|path| (path, path_names(&self.db, self.db.file(path))));
-        found.extend(second_definitions(&self.db, drawings).iter().map(SecondDefinition::diagnostic));
+        found.extend(second_definitions(&self.db, drawings, false).iter().map(SecondDefinition::diagnostic));
         for path in &files {
             let Some(q_project) = files.iter().find(|it| **it == &path.replace(".dxf", "_Q.dxf")) else {
                 continue;

@@ -204,6 +204,31 @@ fn a_path_that_is_defined_twice_is_not_emitted() {
     assert_eq!((problems, components), expected, "each drawing but the first is named");
 }
 
+/// Two drawings in different directories may define one path, unless their programs are written into one directory.
+#[test]
+fn a_path_that_is_defined_twice_is_not_emitted_into_one_directory() {
+    for (out_dir, file, is_twice) in [
+        ("out-dir = 'nc'", "more/1234 old.dxf", true),
+        ("", "more/1234 old.dxf", false),
+        ("out-dir = 'nc'", "more/5678.dxf", false),
+    ] {
+        let library = LIBRARY.replace("[\"components\", \"projects\"]", "[\"components\", \"more\"]");
+        let library = library.replace("search = [\"components\"]", "search = []");
+        let place = Place::of(&format!("{library}== {file} ==\n{SECOND}"));
+        let config = place.read("pathbuild.toml");
+        let values = "feed = 150\nrapid = 1000\nsweep-height = 20\n";
+        let config = format!("{out_dir}\n{values}{config}\n[emit]\ntargets = ['1234.1P']\n");
+        let place = place.file("pathbuild.toml", config);
+        assert!(!is_ambiguous(&place, ""));
+        for arguments in ["", "--check"] {
+            let run = place.run(&format!("emit --format concise {arguments}"));
+            assert_eq!(run.stderr.matches("error[PB504]").count(), usize::from(is_twice), "{file}: {run}");
+            let is_written = !run.stderr.contains("PB528") && run.status == Some(0);
+            assert_eq!(is_written, !is_twice, "{file}: {run}");
+        }
+    }
+}
+
 /// A second definition is reported only if both drawings are checked.
 #[test]
 fn a_second_definition_is_noticed_among_the_drawings_that_are_checked() {

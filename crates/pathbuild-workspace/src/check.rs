@@ -276,7 +276,7 @@ fn second_definitions(
     filter: &ChangeFilter<'_>,
 ) -> Vec<Diagnostic> {
     let drawings = selected.iter().map(|answer| (answer.drawing(), &*answer.value.names));
-    let found = pathbuild_db::second_definitions(session.db(), drawings);
+    let found = pathbuild_db::second_definitions(session.db(), drawings, false);
     if found.is_empty() {
         return Vec::new();
     }

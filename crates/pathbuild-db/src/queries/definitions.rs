@@ -38,11 +38,12 @@ impl SecondDefinition {
     }
 }
 
-/// Returns the paths that two of these drawings define, if a project in the directory of one of them would find both by their file names. Each
-/// drawing comes with the names of its paths.
+/// Returns the paths that two of these drawings define, if a project in the directory of one of them would find both by their file names, or if
+/// `are_together`, which means that the programs of all drawings are written into one directory. Each drawing comes with the names of its paths.
 pub fn second_definitions<'a>(
     db: &dyn Db,
     drawings: impl IntoIterator<Item = (&'a Utf8Path, &'a [PathName])>,
+    are_together: bool,
 ) -> BTreeSet<SecondDefinition> {
     let mut first: FxHashMap<&PathName, &Utf8Path> = FxHashMap::default();
     let mut repeated: BTreeMap<&PathName, BTreeMap<&str, &PathName>> = BTreeMap::new();
@@ -58,17 +59,22 @@ pub fn second_definitions<'a>(
             }
         }
     }
-    repeated.into_values().flat_map(|files| ambiguous(db, files)).collect()
+    repeated.into_values().flat_map(|files| ambiguous(db, files, are_together)).collect()
 }
 
 /// Takes drawings that define the same path. For a project in the directory of each of them, returns the first drawing that the project would find,
-/// paired with every other that it would find.
-fn ambiguous(db: &dyn Db, mut files: BTreeMap<&str, &PathName>) -> impl Iterator<Item = SecondDefinition> {
+/// paired with every other that it would find. If `are_together`, a project would find all of them.
+fn ambiguous(
+    db: &dyn Db,
+    mut files: BTreeMap<&str, &PathName>,
+    are_together: bool,
+) -> impl Iterator<Item = SecondDefinition> {
     files.retain(|file, name| may_define(db, Utf8Path::new(*file), name));
     let directories: BTreeSet<&Utf8Path> = files.keys().map(|file| directory(file)).collect();
     directories.into_iter().flat_map(move |from| {
         let search = Settings::get(db).search(db);
-        let is_searched = |at: &Utf8Path| at == from || search.iter().any(|searched| searched == at);
+        let is_searched =
+            |at: &Utf8Path| are_together || at == from || search.iter().any(|searched| searched == at);
         // Keep a file that is reached under two names only once.
         let mut seen = FxHashSet::default();
         let mut found = files

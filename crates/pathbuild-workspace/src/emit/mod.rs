@@ -171,7 +171,9 @@ impl Emitter<'_> {
         if lacks_paths {
             jobs_mut(&mut plans).for_each(Job::leave_out);
         }
-        let twice = leave_out_second_definitions(session.db(), selection.drawings(), jobs_mut(&mut plans));
+        let are_together = session.out_dir().is_some() && join.is_none();
+        let (db, drawings) = (session.db(), selection.drawings());
+        let twice = leave_out_second_definitions(db, drawings, are_together, jobs_mut(&mut plans));
         diagnostics.extend(twice);
         if !matches.is_library && !is_printed {
             leave_out_files_of_others(&builder, jobs_mut(&mut plans), &mut diagnostics);

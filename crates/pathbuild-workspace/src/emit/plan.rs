@@ -110,9 +110,9 @@ impl Job {
         self.outcome = None;
     }
 
-    /// Leaves out the job if two drawings define one of its paths. Returns these definitions.
-    pub(super) fn leave_out_if_defined_twice<'d>(
-        &mut self,
+    /// Returns the definitions that are about one of the job's paths.
+    pub(super) fn second_definitions<'d>(
+        &self,
         db: &Database,
         definitions: &'d BTreeSet<SecondDefinition>,
     ) -> Vec<&'d SecondDefinition> {
@@ -121,7 +121,16 @@ impl Job {
         };
         let is_own =
             |definition: &&SecondDefinition| self.targets.iter().any(|target| is_of(definition, target));
-        let own: Vec<_> = definitions.iter().filter(is_own).collect();
+        definitions.iter().filter(is_own).collect()
+    }
+
+    /// Leaves out the job if two drawings define one of its paths. Returns these definitions.
+    pub(super) fn leave_out_if_defined_twice<'d>(
+        &mut self,
+        db: &Database,
+        definitions: &'d BTreeSet<SecondDefinition>,
+    ) -> Vec<&'d SecondDefinition> {
+        let own = self.second_definitions(db, definitions);
         if !own.is_empty() {
             self.leave_out();
         }
@@ -409,16 +418,23 @@ fn leave_out_if_named_like_path(builder: &JobBuilder<'_>, name: &str, job: &mut 
     Some(problem)
 }
 
-/// Leaves out the jobs of paths that two of these drawings define (PB504): their programs could not be told apart.
+/// Leaves out the jobs of paths that two of these drawings define (PB504): their programs could not be told apart. `are_together` says whether all
+/// programs are written into one directory.
 pub(super) fn leave_out_second_definitions<'p>(
     db: &Database,
     drawings: impl Iterator<Item = &'p Answer<DrawingResult>>,
+    are_together: bool,
     jobs: impl Iterator<Item = &'p mut Job>,
 ) -> Vec<Diagnostic> {
     let names = drawings.map(|answer| (answer.drawing(), &*answer.value.names));
-    let found = second_definitions(db, names);
-    let of_jobs: BTreeSet<&SecondDefinition> =
-        jobs.flat_map(|job| job.leave_out_if_defined_twice(db, &found)).collect();
+    let found = second_definitions(db, names, are_together);
+    let mut of_jobs: BTreeSet<&SecondDefinition> = BTreeSet::new();
+    for job in jobs {
+        // Two programs with one file name are reported already (PB514).
+        let is_reported = job.is_left_out;
+        let own = job.leave_out_if_defined_twice(db, &found);
+        of_jobs.extend(own.into_iter().filter(|_| !is_reported));
+    }
     of_jobs.into_iter().map(SecondDefinition::diagnostic).collect()
 }
 

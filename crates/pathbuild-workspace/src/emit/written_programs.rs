@@ -26,6 +26,8 @@ pub struct WrittenPrograms {
     by_drawing: BTreeMap<Utf8PathBuf, Vec<(Target, Plan)>>,
     /// The targets that yield each file, by its path in lower case. A file with several targets is not written.
     owners: HashMap<String, Vec<Target>>,
+    /// The targets that share a file name with another one.
+    clashing: HashSet<Target>,
     /// The paths that two drawings define. They get no program.
     second_definitions: BTreeSet<SecondDefinition>,
 }
@@ -130,6 +132,13 @@ impl WrittenPrograms {
         let drawings = changed.flat_map(|definition| &definition.files);
         let written = drawings.filter(|drawing| self.by_drawing.contains_key(*drawing));
         written.map(|drawing| db.file(drawing)).collect()
+    }
+
+    /// Returns the paths of targets that two drawings define, except those that share a file name, which is reported already.
+    pub fn second_definitions(&self, db: &Database) -> BTreeSet<&SecondDefinition> {
+        let jobs = self.by_drawing.values().flatten().filter_map(|(_, plan)| plan.job.as_ref());
+        let jobs = jobs.filter(|job| !self.clashing.contains(&job.targets[0]));
+        jobs.flat_map(|job| job.second_definitions(db, &self.second_definitions)).collect()
     }
 
     /// Forgets the programs of removed drawings. Returns the other drawings whose programs may be written now.
@@ -255,10 +264,10 @@ impl WrittenPrograms {
         let jobs: Vec<&Job> =
             self.sorted_programs().into_iter().filter_map(|(_, plan)| plan.job.as_ref()).collect();
         let (clashing, problems) = clashes(session, &jobs);
-        let clashing: HashSet<Target> = clashing.into_iter().map(|index| jobs[index].targets[0]).collect();
-        if !clashing.is_empty() {
+        self.clashing = clashing.into_iter().map(|index| jobs[index].targets[0]).collect();
+        if !self.clashing.is_empty() {
             let jobs = self.by_drawing.values_mut().flatten().filter_map(|(_, plan)| plan.job.as_mut());
-            jobs.filter(|job| clashing.contains(&job.targets[0])).for_each(Job::leave_out);
+            jobs.filter(|job| self.clashing.contains(&job.targets[0])).for_each(Job::leave_out);
         }
         problems
     }

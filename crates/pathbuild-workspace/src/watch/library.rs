@@ -365,9 +365,9 @@ impl<'a> Library<'a> {
         self.has_other_content
     }
 
-    pub(super) fn second_definitions(&self) -> BTreeSet<SecondDefinition> {
+    pub(super) fn second_definitions(&self, are_together: bool) -> BTreeSet<SecondDefinition> {
         let drawings = self.drawings.iter().map(|(file, result)| (&**file, &*result.names));
-        second_definitions(self.session.db(), drawings)
+        second_definitions(self.session.db(), drawings, are_together)
     }
 
     /// Determines the diagnostics that follow from all drawings together, once all are checked.
@@ -376,7 +376,7 @@ impl<'a> Library<'a> {
             return;
         }
         let mut found: Vec<Diagnostic> =
-            self.second_definitions().iter().map(SecondDefinition::diagnostic).collect();
+            self.second_definitions(false).iter().map(SecondDefinition::diagnostic).collect();
         if self.inputs.inputs.is_empty() {
             found.extend(patterns_without_layer(&self.session, self.drawings.values()));
             found.extend(globs_without_file(&self.session, self.drawings.keys().map(|file| &**file)));

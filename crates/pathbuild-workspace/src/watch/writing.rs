@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Role, SourceFile, Target, path_names};
+use pathbuild_db::{Role, SecondDefinition, SourceFile, Target, path_names};
 use pathbuild_diagnostic::{Code, Diagnostic};
 
 use super::events::{Listener, Request, Update};
@@ -21,6 +21,8 @@ pub(super) struct Writer<'a> {
     is_on: bool,
     post_processor: Option<PostProcessor>,
     programs: WrittenPrograms,
+    /// The paths that two drawings define, as the check of the library reports them.
+    reported_definitions: BTreeSet<SecondDefinition>,
     /// Diagnostics of programs that were reported last, except for the common ones.
     problems: Vec<Diagnostic>,
     /// Diagnostics of all programs together that were reported last.
@@ -40,7 +42,7 @@ impl<'a> Writer<'a> {
         let is_needed = request.emits || request.lists;
         let post_processor =
             if is_needed { PostProcessor::for_run(workspace, None, PostArguments::default())? } else { None };
-        let (problems, common_problems) = Default::default();
+        let (reported_definitions, problems, common_problems) = Default::default();
         let programs = WrittenPrograms::default();
         Ok(Self {
             workspace,
@@ -48,6 +50,7 @@ impl<'a> Writer<'a> {
             is_on: request.emits,
             post_processor,
             programs,
+            reported_definitions,
             problems,
             common_problems,
         })
@@ -83,7 +86,10 @@ impl<'a> Writer<'a> {
         if !self.is_on || !library.has_other_content() {
             return Vec::new();
         }
-        self.programs.set_second_definitions(library.session().db(), library.second_definitions())
+        self.reported_definitions = library.second_definitions(false);
+        let session = library.session();
+        let now = library.second_definitions(session.out_dir().is_some());
+        self.programs.set_second_definitions(session.db(), now)
     }
 
     /// Forgets the programs of removed drawings. Returns the other drawings whose programs may be written now, because no removed drawing claims
@@ -134,7 +140,10 @@ impl<'a> Writer<'a> {
             return;
         }
         if let Some(scope) = scope {
-            let common = self.programs.common_problems(session, self.post_processor.as_ref(), scope);
+            let mut common = self.programs.common_problems(session, self.post_processor.as_ref(), scope);
+            let twice = self.programs.second_definitions(session.db()).into_iter();
+            let new = twice.filter(|definition| !self.reported_definitions.contains(definition));
+            common.extend(new.map(SecondDefinition::diagnostic));
             update.has_other_problems |= replace(&mut self.common_problems, common, update);
         }
         let problems = self.programs.problems(session);
