@@ -117,6 +117,12 @@ fn a_program_of_an_unchecked_definition_is_not_called_as_drawn() {
     assert!(!run.stderr.contains("moves as in path"), "{run}");
     assert!(run.stderr.contains("the moves were not compared with path 1234.1P"), "{run}");
     assert!(run.stderr.contains("errors: 0, warnings: 1"), "{run}");
+    assert!(
+        run.stderr.contains("not checked:") && !run.stderr.contains("words, moves of the drawing"),
+        "{run}"
+    );
+    let required = verify(&place, "--against 1234.1P --require drawing");
+    assert!(required.status == Some(1) && required.stderr.contains("PB523"), "{required}");
     let text = place.read(PROGRAM);
     fs::write(place.path().join(PROGRAM), text.replacen("Y+30", "Y+31", 1)).unwrap();
     let run = verify(&place, "--against 1234.1P");
@@ -125,6 +131,40 @@ fn a_program_of_an_unchecked_definition_is_not_called_as_drawn() {
     configure("false");
     let run = place.run("emit 1234.1P --out-dir elsewhere");
     assert_eq!(run.status, Some(1), "it moves elsewhere than the drawing\n{run}");
+}
+
+/// Comments may differ, whatever their form; their lines may be numbered.
+#[test]
+fn the_comments_of_a_definition_are_no_differences() {
+    for (comment, is_numbered) in [
+        ("(~CommentText~)", true),
+        ("(~CommentText~)", false),
+        ("; ~CommentText~", true),
+        ("; ~CommentText~", false),
+    ] {
+        let library = LIBRARY.replace(
+            "program-end = \"\"\"\nM05 M09\n",
+            &format!("comment = '{comment}'\nprogram-end = \"\"\"\n"),
+        );
+        let library =
+            library.replace("decimals = 3\n", &format!("decimals = 3\nnumber-lines = {is_numbered}\n"));
+        let place = Place::of(&library);
+        let run = place.run("emit 1234.1P --post own.toml");
+        assert_eq!(run.status, Some(0), "{run}");
+        let text = place.read(PROGRAM);
+        assert!(text.contains("pathbuild 0.") && !text.contains("M05"), "{text}");
+        let against = "--against 1234.1P --post own.toml";
+        assert_clean(&verify(&place, against));
+        for (from, to, is_found) in [
+            ("pathbuild 0.", "pathbuild 9.", false),
+            ("Path 1234", "Pfad 1234", false),
+            ("Y+30", "Y+31", true),
+        ] {
+            fs::write(place.path().join(PROGRAM), text.replacen(from, to, 1)).unwrap();
+            let run = verify(&place, against);
+            assert_eq!(run.status, Some(i32::from(is_found)), "{comment} {is_numbered}: {from}\n{run}");
+        }
+    }
 }
 
 /// Lines of the program, each with the text that replaces it and whether `verify` must report the change.

@@ -134,7 +134,7 @@ impl PostDefinition {
     pub fn first_other_line(&self, found: &[u8], expected: &[u8]) -> Option<(u32, String)> {
         let marks = match &self.engine {
             Engine::CamBam(definition) => definition.comment_marks(),
-            Engine::Cad6(_) => CommentMarks::default(),
+            Engine::Cad6(definition) => definition.comment_marks(),
         };
         first_other_line(found, expected, &marks)
     }

@@ -91,7 +91,7 @@ impl CommentMarks {
 
 /// Returns the number, from 1, of the first line in which a program differs from the expected one, and the expected line.
 ///
-/// Empty lines are ignored. Comment lines are ignored too, but only if their opening mark also opens a comment line of the expected program, because
+/// Empty lines are ignored. Comment lines are ignored too, even if they are numbered, but only if their opening mark also opens a comment line of the expected program, because
 /// another control may execute what looks like a comment.
 pub(crate) fn first_other_line(found: &[u8], expected: &[u8], marks: &CommentMarks) -> Option<(u32, String)> {
     let (found, expected) = (String::from_utf8_lossy(found), String::from_utf8_lossy(expected));
@@ -116,11 +116,19 @@ pub(crate) fn first_other_line(found: &[u8], expected: &[u8], marks: &CommentMar
 /// Returns the opening mark of a line that consists of a comment; `None` for any other line. A line that contains a CR is not a comment,
 /// because a control may end the line at the CR.
 fn opening<'l>(line: &'l str, marks: &CommentMarks) -> Option<&'l str> {
-    let line = line.trim();
+    let line = without_number(line.trim());
     let found = words(line, marks);
     let is_comment = found.words.is_empty() && found.foreign.is_none() && !line.contains('\r');
     let (length, _) = marks.opening_mark(line).filter(|_| is_comment)?;
     Some(&line[..length])
+}
+
+/// Returns a line without the N that numbers it.
+fn without_number(line: &str) -> &str {
+    match word(line) {
+        Some((Word { letter: 'N', .. }, rest)) => rest.trim_start(),
+        _ => line,
+    }
 }
 
 fn after_comment<'a>(text: &'a str, marks: &CommentMarks) -> Option<&'a str> {

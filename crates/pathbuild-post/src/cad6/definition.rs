@@ -16,6 +16,7 @@ use super::variables::{Variable, is_parameter, is_private};
 use crate::Units;
 use crate::arcs::MAX_CHORD_DISTANCE;
 use crate::findings::{Findings, LineStarts, MAX_FINDINGS};
+use crate::line_words::CommentMarks;
 use crate::number::StatedOption;
 
 /// A definition as parsed from its file, before any text is expanded.
@@ -126,6 +127,16 @@ impl Definition {
     /// Returns a control text; `None` if it is absent or empty.
     pub(super) fn text(&self, kind: ControlTextKind) -> Option<&ControlText> {
         self.texts[kind as usize].as_ref().filter(|text| !text.text.is_empty())
+    }
+
+    /// Returns the signs that begin and end a comment in the output; none if the text `comment` does not consist of signs around the comment.
+    pub(crate) fn comment_marks(&self) -> CommentMarks {
+        let text = self.text(ControlTextKind::Comment).map_or("", |text| text.text.trim());
+        let Some((open, close)) = text.split_once("~CommentText~") else { return CommentMarks::default() };
+        if [open, close].iter().any(|part| part.contains(['~', '{', '}', '\n'])) {
+            return CommentMarks::default();
+        }
+        CommentMarks { open: open.trim().into(), close: close.trim().into() }
     }
 
     /// Whether a text uses one of these variables, by its own name or an alias.

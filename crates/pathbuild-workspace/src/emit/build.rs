@@ -278,6 +278,17 @@ fn too_long_line(text: &str, path: &Utf8Path) -> Option<Diagnostic> {
     Some(problem.with("length", line.len()).with("limit", LONGEST_LINE))
 }
 
+/// Returns the comments at the head of a program that a post-processor writes.
+pub fn program_remarks<'p>(
+    provenance: &str,
+    title: &str,
+    programs: impl IntoIterator<Item = &'p Program>,
+    lang: Lang,
+) -> Vec<Box<str>> {
+    let left_out = programs.into_iter().flat_map(|program| native::left_out_lines(program, lang));
+    [provenance.into(), title.into()].into_iter().chain(left_out.map(Into::into)).collect()
+}
+
 /// Generates the program through the post-processor, which reads its output back itself.
 fn write_through_post(
     job: &Job,
@@ -292,9 +303,8 @@ fn write_through_post(
     let Some((kind, path)) = program else { return Err(Vec::new()) };
     let (mut program, warnings) =
         PostJob::from_programs(&job.path, programs, &post_processor.tools, post_processor.options.cycles);
-    program.remarks = vec![provenance.into(), job.title.as_str().into()];
-    let left_out = programs.iter().flat_map(|program| native::left_out_lines(program, lang));
-    program.remarks.extend(left_out.map(Into::into));
+    let drawn = programs.iter().map(|program| &**program);
+    program.remarks = program_remarks(provenance, &job.title, drawn, lang);
     let located = |problem: Diagnostic| {
         let problem = post_processor.locate(problem);
         if problem.file.is_none() { at(problem) } else { problem }

@@ -30,6 +30,7 @@ use crate::post_processor::{PostArguments, PostProcessor};
 use crate::session::{ArgumentMatches, Session};
 use crate::workspace::{Failure, Workspace};
 
+pub use build::program_remarks;
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
 pub use options::{Provenances, missing_values, write_settings};
 pub use outcome::{ProgramOutcome, State, Task};

@@ -20,7 +20,7 @@ use pathbuild_post::{Job, ToolTable, program_number};
 use super::MoveComparison;
 use crate::config::Settings;
 use crate::config::types::DwellTime;
-use crate::emit::{Provenances, missing_values, native_text, write_settings};
+use crate::emit::{Provenances, missing_values, native_text, program_remarks, write_settings};
 use crate::post_processor::{PostProcessor, machine};
 use crate::program::Program;
 use crate::session::{NamedPaths, NotOnePath, OutputKind, Session, several_paths_error};
@@ -57,6 +57,10 @@ pub(super) struct RewrittenProgram {
 impl RewrittenProgram {
     pub(super) fn is_same(&self) -> bool {
         self.other_line.is_none()
+    }
+
+    pub(super) fn is_read_back(&self) -> bool {
+        self.is_read_back
     }
 }
 
@@ -239,7 +243,9 @@ impl ReferenceProgram {
         program: &Program,
     ) -> Result<RewrittenProgram, Vec<Diagnostic>> {
         let programs = std::slice::from_ref(&*self.drawn);
-        let (job, _) = Job::from_programs(&self.drawn.path, programs, &writer.tools, writer.options.cycles);
+        let (mut job, _) =
+            Job::from_programs(&self.drawn.path, programs, &writer.tools, writer.options.cycles);
+        job.remarks = self.remarks(settings, writer);
         let text = writer.write(&job, None, &mut Vec::new())?.text;
         let translated = writer.translate(&text).map(|translated| translated.text.into_bytes());
         let code = translated.as_deref().unwrap_or(&text);
@@ -254,6 +260,13 @@ impl ReferenceProgram {
         let moves = all.into_iter().skip(begins.map_or(0, |index| index + 1)).collect();
         let other_line = writer.first_other_line(&program.text, &text);
         Ok(RewrittenProgram { other_line, start, moves, tool, is_read_back: !writer.is_unchecked() })
+    }
+
+    /// Returns the comments that `emit` writes at the head of the path's program, because line numbers count them.
+    fn remarks(&self, settings: &Settings, writer: &PostProcessor) -> Vec<Box<str>> {
+        let provenance = Provenances::new(settings, Some(writer)).of(&[&*self.drawn]).to_string();
+        let title = native::title(self.file.file_name().unwrap_or_default(), &self.drawn.path);
+        program_remarks(&provenance, &title, [&*self.drawn], settings.comment_lang())
     }
 
     /// Whether the path has probes, and hence a probing run.

@@ -77,6 +77,8 @@ pub enum Reason {
     NoDrawing,
     /// The comparison with the drawing ended at the first move that differs.
     OtherMoves,
+    /// With `unchecked = true`, it is unknown whether the output of the definition mills the drawing.
+    Unchecked,
     /// The configuration names no layers of clamps.
     NoKeepOut,
     /// The cutter is unknown.
@@ -110,8 +112,8 @@ pub enum Reason {
 /// The references that a program can be compared with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct References {
-    /// Whether the comparison reached the last move of the drawing; `None` if no drawing was named.
-    pub(super) is_compared_to_its_end: Option<bool>,
+    /// The reason why not all moves were compared with those of a drawing; `None` if they were.
+    pub(super) drawing_doubt: Option<Reason>,
     /// Whether the configuration names layers of clamps.
     pub(super) has_keep_out: bool,
     /// Whether pathbuild interprets all words of the program that may move the tool.
@@ -129,9 +131,10 @@ pub(super) fn records(
 ) -> Vec<CheckRecord> {
     let outcome =
         |is_made: bool, reason| if is_made { Outcome::Made(None) } else { Outcome::NotMade(reason) };
-    let with_drawing = |is_made, reason| match references.is_compared_to_its_end {
-        Some(_) => outcome(is_made, reason),
-        None => Outcome::NotMade(Reason::NoDrawing),
+    let drawing = references.drawing_doubt.map_or(Outcome::Made(None), Outcome::NotMade);
+    let clamps = match references.drawing_doubt {
+        Some(Reason::NoDrawing) => drawing.clone(),
+        _ => outcome(references.has_keep_out, Reason::NoKeepOut),
     };
     let limits = |is_limited: fn(&Machine) -> bool| outcome(machine.is_some_and(is_limited), Reason::NoLimit);
     let spindle = match limits(|machine| machine.spindle.is_some()) {
@@ -148,11 +151,8 @@ pub(super) fn records(
         (Requirement::Envelope, envelope),
         (Requirement::Feeds, limits(|machine| machine.feed.is_some())),
         (Requirement::Spindle, spindle),
-        (
-            Requirement::Drawing,
-            with_drawing(references.is_compared_to_its_end == Some(true), Reason::OtherMoves),
-        ),
-        (Requirement::Clamps, with_drawing(references.has_keep_out, Reason::NoKeepOut)),
+        (Requirement::Drawing, drawing),
+        (Requirement::Clamps, clamps),
     ];
     all.map(|(requirement, outcome)| CheckRecord { requirement, outcome }).into()
 }
@@ -235,6 +235,9 @@ impl CheckRecord {
                 en: "a program with the moves of the drawing",
                 de: "ein Programm mit den Bewegungen der Zeichnung",
             },
+            (Reason::Unchecked, _) => {
+                &Text { en: "a definition without `unchecked`", de: "eine Definition ohne `unchecked`" }
+            }
             (Reason::NoKeepOut, _) => {
                 &Text { en: "keep-out in pathbuild.toml", de: "keep-out in pathbuild.toml" }
             }
@@ -371,6 +374,10 @@ impl Reason {
             Self::OtherMoves => &Text {
                 en: "the moves differ; moves after the first difference were not compared",
                 de: "die Bewegungen weichen ab; nach der ersten Abweichung wurden sie nicht mehr verglichen",
+            },
+            Self::Unchecked => &Text {
+                en: "with `unchecked = true`, it is unknown whether the definition's output mills the drawing",
+                de: "mit `unchecked = true` ist unbekannt, ob die Ausgabe der Definition die Zeichnung fräst",
             },
             Self::NoKeepOut => &Text {
                 en: "the configuration names no layers with clamps",

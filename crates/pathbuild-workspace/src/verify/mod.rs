@@ -498,7 +498,8 @@ impl<'v> Examination<'v> {
             let differences = against.text_differences(settings, self.program, self.is_probing, is_sound);
             found.extend(differences.map_err(|problem| vec![*problem])?);
         }
-        let checks = self.checks(&mut found, comparison.as_ref(), evidence);
+        let drawing_doubt = self.drawing_doubt(comparison.as_ref(), rewritten.as_ref());
+        let checks = self.checks(&mut found, drawing_doubt, evidence);
         self.program.place(&mut found);
         let mut diagnostics = self.doubts(rewritten.as_ref(), &mut found);
         diagnostics.append(&mut found);
@@ -624,12 +625,28 @@ impl<'v> Examination<'v> {
         (found, comparison)
     }
 
+    /// Returns the reason why not all moves were compared with those of the drawing; `None` if they were.
+    fn drawing_doubt(
+        &self,
+        comparison: Option<&MoveComparison>,
+        rewritten: Option<&RewrittenProgram>,
+    ) -> Option<Reason> {
+        if self.verifier.against.is_none() {
+            Some(Reason::NoDrawing)
+        } else if rewritten.is_some_and(|rewritten| !rewritten.is_read_back()) {
+            Some(Reason::Unchecked)
+        } else {
+            let is_cut_short = comparison.is_some_and(|comparison| comparison.equal != comparison.moves);
+            is_cut_short.then_some(Reason::OtherMoves)
+        }
+    }
+
     /// Returns the checks with their outcomes. Adds further findings that follow from the evidence, and turns errors about exceeded limits into
     /// warnings.
     fn checks(
         &self,
         found: &mut Vec<Diagnostic>,
-        comparison: Option<&MoveComparison>,
+        drawing_doubt: Option<Reason>,
         evidence: CheckEvidence,
     ) -> Vec<CheckRecord> {
         let mut is_limit_reached = false;
@@ -645,10 +662,7 @@ impl<'v> Examination<'v> {
         let lowest_cut = lowest_cut.map(|(lowest, _)| lowest);
         let verifier = self.verifier;
         let references = checks::References {
-            is_compared_to_its_end: verifier
-                .against
-                .as_ref()
-                .map(|_| comparison.is_none_or(|comparison| comparison.equal == comparison.moves)),
+            drawing_doubt,
             has_keep_out: verifier.settings.general.keep_out.value.is_some(),
             are_moves_known: self.sources.are_moves_known(),
             travel_doubt,
