@@ -167,6 +167,17 @@ fn the_comments_of_a_definition_are_no_differences() {
     }
 }
 
+/// The spindle may be stopped twice, but not started, after the last cut.
+#[test]
+fn a_definition_that_starts_the_spindle_at_the_end_has_a_warning() {
+    for (end, is_found) in [("M05 M09", false), ("M09", false), ("M05 M09\nM03", true), ("M04 M09", true)] {
+        let place = Place::of(&LIBRARY.replace("M05 M09\n", &format!("{end}\n")));
+        let run = place.run("emit 1234.1P --post own.toml --format concise");
+        assert_eq!(run.status, Some(0), "{end}: {run}");
+        assert_eq!(run.stderr.contains("starts the spindle after the last cut"), is_found, "{end}: {run}");
+    }
+}
+
 /// Lines of the program, each with the text that replaces it and whether `verify` must report the change.
 const CHANGES: [(&str, &str, bool); 14] = [
     ("G00 Z+5 M03", "G00 Z+5", true),

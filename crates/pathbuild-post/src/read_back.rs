@@ -12,7 +12,7 @@ use pathbuild_gcode::verify::{
     Tolerance, coarse_arc_finding,
 };
 use pathbuild_motion::{
-    Action, Axes, Change, Coolant, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength,
+    Action, Axes, Change, Coolant, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, Turning,
     WorkSystem,
 };
 
@@ -112,6 +112,7 @@ pub(super) fn check(
             errors.extend(wrong.into_iter().map(as_finding_of_post));
             doubts.extend(doubtful);
         }
+        doubts.extend(spindle_started_at_end(&read.steps));
         let needs_coolant = |operation: &Operation| operation.coolant.is_some_and(Coolant::is_on);
         if expected.follows_coolant && job.operations.iter().any(needs_coolant) && !tools::cools(&read.steps)
         {
@@ -585,6 +586,24 @@ pub(super) fn is_started(steps: &[Step]) -> bool {
         Action::Spindle(spindle) => spindle.turning.is_on(),
         _ => false,
     })
+}
+
+/// Warns about a spindle that is started, or reversed, after the last cut.
+fn spindle_started_at_end(steps: &[Step]) -> Option<Diagnostic> {
+    let is_cut = |step: &Step| matches!(&step.action, Action::Move(movement) if matches!(movement.pace, Pace::Feed(_)));
+    let last_cut = steps.iter().rposition(is_cut)?;
+    let turnings = steps.iter().enumerate().filter_map(|(index, step)| match step.action {
+        Action::Spindle(spindle) => Some((index, step.line, spindle.turning)),
+        _ => None,
+    });
+    let mut before = Turning::Unstated;
+    for (index, line, turning) in turnings {
+        if index > last_cut && turning.is_on() && turning != before {
+            return Some(Diagnostic::new(&posts::SPINDLE_STARTED_AT_END).at_line(line, None));
+        }
+        before = turning;
+    }
+    None
 }
 
 /// Whether a problem violates one of `verify`'s rules about the spindle.

@@ -383,6 +383,13 @@ messages! {
         help_en: "set that offset at the machine before each run, or remove the word from the post",
         help_de: "diese Verschiebung vor jedem Lauf an der Maschine setzen oder das Wort aus dem Postprozessor entfernen",
     }
+    /// A spindle that is started or reversed after the last cut.
+    SPINDLE_STARTED_AT_END: DoubtfulPost {
+        en: "the output starts the spindle after the last cut",
+        de: "die Ausgabe startet die Spindel nach dem letzten Schnitt",
+        help_en: "remove M3 or M4 from the end of the post, or move it to the tool change",
+        help_de: "M3 oder M4 aus dem Ende des Postprozessors entfernen oder in den Werkzeugwechsel setzen",
+    }
     /// A zero that the output sets at the machine, such as G10 L2.
     ZERO_SET: DoubtfulPost {
         en: "the output sets a zero of the machine with {word}: the operator's zero is overwritten or shifted, and the drawing lies somewhere else",
