@@ -289,10 +289,10 @@ fn numbers_and_paths_as_windows_users_write_them_are_explained() {
         ("feed = 150,5", false, "numbers in this file have a decimal point"),
         ("[tool.2mm]\ndiameter = 2,0", false, "numbers in this file have a decimal point"),
         (r#"out-dir = "D:\gcode""#, false, "write the text in single quotes, or a path with `/`"),
-        (r#"out-dir = "C:\temp\new""#, false, "write the path in single quotes, or with `/`"),
-        (r#"search = ["parts\neu"]"#, false, "write the path in single quotes, or with `/`"),
+        (r#"out-dir = "C:\temp\new""#, false, "write the path with `/`, or, on Windows, in single quotes"),
+        (r#"search = ["parts\neu"]"#, false, "write the path with `/`, or, on Windows, in single quotes"),
         ("feed = 150.5", true, ""),
-        (r"out-dir = 'temp\new'", true, ""),
+        (r"out-dir = 'temp\new'", cfg!(windows), ""),
         (r#"out-dir = "temp/new""#, true, ""),
     ] {
         let run = Place::new().file("pathbuild.toml", written).run("config show");
@@ -523,6 +523,17 @@ fn a_directory_with_an_abbreviation_of_shells_is_refused() {
     ] {
         let run = Place::new().file("pathbuild.toml", format!("out-dir = '{path}'\n")).run("config show");
         let is_reported = run.stderr.contains("which only a shell replaces");
+        assert_eq!((run.status == Some(2), is_reported), (is_wrong, is_wrong), "{path}: {run}");
+    }
+}
+
+/// Outside of Windows, a backslash would be part of a name.
+#[cfg(not(windows))]
+#[test]
+fn a_directory_with_a_backslash_is_refused() {
+    for (path, is_wrong) in [("..\\nc", true), ("nc\\", true), ("../nc", false)] {
+        let run = Place::new().file("pathbuild.toml", format!("out-dir = '{path}'\n")).run("config show");
+        let is_reported = run.stderr.contains("error[PB003]") && run.stderr.contains("contains a backslash");
         assert_eq!((run.status == Some(2), is_reported), (is_wrong, is_wrong), "{path}: {run}");
     }
 }

@@ -49,8 +49,8 @@ messages! {
     CONTROL_CHARACTER: InvalidConfiguration {
         en: "the value of `{key}` contains a control character: in double quotes, a backslash has a special meaning",
         de: "der Wert von `{key}` enthält ein Steuerzeichen: in doppelten Anführungszeichen hat ein Backslash eine besondere Bedeutung",
-        help_en: "write the path in single quotes, or with `/`",
-        help_de: "den Dateipfad in einfache Anführungszeichen setzen oder mit `/` schreiben",
+        help_en: "write the path with `/`, or, on Windows, in single quotes",
+        help_de: "den Dateipfad mit `/` schreiben oder unter Windows in einfache Anführungszeichen setzen",
     }
     /// A file or directory name that begins with an abbreviation of shells, such as `~/` or `$HOME/`.
     SHELL_ABBREVIATION: InvalidConfiguration {
@@ -58,6 +58,13 @@ messages! {
         de: "der Wert von `{key}` beginnt mit {found}, was nur eine Shell ersetzt: hier wäre es der Name eines Verzeichnisses",
         help_en: "write the path in full, or relative to this file; write ./ before it if a directory has this name",
         help_de: "den Dateipfad ausschreiben oder bezogen auf diese Datei angeben; ./ davor schreiben, wenn ein Verzeichnis so heißt",
+    }
+    /// A file or directory name with a backslash, outside of Windows.
+    BACKSLASH_IN_PATH: InvalidConfiguration {
+        en: "the value of `{key}` contains a backslash, which separates directories on Windows only: here it would be part of a name",
+        de: "der Wert von `{key}` enthält einen Backslash, der nur unter Windows Verzeichnisse trennt: hier wäre er Teil eines Namens",
+        help_en: "write / instead: it separates directories on Windows, too",
+        help_de: "stattdessen / schreiben: das trennt auch unter Windows Verzeichnisse",
     }
     /// An unknown key that is similar to a known one.
     UNKNOWN_KEY: InvalidConfiguration {

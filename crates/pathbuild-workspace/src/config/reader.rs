@@ -96,6 +96,10 @@ impl<'a> TomlReader<'a> {
             self.report(self.fault(&messages::SHELL_ABBREVIATION, value.span()).quoting("found", found));
             return None;
         }
+        if !cfg!(windows) && name.contains('\\') {
+            self.report(self.fault(&messages::BACKSLASH_IN_PATH, value.span()));
+            return None;
+        }
         let path: Utf8PathBuf = with_forward_slashes(self.directory.join(name).components().collect());
         match self.confined.filter(|confined| !confined.is_in_configured_root(&path)) {
             None => Some(path),
