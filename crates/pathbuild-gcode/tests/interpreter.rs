@@ -194,13 +194,23 @@ fn half_circles_by_radius_are_doubtful() {
 
 #[test]
 fn the_last_digit_of_a_radius_is_that_of_the_finest_length() {
-    let found = |other: &str| wrong(LinuxCnc, &format!("G0 X0 Y0 Z0\nG2 X10. Y10. R10. F10\nG0 {other}"));
+    let found = |other: &str| wrong(LinuxCnc, &format!("G0 X0 Y0 Z0\nG2 X9. Y9. R7. F10\nG0 {other}"));
     assert_eq!(found("X5."), ["3 doubtful-arc"]);
-    assert_eq!(found("X5.12"), FINE, "a quarter circle does not depend on hundredths");
+    assert_eq!(found("X5.12"), FINE, "this arc of 131° does not depend on hundredths");
     assert_eq!(found("X5.1\nG4 P0.123"), ["3 doubtful-arc"], "a time is no length");
     assert_eq!(found("X[1.23]"), ["3 doubtful-arc"], "a calculated length has any number of digits");
     let half = |other: &str| wrong(LinuxCnc, &format!("G0 X0 Y0 Z{other}\nG2 X20 Y0 R10. F10"));
     assert_eq!([half("0.123"), half("0.1234")], [vec!["3 doubtful-arc".to_owned()], vec![]]);
+}
+
+/// The centre of a quarter circle is nearly as exact as the other numbers of the program, even if these are whole.
+#[test]
+fn rounded_corners_by_radius_are_not_doubtful() {
+    let found = |x: &str, y: &str| wrong(LinuxCnc, &format!("G0 X0 Y0 Z0\nG2 X{x} Y{y} R10 F10"));
+    assert_eq!(found("10", "-10"), FINE);
+    assert_eq!(found("10.5", "-9.5"), FINE);
+    assert_eq!(found("17", "0"), FINE, "116°");
+    assert_eq!(found("18", "0"), ["3 doubtful-arc"], "128°");
 }
 
 #[test]

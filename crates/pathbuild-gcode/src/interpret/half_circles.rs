@@ -12,6 +12,10 @@ use crate::read::{Problems, SourcePosition};
 /// Shift of the centre in mm, caused by the last digit of R, above which an arc is doubtful.
 const MAX_CENTRE_SHIFT: f64 = 0.05;
 
+/// Shift of the centre, in units of the last digit, up to which an arc is not doubtful: the coordinates of the program are hardly more exact.
+/// With this value, arcs of up to about 120° are not doubtful.
+const MAX_AMPLIFICATION: f64 = 2.0;
+
 /// Number of decimals with which no arc that a machine can mill is doubtful.
 const MOST_DECIMALS: u8 = 9;
 
@@ -44,8 +48,9 @@ impl DoubtfulArcs {
             return;
         }
         let known = self.finest.max(arc.decimals);
-        let is_doubtful = |decimals: &u8| arc.shift(*decimals) > MAX_CENTRE_SHIFT;
-        let Some(coarse) = (known..MOST_DECIMALS).take_while(is_doubtful).last() else { return };
+        let Some(coarse) = (known..MOST_DECIMALS).rfind(|decimals| arc.is_doubtful(*decimals)) else {
+            return;
+        };
         self.found.entry(coarse + 1).or_default().add(&say::NEAR_HALF_CIRCLE, at, |d| {
             d.with("shift", arc.shift(coarse)).with("change", arc.unit_of_last_digit(coarse))
         });
@@ -63,6 +68,10 @@ impl DoubtfulArcs {
 impl ArcByRadius {
     fn unit_of_last_digit(&self, decimals: u8) -> f64 {
         self.unit * libm::pow(10.0, -f64::from(decimals))
+    }
+
+    fn is_doubtful(&self, decimals: u8) -> bool {
+        self.shift(decimals) > MAX_CENTRE_SHIFT.max(MAX_AMPLIFICATION * self.unit_of_last_digit(decimals))
     }
 
     /// Returns how far the centre moves if R is greater by one unit of its last digit.
