@@ -961,8 +961,11 @@ fn nothing_is_stale_while_a_directory_of_the_library_is_missing() {
     let place = Place::of(LIBRARY);
     place.run("emit --out-dir all");
     fs::rename(place.path().join("projects"), place.path().join("away")).unwrap();
-    let run = place.run("emit --out-dir all --remove-stale");
-    assert!(run.stderr.contains("PB003") && !run.stderr.contains("stale"), "{run}");
+    for arguments in ["--out-dir all --remove-stale", "--out-dir all --check"] {
+        let run = place.run(&format!("emit {arguments}"));
+        assert!(run.stderr.contains("PB003") && !run.stderr.contains("stale"), "{run}");
+        assert!(!run.stderr.contains("PB513"), "the paths may lie in the missing directory: {run}");
+    }
 }
 
 /// Two libraries may write into one directory.

@@ -10,6 +10,7 @@ use pathbuild_path::PathName;
 
 use crate::common_findings::unused_configurations;
 use crate::config::Settings;
+use crate::config::types::Pattern;
 use crate::memo::{Answer, DrawingResult, Memo, find, read_drawings, read_named};
 use crate::session::{Argument, ArgumentMatches, Selection, Session, several_paths_error};
 
@@ -97,7 +98,7 @@ impl TargetCollector<'_> {
                 self.add(drawing.drawing(), name);
             }
         }
-        self.diagnostics.extend(configured.unmatched());
+        self.diagnostics.extend(configured.unmatched(self.session));
     }
 
     /// Adds the paths of the arguments. A drawing that is named itself must contain exactly one path.
@@ -179,13 +180,20 @@ impl<'a> TargetPatterns<'a> {
         is_target
     }
 
-    /// Returns a warning for each pattern that has matched nothing, which is a mistake in the configuration.
-    pub fn unmatched(&self) -> impl Iterator<Item = Diagnostic> {
+    /// Returns an error for each pattern that has matched nothing, which is a mistake in the configuration. Returns none if a directory of the library
+    /// is missing or empty, because the paths may lie there.
+    pub fn unmatched(&self, session: &Session<'_>) -> Vec<Diagnostic> {
         let targets = &self.settings.emit.targets;
         let unmatched = targets.value.iter().zip(&self.is_met).filter(|(_, is_met)| !**is_met);
-        unmatched.map(|(pattern, _)| {
+        let problem = |(pattern, _): (&Pattern, _)| {
             let problem = Diagnostic::new(&messages::NO_TARGET).quoting("pattern", pattern.text());
             self.settings.locate(problem, targets.origin)
-        })
+        };
+        let problems: Vec<Diagnostic> = unmatched.map(problem).collect();
+        if problems.is_empty() || session.is_whole_library(&session.library()) {
+            problems
+        } else {
+            Vec::new()
+        }
     }
 }

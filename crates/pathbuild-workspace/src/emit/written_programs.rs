@@ -254,7 +254,7 @@ impl WrittenPrograms {
             for target in &targets {
                 configured.matches(target.name(session.db()));
             }
-            problems.extend(configured.unmatched());
+            problems.extend(configured.unmatched(session));
         }
         outcome.unselected
     }

@@ -320,6 +320,14 @@ impl Session<'_> {
         (drawings, problems)
     }
 
+    /// Whether a result of [`library`](Self::library) has drawings, and none of its directories is missing or could not be listed.
+    pub(crate) fn is_whole_library(
+        &self,
+        (drawings, problems): &(Vec<Utf8PathBuf>, Vec<Diagnostic>),
+    ) -> bool {
+        !drawings.is_empty() && problems.is_empty() && self.missing_directories().is_empty()
+    }
+
     /// Returns the names of all drawings in the directories of the library, including drawings that ignore files exclude.
     pub fn names_in_library(&self) -> impl Iterator<Item = Box<str>> + use<> {
         let mut listings = Listings::new();

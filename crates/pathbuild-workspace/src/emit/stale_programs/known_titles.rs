@@ -99,8 +99,8 @@ impl KnownTitles {
             unread.map(|drawing| (written(drawing.drawing()), file_name(drawing.drawing()).to_owned()));
         let covered: HashSet<&Utf8Path> = sound.iter().map(|drawing| drawing.drawing()).collect();
         let has_library = session.has_library();
-        let (library, problems) = if has_library { session.library() } else { Default::default() };
-        let others = library.iter().filter(|drawing| !covered.contains(&***drawing));
+        let library = if has_library { session.library() } else { Default::default() };
+        let others = library.0.iter().filter(|drawing| !covered.contains(&***drawing));
         let others = others.map(|drawing| &**drawing).chain(broken.iter().map(|drawing| drawing.drawing()));
         Self {
             idle,
@@ -111,11 +111,7 @@ impl KnownTitles {
             in_library: session.names_in_library().map(|name| (plain_title(&name), name)).collect(),
             has_broken: !broken.is_empty(),
             paths,
-            knows_all: if has_library {
-                !library.is_empty() && problems.is_empty() && session.missing_directories().is_empty()
-            } else {
-                out_dir.is_none()
-            },
+            knows_all: if has_library { session.is_whole_library(&library) } else { out_dir.is_none() },
             place: OutputPlace::new(session, out_dir.as_deref()),
         }
     }

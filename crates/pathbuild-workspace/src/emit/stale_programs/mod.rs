@@ -11,6 +11,8 @@ mod older;
 mod reason;
 mod search;
 
+use std::collections::HashSet;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, Names, join};
 use pathbuild_db::{Database, Db, Target, program};
@@ -74,7 +76,13 @@ impl<'a> EarlierPrograms<'a> {
             return StaleOutcome::default();
         }
         let older = self.earlier_outcomes(diagnostics);
-        let stale = self.find_stale_programs(diagnostics);
+        let reported: HashSet<&Utf8PathBuf> = older
+            .iter()
+            .flat_map(|older| &older.problems)
+            .filter_map(|problem| problem.file.as_ref())
+            .collect();
+        let mut stale = self.find_stale_programs(diagnostics);
+        stale.retain(|program| !reported.contains(&program.path));
         let (unselected, stale) =
             stale.into_iter().partition(|stale| matches!(stale.reason, Reason::Unselected { .. }));
         StaleOutcome { older, unselected, ..self.settle(stale, is_removed, diagnostics) }
