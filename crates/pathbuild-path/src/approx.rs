@@ -41,7 +41,7 @@ const SQUARES_PER_MM: f64 = 1000.0;
 const GRID_OFFSET: f64 = 0.37;
 
 /// Returns the grid square that contains a point. Points that coincide are in the same square, unless a border between squares separates them.
-#[expect(clippy::cast_possible_truncation, reason = "far outside, all squares are one")]
+#[expect(clippy::cast_possible_truncation, reason = "coordinates beyond i64 share the outermost square")]
 pub(crate) fn grid_square(at: Point2<f64>) -> [i64; 2] {
     [at.x, at.y].map(|coordinate| (coordinate * SQUARES_PER_MM + GRID_OFFSET).floor() as i64)
 }

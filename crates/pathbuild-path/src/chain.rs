@@ -101,7 +101,7 @@ impl WalkedPath {
     }
 }
 
-/// Groups the traversed segments into items. Reports chains without I, and letters without effect inside chains.
+/// Groups the traversed segments into items. Reports chains without I, letters without effect inside chains, and doubtful values of W.
 pub(crate) struct ChainBuilder<'a> {
     path: &'a Path,
     walked: WalkedPath,

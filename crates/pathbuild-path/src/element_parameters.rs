@@ -108,7 +108,7 @@ impl ParameterTable<'_> {
         }
     }
 
-    /// Returns the list of the previous row if its parameters are the same. This saves memory: the parameters of a row take more than its element.
+    /// Returns the list of the previous row if its parameters are the same. This saves memory: the parameters of a row take more of it than its element.
     fn share_parameters(&self, parameters: Vec<Parameter>) -> Arc<[Parameter]> {
         let mut last = self.last.borrow_mut();
         if **last != *parameters {

@@ -197,8 +197,8 @@ impl StatedHeight {
 }
 
 impl PathSignature {
-    /// Returns PB203 for each sweep that gives its own S, but does not clear one of the path's probes or `top`, the height in mm of everything that
-    /// the path embeds. The extent of raised material is not drawn, so it does not matter where the sweep is.
+    /// Returns PB203 for each sweep that gives its own S, but does not clear one of the path's probes or `top`, the height in mm of the highest
+    /// point of the path and everything that it embeds. The extent of raised material is not drawn, so it does not matter where the sweep is.
     pub fn own_sweep_problems(&self, top: f64) -> Vec<Diagnostic> {
         let top = top.max(self.highest_probe);
         let too_low = self.own_sweeps.iter().filter(|sweep| !is_written_above(sweep.height, top));
@@ -233,8 +233,8 @@ impl PathSignature {
         too_high.map(problem).collect()
     }
 
-    /// Returns PB203 if the path embedded by a segment reaches the sweep height. `top`: height in mm of everything embedded, above the plane of this
-    /// path.
+    /// Returns PB203 if the path embedded by a segment reaches the sweep height. `top` is the height in mm of the highest point of that path and
+    /// everything that it embeds, above the plane of this path.
     pub fn raised_subpath_problem(
         &self,
         call: &SubpathCall,
@@ -493,7 +493,7 @@ impl<'a> SubpathChecker<'a> {
         let is_known =
             |given: &SubpathValue| inner.definitions.iter().any(|known| given.variable == Some(known.name));
         let unknown = values.iter().filter(|given| !is_known(given)).count();
-        // Each missing variable may be what an unknown one was meant to be.
+        // Each unknown variable may be a misspelling of a missing one, so as many missing ones are not reported.
         let missing = inner.definitions.iter().filter(|known| !is_given(known)).skip(unknown);
         let missing = missing.map(|definition| {
             let problem = Diagnostic::new(&parameters::MISSING_VALUE_HERE)
@@ -638,8 +638,8 @@ impl<'a> SubpathChecker<'a> {
         Some(if is_doubt { problem.as_warning() } else { problem })
     }
 
-    /// Whether the material of an embedded path is another sheet than that of the embedding path: it lies on shims (a positive H), or has another
-    /// name (M), which is not a matter of case.
+    /// Whether the embedded path is milled from a sheet of its own, not from that of the embedding path: one that lies on shims (a positive H), or
+    /// one of another material (M, compared without regard to case).
     fn is_own_sheet(&self, call: &SubpathCall) -> bool {
         let is_other =
             |(outer, segment): (&SmolStr, &SmolStr)| outer.to_lowercase() != segment.to_lowercase();

@@ -226,7 +226,7 @@ impl Placement {
     }
 }
 
-/// Angle in radians from which a path counts as turned: less moves nothing by a digit of a program.
+/// Angle in radians above which a path counts as turned. A smaller one changes no digit of a program.
 const MIN_TURN: f64 = 1e-8;
 
 /// Returns the point of a circle at an angle in degrees. Quarter turns are exact, so that points drawn at 90 degrees stay there.

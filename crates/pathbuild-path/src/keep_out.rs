@@ -82,8 +82,8 @@ impl KeepOutMap {
         self.clamps.is_empty()
     }
 
-    /// Returns the indices of the clamps that a tool of this radius hits in a move, in ascending order. `slack`: tolerance in mm for rounding
-    /// errors.
+    /// Returns the indices of the clamps that a tool of this radius hits in a move, in ascending order. A tool that comes no more than `slack` mm too
+    /// near or too low does not count as hitting a clamp, since that may be a rounding error.
     pub fn entered_clamps(&self, way: &TipMove, radius: f64, slack: f64) -> Vec<usize> {
         let radius = (radius - slack).max(0.0);
         let near = self.boxes.locate_in_envelope_intersecting(widened_box(&way.curve, radius));
@@ -109,7 +109,7 @@ impl TipMove {
         self.from_z.min(self.to_z)
     }
 
-    /// Returns the part of the move below a height, as a curve in the plane.
+    /// Returns the part of the move below a height, as a curve in the plane; `None` if no part is.
     pub(crate) fn part_below(&self, height: f64) -> Option<Curve> {
         let (from, to) = (above(height, self.from_z), above(height, self.to_z));
         if from == to {
@@ -227,8 +227,8 @@ fn monotone(curve: &Curve) -> Vec<Curve> {
     cuts.windows(2).map(|cut| curve.section(along(cut[0]), along(cut[1]))).collect()
 }
 
-/// Returns the bounding box of a curve, or of the whole circle for an arc, widened by `near`.
-pub(crate) fn widened_box(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
+/// Returns the bounding box of a curve, or of the whole circle for an arc, widened by `margin`.
+pub(crate) fn widened_box(curve: &Curve, margin: f64) -> AABB<[f64; 2]> {
     let (a, b) = match curve {
         Curve::Line(line) => (line.start, line.end),
         Curve::Arc(arc) => {
@@ -236,6 +236,6 @@ pub(crate) fn widened_box(curve: &Curve, near: f64) -> AABB<[f64; 2]> {
             (arc.centre - out, arc.centre + out)
         }
     };
-    let low = [a.x.min(b.x) - near, a.y.min(b.y) - near];
-    AABB::from_corners(low, [a.x.max(b.x) + near, a.y.max(b.y) + near])
+    let low = [a.x.min(b.x) - margin, a.y.min(b.y) - margin];
+    AABB::from_corners(low, [a.x.max(b.x) + margin, a.y.max(b.y) + margin])
 }

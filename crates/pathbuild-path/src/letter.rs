@@ -45,6 +45,7 @@ letters! {
     Variable ':',
 }
 
+/// A set of letters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Letters(u32);
 

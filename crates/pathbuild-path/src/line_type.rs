@@ -95,7 +95,7 @@ impl<'l, 'd> LineTypes<'l, 'd> {
             return *line_type;
         }
         let line_type = LineType::of(name, self.aliases);
-        if self.known.len() < MOST_KNOWN {
+        if self.known.len() < MAX_CACHED_NAMES {
             self.known.push((name, line_type));
         }
         line_type
@@ -103,7 +103,7 @@ impl<'l, 'd> LineTypes<'l, 'd> {
 }
 
 /// Maximum number of cached names, more than a usual drawing has. Further names are looked up each time.
-const MOST_KNOWN: usize = 32;
+const MAX_CACHED_NAMES: usize = 32;
 
 /// Suffixes, longest first: `DASHEDX2` must not be reduced to `DASHEDX`.
 const SUFFIXES: [&str; 3] = ["TINY", "X2", "2"];

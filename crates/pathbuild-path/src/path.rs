@@ -267,7 +267,7 @@ impl Path {
         }
     }
 
-    /// Whether the path has errors. Such a path is checked further, but gives no program.
+    /// Whether the path has errors, or a value that it needs is unknown. Such a path is checked further, but gives no program.
     pub fn has_faults(&self) -> bool {
         self.uncertainty.is_some()
     }
@@ -312,7 +312,7 @@ impl Path {
     pub fn needs_feed(&self) -> bool {
         self.feed.is_none()
             && self.segments.iter().any(|segment| match &segment.kind {
-                // The plunge to an edge of a chain uses the path's feed, regardless of the chain's segments.
+                // The plunge into a chain may use the path's feed, whatever feeds its segments give.
                 SegmentKind::Cut(_) => true,
                 SegmentKind::Hole(hole) => self.holes[*hole as usize].feed.is_none(),
                 SegmentKind::Helix(helix) => self.helices[*helix as usize].feed.is_none(),
@@ -383,7 +383,7 @@ impl CutParameters {
 }
 
 impl Helix {
-    /// Radius of the circle on which the axis of a cutter of this diameter moves along a drawn circle.
+    /// Radius of the circle on which the axis of a cutter of diameter `tool` moves, to mill a circle of radius `drawn`.
     pub(crate) fn radius_of_axis(drawn: f64, tool: f64) -> f64 {
         drawn - tool / 2.0
     }

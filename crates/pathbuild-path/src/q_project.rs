@@ -108,8 +108,8 @@ pub struct QProjectLine {
     pub text: String,
 }
 
-/// Plans the Q-project of a component: one path for each O, for each tool of one O, and for each T of one material, in order of first appearance.
-/// Each embedded path uses the values of its first proxy line, or else its own values and example values. Paths with errors are left out.
+/// Plans the Q-project of a component, in order of first appearance: paths with different O, different tools, or a different T of the same material
+/// are embedded by different paths of the Q-project. Each embedded path uses the values of its first proxy line, or else its own values and example values. Paths with errors are left out.
 pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
     let mut by_cutter: Vec<Vec<(Path, QProjectLine)>> = Vec::new();
     for planned in component.paths.iter().filter_map(|raw| planned_line(component, raw)) {
@@ -125,11 +125,11 @@ pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
             None => by_cutter.push(vec![planned]),
         }
     }
-    by_cutter.into_iter().map(|group| of_cutter(component, group)).collect()
+    by_cutter.into_iter().map(|group| embedding_path(component, group)).collect()
 }
 
 /// Returns the path that embeds these paths, all of which have the same O and the same tool.
-fn of_cutter(component: &Component<'_>, planned: Vec<(Path, QProjectLine)>) -> QProject {
+fn embedding_path(component: &Component<'_>, planned: Vec<(Path, QProjectLine)>) -> QProject {
     let paths = planned.iter().map(|(path, _)| path);
     let thickest =
         paths.fold(&planned[0].0, |most, path| if path.thickness > most.thickness { path } else { most });
@@ -186,9 +186,9 @@ pub fn compare_q_project(
     drawing: &str,
     paths: Option<&[Path]>,
 ) -> QProjectFindings {
-    let judge = QProjectComparison { component, drawing };
-    let in_q_project = paths.map(|paths| judge.embeddings(paths)).unwrap_or_default();
-    QProjectFindings { in_component: judge.proxy_problems(), in_q_project }
+    let comparison = QProjectComparison { component, drawing };
+    let in_q_project = paths.map(|paths| comparison.embedding_problems(paths)).unwrap_or_default();
+    QProjectFindings { in_component: comparison.proxy_problems(), in_q_project }
 }
 
 struct QProjectComparison<'a> {
@@ -226,7 +226,7 @@ impl<'a> QProjectComparison<'a> {
         let Some(path) = self.component.path(raw, Some(proxy)) else { return Vec::new() };
         let differences = differences_from_path(proxy, &path).into_iter();
         let mut problems: Vec<Diagnostic> = differences
-            .map(|difference| differing(&messages::PROXY_VALUE_DIFFERS, difference, &name))
+            .map(|difference| difference_problem(&messages::PROXY_VALUE_DIFFERS, difference, &name))
             .collect();
         problems
             .extend(proxy.text().problems(ElementClass::Subpath).into_iter().filter(Diagnostic::is_error));
@@ -252,7 +252,9 @@ impl<'a> QProjectComparison<'a> {
         if joined.contains(&named) { None } else { joined.first().copied() }
     }
 
-    fn embeddings(&self, paths: &[Path]) -> Vec<Diagnostic> {
+    /// Returns PB515 for each path of the component that the Q-project does not embed, and PB516 for each subpath that disagrees with the proxy
+    /// lines.
+    fn embedding_problems(&self, paths: &[Path]) -> Vec<Diagnostic> {
         let mut embedded: BTreeMap<&PathName, Vec<(&Path, &Segment, &Subpath)>> = BTreeMap::new();
         for path in paths {
             for segment in &path.segments {
@@ -270,7 +272,7 @@ impl<'a> QProjectComparison<'a> {
             }
             Some(segments) => {
                 let of_segment = |&(path, segment, subpath): &(&Path, &Segment, &Subpath)| {
-                    self.embedding(name, path, segment, subpath)
+                    self.subpath_problems(name, path, segment, subpath)
                 };
                 segments.iter().flat_map(of_segment).collect()
             }
@@ -279,7 +281,7 @@ impl<'a> QProjectComparison<'a> {
     }
 
     /// Returns PB516 if a subpath agrees with none of its path's proxy lines. Faulty proxy lines are ignored.
-    fn embedding(
+    fn subpath_problems(
         &self,
         name: &PathName,
         path: &Path,
@@ -306,7 +308,8 @@ impl<'a> QProjectComparison<'a> {
         subpath: &Subpath,
     ) -> Vec<Diagnostic> {
         let differences = differences_from_proxy(path, subpath, proxy).into_iter();
-        let differing = differences.map(|difference| differing(&messages::Q_VALUE_DIFFERS, difference, name));
+        let differing =
+            differences.map(|difference| difference_problem(&messages::Q_VALUE_DIFFERS, difference, name));
         let mut problems: Vec<Diagnostic> = differing.collect();
         let (here, there) = ((subpath.end - subpath.start).norm(), proxy.curve.chord());
         if (here - there).abs() > CHORD_TOLERANCE {
@@ -336,7 +339,7 @@ fn at_proxy(proxy: &ProxyLine, problem: Diagnostic) -> Diagnostic {
     problem
 }
 
-fn differing(
+fn difference_problem(
     message: &'static Message,
     (letter, here, there, text): Difference,
     name: &PathName,
@@ -434,6 +437,7 @@ fn or_dash(value: Option<&str>) -> Value {
     Value::quoted(value.unwrap_or("-"))
 }
 
+/// Whether a text is a number equal to `number`.
 fn is_number(text: &str, number: f64) -> bool {
     parse_number(text).is_some_and(|written| near(written, number))
 }

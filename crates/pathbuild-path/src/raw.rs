@@ -72,8 +72,8 @@ impl RawPath {
         !self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
-    /// Returns the findings about the drawing, without those about mistakes that are also in `problems`: a letter without effect (PB210) that also
-    /// has a value outside its limits (PB203), or for two reasons, is a single mistake.
+    /// Returns the findings about the drawing, except for letters without effect (PB210) about which there is also a finding in `problems`: a value
+    /// outside its limits (PB203), or another reason why the letter has no effect. It is a single mistake of the user.
     pub fn findings_except(&self, problems: &[Diagnostic]) -> Vec<Diagnostic> {
         let is_same = |found: &Diagnostic, problem: &Diagnostic| {
             matches!(problem.code(), Code::ParameterOutOfRange | Code::ParameterWithoutEffect)

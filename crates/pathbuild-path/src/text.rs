@@ -183,7 +183,7 @@ impl<'t> ParameterText<'t> {
     }
 
     /// Returns the first character of a piece, whether it is a parameter letter or not.
-    pub(crate) fn letter(self, piece: &LetterValue) -> Option<char> {
+    pub(crate) fn first_character(self, piece: &LetterValue) -> Option<char> {
         self.string[piece.span()].chars().next()
     }
 
@@ -201,7 +201,7 @@ impl<'t> ParameterText<'t> {
     /// Returns the letters that pieces without a letter may stand for: B for `b2`, any letter for a lone `2`, none for `X9`.
     pub(crate) fn unread_letters(self) -> Letters {
         let meant = |piece: &LetterValue| {
-            let first = self.letter(piece).unwrap_or_default();
+            let first = self.first_character(piece).unwrap_or_default();
             match Letter::new(first.to_ascii_uppercase()) {
                 Some(letter) => Letters::of(&[letter]),
                 None if first.is_ascii_alphabetic() => Letters::default(),
@@ -276,8 +276,8 @@ impl<'t> ParameterText<'t> {
             let mistake = mistake_in_piece(self, piece, class).or_else(|| self.word_problem(piece, class));
             return Some(mistake.unwrap_or_else(|| unknown_letter(first, class)));
         };
-        let how = class.use_of(letter);
-        if matches!(how, LetterUse::Unknown | LetterUse::PathOnly) {
+        let letter_use = class.use_of(letter);
+        if matches!(letter_use, LetterUse::Unknown | LetterUse::PathOnly) {
             if letter == Letter::Embed {
                 return Some(
                     Diagnostic::new(&messages::NAME_ON_OTHER_ELEMENT)
@@ -293,7 +293,7 @@ impl<'t> ParameterText<'t> {
         if letter.is_literal() && self.value(piece).contains('=') {
             return Some(Diagnostic::new(&messages::VARIABLE_NOT_ALLOWED).with("letter", first));
         }
-        if how == LetterUse::Ignored {
+        if letter_use == LetterUse::Ignored {
             return Some(self.no_effect_problem(letter, piece, class));
         }
         self.unseparated_parameter_problem(letter, piece, class)
@@ -535,7 +535,7 @@ fn comma_mistake(text: ParameterText<'_>) -> Option<Diagnostic> {
 /// Recognises lower case: `o2 t2 i0.5 b0`.
 fn lower_case_mistake(text: ParameterText<'_>, class: ElementClass) -> Option<Diagnostic> {
     let upper = |piece: &LetterValue| {
-        let letter = Letter::new(text.letter(piece)?.to_ascii_uppercase())?;
+        let letter = Letter::new(text.first_character(piece)?.to_ascii_uppercase())?;
         let is_meant = piece.letter.is_none()
             && class.use_of(letter).counts()
             && ValueKind::of(letter, text.value(piece)) != ValueKind::NoNumber;
@@ -546,7 +546,7 @@ fn lower_case_mistake(text: ParameterText<'_>, class: ElementClass) -> Option<Di
     }
     let written = |piece: &LetterValue| match upper(piece) {
         Some(letter) => format!("{}{}", letter.as_char(), text.value(piece)),
-        None => format!("{}{}", text.letter(piece).unwrap_or_default(), text.value(piece)),
+        None => format!("{}{}", text.first_character(piece).unwrap_or_default(), text.value(piece)),
     };
     let written = text.pieces().iter().map(written).collect::<Vec<_>>().join(" ");
     Some(
@@ -594,7 +594,7 @@ fn remark_mistake(text: ParameterText<'_>, class: ElementClass) -> Option<Diagno
         let is_text = counts(piece) && piece.letter.is_some_and(Letter::is_text);
         !is_text
             && value.chars().nth(1).is_some()
-            && text.letter(piece).is_some_and(char::is_alphabetic)
+            && text.first_character(piece).is_some_and(char::is_alphabetic)
             && value.chars().all(char::is_alphabetic)
     };
     let is_parameter = |piece: &LetterValue| counts(piece) && !is_word(piece);
@@ -688,7 +688,7 @@ fn mistake_in_piece(text: ParameterText<'_>, piece: &LetterValue, class: Element
     let before = text.pieces().iter().take_while(|other| *other != piece).last();
     let is_apart = |sign: &LetterValue| sign.letter == Some(Letter::Embed) && text.value(sign).is_empty();
     let has_name = || text.piece(Letter::Embed).is_some_and(|name| !text.value(name).is_empty());
-    let (message, meant) = match text.letter(piece)? {
+    let (message, meant) = match text.first_character(piece)? {
         first if class == ElementClass::Subpath && before.is_some_and(is_apart) => {
             (&messages::NAME_APART_FROM_SIGN, format!(">{first}{value}"))
         }

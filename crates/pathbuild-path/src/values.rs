@@ -28,6 +28,7 @@ pub(crate) enum GivenNumber {
     Number(f64),
 }
 
+/// The values that a parameter text gives to its letters.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Values<'t> {
     text: ParameterText<'t>,
@@ -367,7 +368,7 @@ impl LimitCheck<'_> {
     }
 }
 
-/// Returns the finding about a mark with this bottom in mm.
+/// Returns the finding about a mark with this bottom in mm, if the mark is suspiciously deep.
 pub(crate) fn check_mark(
     bottom: f64,
     own: &Values<'_>,
@@ -416,7 +417,7 @@ const USUAL_INFEED: f64 = 0.5;
 /// Thickness in mm below which a support bar is too weak to hold a part, in material of twice that thickness or more.
 const MIN_BAR_THICKNESS: f64 = 0.1;
 
-/// Returns the finding about support bars with this upper edge in mm.
+/// Returns the finding about support bars with this upper edge in mm, if they are too thin to hold a part.
 pub(crate) fn check_bar(top: f64, path: &Values<'_>) -> Option<Diagnostic> {
     let thickness = path.thickness().number()?;
     if !above(MIN_BAR_THICKNESS.min(thickness / 2.0), top) {
@@ -426,13 +427,13 @@ pub(crate) fn check_bar(top: f64, path: &Values<'_>) -> Option<Diagnostic> {
     Some(problem.with("example", USUAL_BAR_THICKNESS.min(thickness / 2.0)))
 }
 
-/// Returns the finding about support bars of this length in mm.
+/// Returns the finding about support bars of this length in mm, if they are too short to hold a part.
 pub(crate) fn check_bar_length(length: f64) -> Option<Diagnostic> {
     let is_weak = !above(length, MAX_WEAK_BRIDGE);
     is_weak.then(|| Diagnostic::new(&messages::SHORT_BARS).with("value", length))
 }
 
-/// Returns the findings about the values that `own` gives and that have an effect on the element. `path`: the values of the path.
+/// Returns the findings about suspicious values among those that `own` gives and that have an effect on the element. `path`: the values of the path.
 pub(crate) fn check_doubts(
     own: &Values<'_>,
     path: &Values<'_>,
@@ -525,7 +526,7 @@ impl DoubtCheck<'_> {
         above(feed, maximum).then(|| self.own.underline(Letter::F, problem().with("limit", maximum)))
     }
 
-    /// A drill cuts along its axis, so the chip load of milling does not apply to its feed.
+    /// Returns the finding about a feed that does not suit the chip load of the tool. A drill cuts along its axis, so its feed is not checked.
     fn chip_load(&self, limits: Option<ChipLoad>) -> Option<Diagnostic> {
         let is_drilled = matches!(self.class, ElementClass::DrilledHole | ElementClass::DrilledMark);
         let problem = limits.filter(|_| !is_drilled)?.check(self.value(Letter::F)?, None)?;

@@ -19,6 +19,7 @@ pub struct Bindings(Vec<(char, SmolStr)>);
 /// Substitution of values for references to variables.
 pub(crate) struct Interpolation<'a> {
     pub(crate) bindings: &'a Bindings,
+    /// Maximum length in bytes of a value with variables substituted.
     pub(crate) limit: usize,
     /// Variables with erroneous definitions, and therefore unknown values.
     pub(crate) unknown: &'a [char],

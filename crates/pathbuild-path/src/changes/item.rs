@@ -80,8 +80,8 @@ fn moving_parameters(row: &ElementParameters) -> impl Iterator<Item = &Parameter
     row.parameters.iter().filter(|parameter| can_move(parameter.letter))
 }
 
-/// Whether the value of a letter can change moves. Not those of comments (Q), labels (L), materials (M), names of files (R) and permissions (E), nor
-/// @: the parameters that it borrows are compared themselves.
+/// Whether the value of a letter can change moves. Comments (Q), labels (L), materials (M), names of files (R) and permissions (E) cannot. Nor can @
+/// itself: the borrowed parameters are compared instead.
 fn can_move(letter: Letter) -> bool {
     !matches!(letter, Letter::E | Letter::L | Letter::M | Letter::Q | Letter::R | Letter::At)
 }

@@ -32,7 +32,7 @@ pub struct DrawnSide<'a> {
 /// The drawn differences between two versions of a path.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawnChanges {
-    /// The changes that can affect the moves, each with all elements that it applies to, ordered by place.
+    /// The changes that can affect the moves, ordered by kind of element and place. Equal changes of several elements count as one change.
     pub changes: Vec<DrawnChange>,
     /// Whether only the order of the elements in the file has changed, which decides between segments that the walk could traverse equally well.
     pub is_reordered: bool,

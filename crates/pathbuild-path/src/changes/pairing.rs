@@ -259,6 +259,7 @@ struct Form {
     points: [Micrometres; 2],
 }
 
+/// The kind, form and place of an element, as a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct Place {
     kind: ElementKind,

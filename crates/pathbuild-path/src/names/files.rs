@@ -257,10 +257,10 @@ impl RangeTable {
 }
 
 /// Returns PB519 for paths in the file's name that are on no layer, and PB521 for paths that are never looked up in a file of this name. Q-projects
-/// are exempt, since they are named after the drawing that they test. `stem`: the name without `.dxf`.
+/// are exempt, since they are named after the drawing that they test. `stem`: the name without `.dxf`; `drawn`: the paths of the drawing.
 pub fn check_file_name(
     stem: &str,
-    held: &[PathName],
+    drawn: &[PathName],
     files: &FilePattern,
     paths: &PathPattern,
 ) -> Vec<Diagnostic> {
@@ -271,12 +271,13 @@ pub fn check_file_name(
     let ranges = files.ranges(stem);
     let is_covered =
         |name: &PathName| key(name).is_some_and(|key| ranges.iter().any(|range| range.holds(&key)));
-    let keys: Vec<PathKey> = held.iter().filter_map(key).collect();
-    let is_held = |name: &PathName| key(name).is_some_and(|key| keys.iter().any(|held| held.is_like(&key)));
-    let promised = names_in_file_name(stem, files, paths).into_iter().filter(|name| !is_held(name));
+    let keys: Vec<PathKey> = drawn.iter().filter_map(key).collect();
+    let is_drawn =
+        |name: &PathName| key(name).is_some_and(|key| keys.iter().any(|known| known.is_like(&key)));
+    let promised = names_in_file_name(stem, files, paths).into_iter().filter(|name| !is_drawn(name));
     let broken =
         promised.map(|name| Diagnostic::new(&messages::PROMISED_PATH).quoting("name", name.as_str()));
-    let strays = held.iter().filter(|name| !is_covered(name)).map(|name| {
+    let strays = drawn.iter().filter(|name| !is_covered(name)).map(|name| {
         let stray = Diagnostic::new(&messages::STRAY_PATH).quoting("name", name.as_str());
         stray.in_path(name.as_str())
     });

@@ -34,7 +34,7 @@ pub struct PathLayer {
     /// Name of the path.
     pub path: PathName,
     /// Whether the layer is a tilde layer (`2916.1P~A`), which keeps its texts apart from the elements of the path's other layers.
-    pub tilde: bool,
+    pub is_tilde: bool,
 }
 
 impl From<PathName> for CaseSensitiveName {
@@ -93,7 +93,9 @@ impl PathPattern {
     pub fn layer(&self, layer: &str) -> Option<PathLayer> {
         let name = without_tilde(layer);
         let path = with_points(name);
-        self.0.matches(&path).then(|| PathLayer { path: PathName(path.into()), tilde: is_tilde_layer(layer) })
+        self.0
+            .matches(&path)
+            .then(|| PathLayer { path: PathName(path.into()), is_tilde: is_tilde_layer(layer) })
     }
 
     /// Whether a layer is a path layer.

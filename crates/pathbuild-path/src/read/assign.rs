@@ -30,7 +30,7 @@ const MAX_EXAMINED_FOR_HINTS: usize = 1_000_000;
 /// Bounds the search for hints about texts without an element.
 struct HintBudgets {
     candidates: SearchBudget,
-    /// For elements that take no text.
+    /// For HIDDEN elements, end markers and turn markers, which take no text.
     silent: SearchBudget,
 }
 
@@ -96,7 +96,7 @@ impl<'d> Texts<'d> {
     }
 }
 
-/// Reports PB116 for each text that lies on an element of another path of the drawing, to within `margin` mm, and not on its own element: it was
+/// Reports PB116 for each text with a centre within `margin` mm of an element of another path of the drawing, but not of its own element: it was
 /// probably drawn on the wrong path's layer.
 pub(super) fn check_other_paths(paths: &mut [PathCollector<'_>], margin: f64) {
     if paths.len() < 2 {
@@ -145,7 +145,7 @@ impl<'d> LayerTexts<'d> {
         budget: &SearchBudget,
         mut remember: impl FnMut(&FoundText<'d>, AssignedCandidate),
     ) -> Option<Diagnostic> {
-        // A candidate beside the text is no rival if a later text belongs to it.
+        // A candidate that the text does not overlap is no rival if a later text belongs to it.
         let mut beside_text = Vec::new();
         let last = self.each_match(budget, |layer, text, circle, owners, found| {
             let has_owner = !owners.is_empty();

@@ -43,7 +43,7 @@ pub(super) struct BrokenOutline {
 pub(super) struct SortedOutlines {
     pub(super) rings: Vec<NumberedCurves>,
     pub(super) broken: Vec<BrokenOutline>,
-    /// Open chains that begin at no ring: outlines with a large gap, or lines that belong to no outline.
+    /// Open chains that are not attached to a ring: outlines with a large gap, or lines that belong to no outline.
     pub(super) open: Vec<NumberedCurves>,
     /// The boxes of the broken outlines.
     boxes: BoxIndex,
@@ -81,7 +81,7 @@ impl SortedOutlines {
         for half in open_halves(&rings, &hanging).into_iter().filter(|half| is_outermost[half.ring]) {
             curves_of_halves.extend(half.curves);
             if !std::mem::replace(&mut is_left_out[half.ring], true) {
-                // The open half reports the gap.
+                // The gap is reported with the open half.
                 let closed = &rings[half.ring];
                 broken.push(BrokenOutline::new(closed[0].0, closed[0].1.start(), None, &curves_of(closed)));
             }

@@ -76,7 +76,7 @@ pub(crate) struct AssignedCandidate {
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(crate) struct Rival {
     pub(crate) doubt: Doubt,
-    /// How much farther away it is in mm; negative if it is nearer.
+    /// How much farther away the rival is than the text's own candidate, in mm; negative if it is nearer.
     pub(crate) farther: f64,
     pub(crate) candidate: usize,
 }
@@ -90,7 +90,7 @@ pub(crate) enum Doubt {
     EquallyNear,
     /// The other candidate is hardly farther away.
     HardlyFarther,
-    /// The other candidate is nearer, but its kind comes later.
+    /// The other candidate is nearer, but of a kind that comes later in the order of priority.
     NearerOfLaterKind,
     /// The other candidate is nearer and of the same kind: it is on another layer, or is a circle with a centre farther away.
     NearerOfSameKind,
@@ -102,8 +102,8 @@ pub(crate) enum Doubt {
 pub(crate) struct SearchBudget(Cell<usize>);
 
 impl SearchBudget {
-    pub(crate) fn new(most: usize) -> Self {
-        Self(Cell::new(most))
+    pub(crate) fn new(units: usize) -> Self {
+        Self(Cell::new(units))
     }
 
     /// Whether the budget is used up, so that the last results are unreliable.
@@ -148,8 +148,8 @@ pub(crate) fn find(
     })
 }
 
-/// Returns the first and nearest of the rivals for which `is_possible` holds. Candidates of the same kind as the text's own are doubtful if they are
-/// less than `margin` mm farther away, and so are arcs and lines.
+/// Returns the rival with the first reason for doubt in the order of [`Doubt`], and the nearest of these, among those for which `is_possible` holds.
+/// A candidate less than `margin` mm farther away than the text's own is a rival if both are circles, or if each is an arc or a line.
 pub(crate) fn find_rival(
     circle: &TextCircle,
     own: &AssignedCandidate,
@@ -370,7 +370,7 @@ impl CandidateIndex {
     fn nearest(&self, point: Xy) -> Box<dyn Iterator<Item = (usize, f64)> + '_> {
         let at_least = |squared: f64| libm::sqrt(squared) - BOX_MARGIN;
         match self {
-            // Sorting a few candidates is not worth the effort.
+            // A few candidates are not sorted: with a lower bound of minus infinity, the caller examines all of them.
             Self::List(boxes) => Box::new((0..boxes.len()).map(|index| (index, f64::NEG_INFINITY))),
             Self::Tree(tree) => {
                 let found = tree.nearest_neighbor_iter_with_distance_2([point.x, point.y]);

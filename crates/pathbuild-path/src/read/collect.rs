@@ -47,7 +47,7 @@ pub(crate) struct PathCollector<'d> {
     pub(super) unclear: Vec<UnclearCircle>,
     pub(super) shared: Vec<SharedProblem>,
     pub(super) hints: StartHints,
-    /// Whether there is anything but texts: layers with texts alone form no path.
+    /// Whether the layers contain anything other than texts: layers with texts alone form no path.
     pub(super) has_elements: bool,
 }
 
@@ -220,7 +220,7 @@ impl PathCollector<'_> {
         self.given.get(text)
     }
 
-    /// Notes a text that is probably the path's own but does not belong to the start marker.
+    /// Keeps the first text that is probably the path's own but does not belong to the start marker.
     pub(super) fn note_start_text(&mut self, text: ParameterText<'_>, drawn: &FoundText<'_>) {
         let has = |letter| text.letters.contains(letter);
         if self.hints.text.is_none() && has(Letter::O) && has(Letter::T) && !has(Letter::Embed) {
@@ -229,7 +229,7 @@ impl PathCollector<'_> {
         }
     }
 
-    /// Notes a text of an element that is probably the path's own.
+    /// Like [`Self::note_start_text`], for a text that belongs to an element.
     pub(super) fn note_given_start_text(&mut self, text: TextId, drawn: &FoundText<'_>) {
         let given = take(&mut self.given);
         if let Some(text) = given.get(text) {
@@ -288,6 +288,7 @@ impl PathCollector<'_> {
     }
 }
 
+/// The layers of a drawing that belong to paths.
 pub(super) struct PathLayers {
     /// The path layers in file order, except that the layers of a path follow its first one.
     found: Vec<FoundLayer>,

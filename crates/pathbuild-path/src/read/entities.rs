@@ -11,12 +11,14 @@ use crate::approx::above;
 use crate::element::{Source, diagnostic_point};
 use crate::geometry::{Arc, Curve, Line, Xy, direction};
 
+/// A text of the drawing, with the entity that draws it.
 #[derive(Clone, Copy)]
 pub(super) struct FoundText<'d> {
     pub(super) source: Source,
     pub(super) text: AnyText<'d>,
 }
 
+/// A single-line or multi-line text of a drawing.
 #[derive(Clone, Copy)]
 pub(super) enum AnyText<'d> {
     Text(&'d Text),
@@ -119,7 +121,7 @@ impl TextCircle {
         let letter = LETTER_WIDTH * text.height;
         let room = text.width.map_or(f64::INFINITY, |width| width / letter);
         let counts_blanks = counts_blanks(&text.plain, text.counts_blanks);
-        // The rows from the first to the last with letters are seen, of the columns those from `indent` to `longest`.
+        // Only the part with letters counts: the rows from the first to the last with letters, and the columns from `indent` to `longest`.
         let (mut rows, mut first, mut last) = (0, None, 0);
         let (mut indent, mut longest) = (usize::MAX, 0);
         for line in text.plain.split('\n') {
@@ -192,7 +194,7 @@ impl TextCircle {
     }
 }
 
-/// Whether blanks at the ends of rows count for the size of a text. Those of a text that has nothing else do, so that it has a size.
+/// Whether blanks at the ends of rows count for the size of a text. In a text of nothing but blanks they do, so that it has a size.
 fn counts_blanks(text: &str, is_compatible: bool) -> bool {
     is_compatible || text.trim().is_empty()
 }

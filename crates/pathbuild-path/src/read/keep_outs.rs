@@ -64,7 +64,7 @@ fn lone_hatches(drawing: &Drawing, language: &Language, clamps: &[KeepOut]) -> V
     let map = flat_map(clamps.iter().map(|clamp| &*clamp.outline));
     let fills = |place: &Place| {
         let touches =
-            |point: Point| !at_point(&map, Xy::new(point.x.0, point.y.0), END_SEARCH_RADIUS).is_empty();
+            |point: Point| !outlines_at(&map, Xy::new(point.x.0, point.y.0), END_SEARCH_RADIUS).is_empty();
         place.point.is_some_and(touches)
     };
     let problem = |place: &Place| {
@@ -101,7 +101,7 @@ pub(super) fn unread_clamps(
         let map = flat_map(outlines.iter().map(|closed| &*closed.outline));
         let is_inside = |(_, text): &&(usize, AnyText<'_>)| {
             let TextCircle { centre, radius } = text.circle();
-            !at_point(&map, centre, radius).is_empty()
+            !outlines_at(&map, centre, radius).is_empty()
         };
         found.extend(heights.iter().find(is_inside).map(|(entity, text)| {
             let problem = Diagnostic::new(&messages::HEIGHT_ON_OTHER_LAYER)
@@ -113,13 +113,13 @@ pub(super) fn unread_clamps(
     found
 }
 
-/// Creates a map of outlines to be searched with [`at_point`].
+/// Creates a map of outlines for [`outlines_at`].
 fn flat_map<'k>(outlines: impl Iterator<Item = &'k [Curve]>) -> KeepOutMap {
     KeepOutMap::new(outlines.map(|outline| (1.0, outline)))
 }
 
 /// Returns the numbers of the outlines that a disc around a point overlaps. `radius` in mm.
-fn at_point(map: &KeepOutMap, centre: Xy, radius: f64) -> Vec<usize> {
+fn outlines_at(map: &KeepOutMap, centre: Xy, radius: f64) -> Vec<usize> {
     let way = TipMove { curve: Curve::Line(Line { start: centre, end: centre }), from_z: 0.0, to_z: 0.0 };
     map.entered_clamps(&way, radius, 0.0)
 }
@@ -133,6 +133,7 @@ fn by_layer(drawing: &Drawing) -> Vec<Vec<usize>> {
     layers
 }
 
+/// Reads the clamps on one layer.
 struct ClampReader<'d> {
     drawing: &'d Drawing,
     language: &'d Language,
@@ -141,6 +142,7 @@ struct ClampReader<'d> {
     problems: Vec<Diagnostic>,
 }
 
+/// The texts inside an outline or overlapping it.
 #[derive(Clone, Default)]
 struct OutlineTexts<'d> {
     /// The first few texts, with the indices of their entities.
@@ -303,7 +305,7 @@ impl ClampReader<'_> {
         for number in entities {
             let Some(text) = AnyText::of(&self.drawing.entities[*number].geometry) else { continue };
             let TextCircle { centre, radius } = text.circle();
-            let over = at_point(&map, centre, radius);
+            let over = outlines_at(&map, centre, radius);
             if over.is_empty() && !broken.iter().any(|extent| extent.intersects(&square(centre, radius))) {
                 let problem = Diagnostic::new(&messages::TEXT_OUTSIDE_CLAMPS).quoting("text", one_line(text));
                 let problem = self.at(*number, centre, problem);
@@ -454,13 +456,13 @@ const END_SEARCH_RADIUS: f64 = 1e-3;
 
 impl<'p> RingBuilder<'p> {
     fn new(parts: &'p [RingPart]) -> Self {
-        let ends = || (0..2 * parts.len()).map(|end| (end, at(parts, end)));
+        let ends = || (0..2 * parts.len()).map(|end| (end, end_point(parts, end)));
         let tree = RTree::bulk_load(ends().map(|(end, at)| GeomWithData::new([at.x, at.y], end)).collect());
         let junctions = |(end, place): (CurveEnd, Xy)| {
             let near = tree
                 .locate_within_distance([place.x, place.y], END_SEARCH_RADIUS * END_SEARCH_RADIUS)
                 .map(|other| other.data);
-            let mut others = near.filter(|other| *other != end && coincide(place, at(parts, *other)));
+            let mut others = near.filter(|other| *other != end && coincide(place, end_point(parts, *other)));
             match (others.next(), others.next()) {
                 (None, _) => Junction::Nothing,
                 (Some(other), None) => Junction::One(other),
@@ -493,7 +495,7 @@ impl<'p> RingBuilder<'p> {
         let several = [last, other].into_iter().find(|end| self.junctions[*end] != Junction::Nothing);
         let (end, part) = (several.unwrap_or(last), self.parts[several.unwrap_or(last) / 2]);
         if several.is_some() {
-            return Ring::Branch { part, at: at(self.parts, end) };
+            return Ring::Branch { part, at: end_point(self.parts, end) };
         }
         // Both sequences begin with the first curve.
         let back = back.iter().skip(1).rev().map(|part| part.curve.reversed());
@@ -525,7 +527,7 @@ impl<'p> RingBuilder<'p> {
     }
 }
 
-fn at(parts: &[RingPart], end: CurveEnd) -> Xy {
+fn end_point(parts: &[RingPart], end: CurveEnd) -> Xy {
     let curve = &parts[end / 2].curve;
     if end % 2 == 1 { curve.end() } else { curve.start() }
 }

@@ -4,7 +4,7 @@ use crate::letter::{Letter, Letters};
 use crate::look_alikes;
 use crate::text::{ParameterText, ParameterTexts, ValueKind, is_special_space};
 
-/// Letters that spoil a part if they are missing. A stray text must contain one of them to be reported.
+/// Letters without which a part would be spoilt. A stray text must contain one of them to be reported.
 pub(super) const ESSENTIAL_LETTERS: Letters =
     Letters::of(&[Letter::B, Letter::D, Letter::F, Letter::I, Letter::W]);
 
@@ -94,7 +94,7 @@ pub(super) fn parameters_between_words(text: &str) -> String {
     without_mistakes(text).split_whitespace().filter(is_parameter).collect::<Vec<_>>().join(" ")
 }
 
-/// Whether a text is meant as parameters that spoil a part if they are missing.
+/// Whether a text is meant as parameters without which a part would be spoilt.
 pub(super) fn is_parameter_text(text: &str) -> bool {
     let mut texts = ParameterTexts::default();
     let readings = [texts.push_drawn(text), texts.push_drawn(&without_mistakes(text))];

@@ -131,20 +131,21 @@ impl ProxyLine {
 
     /// Returns the value of a letter. `None` if it refers to variables, which belong to the project that the line is copied into.
     pub fn value(&self, letter: Letter) -> Option<(&str, TextFault)> {
-        self.known(self.text().piece(letter)?)
+        self.value_of_piece(self.text().piece(letter)?)
     }
 
     /// The values that the line sets, each with its variable and its place in the text.
     pub fn variables(&self) -> impl Iterator<Item = (char, &str, TextFault)> {
         let pieces = self.text().pieces().iter().filter(|piece| piece.letter == Some(Letter::Variable));
         pieces.filter_map(|piece| {
-            let (value, fault) = self.known(piece)?;
+            let (value, fault) = self.value_of_piece(piece)?;
             let mut value = value.chars();
             Some((value.next()?, value.as_str(), fault))
         })
     }
 
-    fn known(&self, piece: &LetterValue) -> Option<(&str, TextFault)> {
+    /// Returns the value of a piece and its place in the text; `None` if it refers to variables.
+    fn value_of_piece(&self, piece: &LetterValue) -> Option<(&str, TextFault)> {
         let value = self.text().value(piece);
         (!value.contains('=')).then(|| (value, self.text().fault(piece)))
     }

@@ -59,6 +59,7 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
     RawFile { paths: collected.into_iter().map(|path| path.finish(&starts)).collect(), diagnostics }
 }
 
+/// Returns the start texts of all paths; empty if no start refers to another path with @.
 fn starts(paths: &[PathCollector<'_>]) -> Starts {
     let texts = paths.iter().filter_map(|path| {
         let start = path.start.as_ref()?;

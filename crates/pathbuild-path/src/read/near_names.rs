@@ -9,11 +9,12 @@ use crate::names::{LayerPattern, PathName};
 /// Maximum number of characters after a path name that are taken for a typing error.
 const MAX_SLIP_CHARACTERS: usize = 2;
 
-/// Words that precede or follow the name of a layer in that of a layer with another version of it, in English and German.
+/// Words before or after the name of a layer that mark another version of its content, in English and German.
 const VERSIONS: [&str; 8] = ["old", "new", "copy", "copy of", "alt", "neu", "Kopie", "Kopie von"];
 
 /// Path names, for comparison with the names of other layers.
 pub struct NearNames {
+    /// Paths by their names, normalized with [`case_folded`].
     by_folded: HashMap<String, PathName>,
     /// Paths by their names without the letters at the end, such as `1234.1` for `1234.1P`, normalized as well.
     without_letters: HashMap<String, PathName>,
@@ -45,8 +46,7 @@ impl NearNames {
 
     /// Returns the path with a name that resembles the name of another layer: the layer has the path's name, followed by a tilde and any text, by at
     /// most two more characters, or by a word for another version, or has that word in front, or it lacks the letters at the end or any one
-    /// character. Case and all characters but letters and digits
-    /// are ignored; letters that look like digits are treated as those digits.
+    /// character. Case and all characters but letters and digits are ignored; letters that look like digits are treated as those digits.
     pub fn path(&self, layer: &str) -> Option<&PathName> {
         let layer = case_folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
@@ -148,7 +148,7 @@ fn similar_names(layer: &str) -> Vec<String> {
     shorter.chain(longer).chain([plain.split_whitespace().collect()]).chain(others).collect()
 }
 
-/// Returns a name without the word for a version at its end: `Part` for `Part_OLD` and `Part (old)`.
+/// Returns a name without this word for a version at its end: `Part` for `Part_OLD` and `Part (old)`. `None` if it does not end with the word.
 fn without_version(name: &str, word: &str) -> Option<String> {
     let is_separator = |character: char| !character.is_alphanumeric();
     let name = name.trim_end_matches(is_separator);
@@ -156,7 +156,8 @@ fn without_version(name: &str, word: &str) -> Option<String> {
     last.eq_ignore_ascii_case(word).then(|| before.trim_end_matches(is_separator).to_owned())
 }
 
-/// Returns a name without the word for a version in front of it: `Part` for `old Part` and `Kopie von Part`.
+/// Returns a name without this word for a version in front of it: `Part` for `old Part` and `Kopie von Part`. `None` if it does not begin with the
+/// word.
 fn after_version<'n>(name: &'n str, word: &str) -> Option<&'n str> {
     let is_separator = |character: char| !character.is_alphanumeric();
     let (first, name) = name.trim_start_matches(is_separator).split_at_checked(word.len())?;

@@ -23,7 +23,7 @@ pub(super) struct Graph {
     numbers: Vec<usize>,
     /// Indices of the curves that have different faces on their two sides.
     dividing: BTreeSet<usize>,
-    /// The faces of these curves, as half-edges, each on the left of its half-edges.
+    /// The faces that the dividing curves bound, as half-edges; a face lies on the left of its half-edges.
     faces: Vec<Vec<usize>>,
 }
 
@@ -104,7 +104,7 @@ impl Graph {
         pairs
     }
 
-    /// Returns the outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same area on both sides are
+    /// Returns the outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same face on both sides are
     /// dropped: dangling chains, and lines from one ring to another. A ring that crosses itself may run either way round.
     pub(super) fn rings(&self) -> Vec<NumberedCurves> {
         let outer = self.faces.iter().filter(|face| {
@@ -174,7 +174,7 @@ impl Graph {
         if half_edge.is_multiple_of(2) { curve } else { curve.reversed() }
     }
 
-    /// Returns the faces of these curves, each on the left of its half-edges.
+    /// Returns the faces that these curves bound, as half-edges; a face lies on the left of its half-edges.
     fn faces_of(&self, curves: &(impl Iterator<Item = usize> + Clone)) -> Vec<Vec<usize>> {
         let half_edges = || curves.clone().flat_map(|curve| [2 * curve, 2 * curve + 1]);
         let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();

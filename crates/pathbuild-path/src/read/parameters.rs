@@ -1,4 +1,4 @@
-//! Checks the parameters of a path and its elements as far as possible without values: letters, @, definitions.
+//! Checks the parameters of a path and its elements as far as possible before variables are bound: letters, @, definitions.
 
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
@@ -22,6 +22,7 @@ use crate::variables::Definition;
 /// The start texts of all paths, for references by @; empty if there are no references.
 pub(super) type Starts = BTreeMap<PathName, Start>;
 
+/// The text of a path's start marker, to which @ may refer.
 pub(super) struct Start {
     pub(super) text: Box<str>,
     /// Whether the start's text itself refers to another path.
@@ -255,6 +256,9 @@ impl PathCheck<'_> {
 }
 
 /// Returns the path named by @, with its start.
+///
+/// # Errors
+/// If there are other letters beside @, if no start has that name, or if that start borrows its parameters itself; without a place.
 fn referenced<'s>(
     text: ParameterText<'_>,
     piece: &LetterValue,
@@ -286,6 +290,7 @@ const MIN_MOVE_LENGTH: f64 = 0.0005;
 /// them no more accurately than this.
 const MIN_CUT_LENGTH: f64 = 0.01;
 
+/// Checks a raw path, and adds its findings to it.
 pub(super) struct PathCheck<'r> {
     pub(super) raw: &'r mut RawPath,
     pub(super) hints: StartHints,

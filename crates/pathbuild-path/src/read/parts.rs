@@ -62,6 +62,7 @@ pub fn has_text_on_part(drawing: &Drawing, language: &Language) -> bool {
             .any(|entity| is_part(entity.layer) && AnyText::of(&entity.geometry).is_some_and(is_stray))
 }
 
+/// A curve on a layer with parts.
 struct OutlineCurve {
     curve: Curve,
     /// The index of the curve's entity.
@@ -130,7 +131,7 @@ impl<'d> OutlineLayers<'d> {
         }))
     }
 
-    /// Returns PB219 for layers of which no curve belongs to a closed ring, and about which nothing else is reported.
+    /// Returns PB219 for layers on which no curve belongs to a closed ring, unless something other than an unreadable curve is reported there.
     fn without_rings(&self, found: &DrawnParts) -> Vec<Diagnostic> {
         let is_unread = |problem: &&Diagnostic| {
             [&messages::OUTLINE_UNREADABLE, &messages::OUTLINE_FAULTY].contains(&problem.message)

@@ -27,7 +27,8 @@ fn area(ring: &[Curve]) -> f64 {
     ring.iter().map(|curve| curve.area_from(origin)).sum::<f64>().abs()
 }
 
-/// Returns for each ring inside others the outermost ring around it, and the second outermost, or the ring itself if there is no second.
+/// Returns for each ring inside others the outermost ring around it, and the second outermost, or the ring itself if there is no second. `None` for
+/// rings inside no other.
 pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
     if rings.len() == 1 {
         return vec![None];

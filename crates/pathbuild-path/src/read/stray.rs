@@ -84,7 +84,8 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
     findings
 }
 
-/// Adds the layers that begin with a path's name and hold elements with a parameter text: they are those of the path, whatever follows the name.
+/// Adds the layers with names that begin with a path's name, if they hold elements and a parameter text: they are probably meant for the path,
+/// whatever follows its name.
 fn add_layers_with_texts<'n>(
     drawing: &Drawing,
     names: &'n NearNames,
@@ -135,8 +136,8 @@ fn stray_text(
     Some(at_entity(drawing, entity, text.anchor(), problem.in_path(path.name.as_str())))
 }
 
-/// Returns PB119 for the text of a multileader or dimension on the layer of a path, unless a text of the path says the same, and for that of a
-/// multileader on another layer if it would have an effect on the element at the tip of its arrow.
+/// Returns PB119 for the text of a multileader or dimension on the layer of a path, unless a text of the path says the same, and for the text
+/// of a multileader on another layer if it would have an effect on the element at the tip of the multileader's arrow.
 fn unread_label(
     label: &Label,
     layer: &str,
@@ -223,7 +224,7 @@ fn stray_probe(
 }
 
 impl PathCollector<'_> {
-    /// Whether a text would have an effect that spoils a part if it is missing, on an element without a text.
+    /// Whether an element has no text, and this one would have an effect on it without which a part would be spoilt.
     fn would_apply(&self, text: ParameterText<'_>, candidate: &Candidate) -> bool {
         let (class, text_of_owner, essential) = match candidate.owner {
             Owner::Element(element) => {

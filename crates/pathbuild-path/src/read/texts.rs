@@ -30,6 +30,7 @@ pub(super) struct GivenText<'d> {
     pub(super) found: AssignedCandidate,
 }
 
+/// The texts of one layer, and the elements that they may belong to.
 #[derive(Default)]
 pub(super) struct LayerTexts<'d> {
     pub(super) name: SmolStr,
@@ -80,7 +81,7 @@ impl<'d> Texts<'d> {
         self.layer(layer).candidates.push(candidate);
     }
 
-    /// Lets a marker take the path's text from its own layer.
+    /// Makes a circle the start marker, so that the path's text on its layer is assigned to it.
     pub(super) fn give_to_start(&mut self, start: &Marker) {
         let Some(layer) = self.layers.iter_mut().find(|layer| layer.name == start.origin.layer) else {
             return;
@@ -191,8 +192,8 @@ impl<'d> LayerTexts<'d> {
         Origin::new(source, &self.name, point)
     }
 
-    /// Calls `is_taken` for each TEXT in file order, then for each MTEXT, with its candidate; for a polyline, with all its parts. The texts for which
-    /// it returns false stay. Stops at the text that exhausts the budget, and returns that text.
+    /// Calls `is_taken` for each TEXT in file order, then for each MTEXT, with its candidate; for a polyline, with all its parts. Texts for which
+    /// `is_taken` returns false stay in `texts`. Stops at the text that exhausts the budget, and returns that text.
     pub(super) fn each_match(
         &mut self,
         budget: &SearchBudget,

@@ -78,8 +78,8 @@ impl Walker<'_> {
         Some(self.path.origin(&self.path.segments[segment]).at(problem))
     }
 
-    /// Returns the problem that the path ends in the middle of a line or arc that was not reached. One that branches off at a point that the walk passed
-    /// may be followed back, and a subpath cannot be split.
+    /// Returns the problem that the path ends in the middle of a line or arc that was not reached. Excluded are those that branch off at a point that
+    /// the walk passed, to which it may come back, and subpaths, which cannot be split.
     fn ends_on_another(&self, message: &'static Message) -> Option<Diagnostic> {
         let is_meant = |segment: &usize| {
             self.passes_through(*segment, self.at)
@@ -109,11 +109,13 @@ impl Walker<'_> {
     /// Whether only a small gap separates the current point from a segment that was not reached.
     fn has_open_end_beside(&self) -> bool {
         let nearest = self.nearest_end(self.at);
-        nearest.is_some_and(|(_, end, distance)| distance <= MAX_SKIPPED_GAP && !self.is_foot_of_last(end))
+        nearest.is_some_and(|(_, end, distance)| {
+            distance <= MAX_SKIPPED_GAP && !self.is_start_of_short_last_segment(end)
+        })
     }
 
-    /// Returns the nearest end of a traversed segment, if only a small gap separates it from the current point. After a short segment there is none:
-    /// what lies near it may be the way that led there.
+    /// Returns the nearest end of a traversed segment, if only a small gap separates it from the current point. `None` after a short
+    /// segment: the ends near it may be those of the segments that led there.
     fn traversed_end_beside(&self) -> Option<(usize, Xy)> {
         self.last.filter(|last| self.length(*last) > MAX_SKIPPED_GAP)?;
         let ends =
@@ -124,7 +126,7 @@ impl Walker<'_> {
     }
 
     /// Whether the last segment leads from a point to the current one and is as short as a gap.
-    fn is_foot_of_last(&self, point: Xy) -> bool {
+    fn is_start_of_short_last_segment(&self, point: Xy) -> bool {
         self.last.is_some_and(|last| {
             self.length(last) <= MAX_SKIPPED_GAP && self.ends.of(last).iter().any(|end| coincide(*end, point))
         })
@@ -280,7 +282,7 @@ impl Walker<'_> {
             about_copy(&messages::END_NOT_REACHED_TWICE, segment)
         } else if let Some(segment) = part {
             about_copy(&messages::END_NOT_REACHED_PART_TWICE, segment)
-        } else if distance <= MAX_SKIPPED_GAP && !self.is_foot_of_last(end) {
+        } else if distance <= MAX_SKIPPED_GAP && !self.is_start_of_short_last_segment(end) {
             Diagnostic::new(&messages::STOPS_BESIDE_END).with("distance", distance)
         } else if self.is_passed(end) && !coincide(end, self.path.start) {
             Diagnostic::new(&messages::END_PASSED)
@@ -320,7 +322,8 @@ impl Walker<'_> {
         distances.reduce(|best, other| if other.2 < best.2 { other } else { best })
     }
 
-    /// Adds the end to which a missing segment probably leads: across a small gap the nearest one, otherwise rather an open end than a corner.
+    /// Adds a note about the end to which a missing segment probably leads: the nearest one across a small gap, otherwise the nearest one that is not
+    /// a corner, if there is any.
     fn with_nearest_end(&self, problem: Diagnostic, point: Xy) -> Diagnostic {
         let Some(nearest) = self.nearest_end(point) else { return problem };
         let open = || {

@@ -52,7 +52,9 @@ struct Walker<'a> {
     is_traversed: Vec<bool>,
     /// Scratch buffer for the segments at the current point, kept to avoid reallocating.
     found: Vec<usize>,
+    /// Number of segments that are not traversed.
     left: usize,
+    /// The current point.
     at: Xy,
     /// The last traversed segment.
     last: Option<usize>,
@@ -335,7 +337,7 @@ struct OpenEnds {
 impl OpenEnds {
     fn new(open: impl Iterator<Item = usize>, ends: &Ends) -> Self {
         let (mut points, mut segments) = (Vec::new(), BTreeMap::<_, BTreeSet<usize>>::new());
-        for (segment, end) in open.flat_map(|segment| of(segment, ends).map(|end| (segment, end))) {
+        for (segment, end) in open.flat_map(|segment| end_keys(segment, ends).map(|end| (segment, end))) {
             let at_end = segments.entry(bits(end)).or_default();
             if at_end.is_empty() {
                 points.push(end);
@@ -346,7 +348,7 @@ impl OpenEnds {
     }
 
     fn remove(&mut self, segment: usize, ends: &Ends) {
-        for end in of(segment, ends) {
+        for end in end_keys(segment, ends) {
             let Some(at_end) = self.segments.get_mut(&bits(end)) else { continue };
             at_end.remove(&segment);
             if at_end.is_empty() {
@@ -368,7 +370,7 @@ impl OpenEnds {
 }
 
 /// Returns the ends of a segment as keys; zeros get a positive sign, since points are compared by their bits.
-fn of(segment: usize, ends: &Ends) -> [[f64; 2]; 2] {
+fn end_keys(segment: usize, ends: &Ends) -> [[f64; 2]; 2] {
     ends.of(segment).map(|end| [end.x + 0.0, end.y + 0.0])
 }
 

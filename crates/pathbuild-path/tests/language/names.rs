@@ -46,9 +46,9 @@ fn names_are_the_same_when_their_texts_are() {
 #[test]
 fn a_tilde_and_letters_are_no_part_of_the_name() {
     let tilde = layer("2916.1P~A").unwrap();
-    assert_eq!((tilde.path.as_str(), tilde.tilde), ("2916.1P", true));
+    assert_eq!((tilde.path.as_str(), tilde.is_tilde), ("2916.1P", true));
     assert_eq!(path_of("2916.1P~ab").as_deref(), Some("2916.1P"));
-    assert!(!layer("2916.1P").unwrap().tilde);
+    assert!(!layer("2916.1P").unwrap().is_tilde);
     for other in ["2916.1P~1", "2916.1P~A1", "2916.1P~A~1", "2916.1P~A B"] {
         assert_eq!(path_of(other), None, "{other}");
     }
