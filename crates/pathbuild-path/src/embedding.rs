@@ -413,7 +413,7 @@ impl<'a> SubpathChecker<'a> {
             }
             SubpathName::Invalid { value } => {
                 let pattern = &self.language.path_pattern;
-                let problem = match pattern.meant_by(value) {
+                let problem = match pattern.name_meant_by(value) {
                     Some(meant) => {
                         Diagnostic::new(&messages::NAME_WITHOUT_POINT).quoting("meant", meant.as_str())
                     }

@@ -109,7 +109,8 @@ pub struct QProjectLine {
 }
 
 /// Plans the Q-project of a component, in order of first appearance: paths with different O, different tools, or a different T of the same material
-/// are embedded by different paths of the Q-project. Each embedded path uses the values of its first proxy line, or else its own values and example values. Paths with errors are left out.
+/// are embedded by different paths of the Q-project. Each embedded path uses the values of its first proxy line, or else its own values and example
+/// values. Paths with errors are left out.
 pub fn plan_q_project(component: &Component<'_>) -> Vec<QProject> {
     let mut by_cutter: Vec<Vec<(Path, QProjectLine)>> = Vec::new();
     for planned in component.paths.iter().filter_map(|raw| planned_line(component, raw)) {

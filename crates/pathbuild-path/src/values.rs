@@ -445,12 +445,12 @@ pub(crate) fn check_doubts(
     let found = [
         doubts.below_plate(),
         doubts.high_sweep(),
-        doubts.infeed(),
-        doubts.machine_feed(),
+        doubts.large_infeed(),
+        doubts.feed_above_machine(),
         doubts.chip_load(chip_load),
-        doubts.lowered(),
-        doubts.pecks(),
-        doubts.thousands(),
+        doubts.negative_height(),
+        doubts.pecks_without_cycles(),
+        doubts.feed_with_thousands(),
     ];
     let zeros = LENGTHS.into_iter().filter_map(|letter| doubts.zero_before_number(letter));
     found.into_iter().flatten().chain(zeros).collect()
@@ -507,7 +507,7 @@ impl DoubtCheck<'_> {
         Some(self.own.underline(Letter::S, problem))
     }
 
-    fn infeed(&self) -> Option<Diagnostic> {
+    fn large_infeed(&self) -> Option<Diagnostic> {
         let (infeed, thickness) = (self.value(Letter::I)?, self.thickness()?);
         let limit = self.limits.infeed * thickness;
         let message = match above(infeed, thickness) {
@@ -520,7 +520,7 @@ impl DoubtCheck<'_> {
         Some(self.own.underline(Letter::I, problem))
     }
 
-    fn machine_feed(&self) -> Option<Diagnostic> {
+    fn feed_above_machine(&self) -> Option<Diagnostic> {
         let (feed, maximum) = (self.value(Letter::F)?, self.limits.maximum_feed?);
         let problem = || Diagnostic::new(&messages::FEED_ABOVE_MACHINE).with("value", feed);
         above(feed, maximum).then(|| self.own.underline(Letter::F, problem().with("limit", maximum)))
@@ -533,7 +533,7 @@ impl DoubtCheck<'_> {
         Some(self.own.underline(Letter::F, problem))
     }
 
-    fn lowered(&self) -> Option<Diagnostic> {
+    fn negative_height(&self) -> Option<Diagnostic> {
         let height = self.value(Letter::H).filter(|height| above(0.0, *height))?;
         let is_probe = self.class == ElementClass::Probe;
         let message = if is_probe { &messages::LOWERED_PROBE } else { &messages::LOWERED };
@@ -541,14 +541,14 @@ impl DoubtCheck<'_> {
         Some(self.own.underline(Letter::H, problem))
     }
 
-    fn pecks(&self) -> Option<Diagnostic> {
+    fn pecks_without_cycles(&self) -> Option<Diagnostic> {
         self.value(Letter::C).filter(|_| !self.limits.has_cycles)?;
         let problem = Diagnostic::new(&messages::PECKS_WITHOUT_CYCLES).with("letter", Letter::C.as_char());
         Some(self.own.underline(Letter::C, problem))
     }
 
     /// Returns the finding about a feed like F1.200 or F1,200, which was probably meant as 1200 mm/min.
-    fn thousands(&self) -> Option<Diagnostic> {
+    fn feed_with_thousands(&self) -> Option<Diagnostic> {
         let (feed, written) = (self.value(Letter::F)?, self.own.text(Letter::F)?);
         let (thousands, rest) = written.split_once(['.', ','])?;
         if rest.len() != 3 || !(MIN_FEED..MIN_FEED_WITH_DECIMALS).contains(&feed) {

@@ -64,7 +64,7 @@ fn compute_placed_keep_outs(db: &dyn Db, traced: &TracedProgram) -> Vec<PlacedKe
 }
 
 /// Returns PB407 for moves that hit clamps: one per kind of move, element and clamp, reported in the path that contains both.
-pub(super) fn entered_keep_outs(db: &dyn Db, target: Target) -> &[Diagnostic] {
+pub(super) fn keep_out_collisions(db: &dyn Db, target: Target) -> &[Diagnostic] {
     // Most programs have no clamps around them; no query is needed then.
     if has_keep_outs(db, target) { moves_into_keep_outs(db, target) } else { &[] }
 }

@@ -6,7 +6,7 @@
 //!                            \-> resolve_path -> name_table
 //! ```
 //!
-//! If drawings have clamps, `program` also asks `entered_keep_outs`, which checks the moves of `traced_program` against `keep_outs`.
+//! If drawings have clamps, `program` also asks `keep_out_collisions`, which checks the moves of `traced_program` against `keep_outs`.
 //!
 //! A check of most drawings asks only for `file_index`; the parsed drawing is dropped as soon as the index exists. `raw_file` reads a
 //! drawing again for programs, other values of variables, and the places of findings.

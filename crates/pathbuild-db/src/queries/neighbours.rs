@@ -25,7 +25,7 @@ use crate::queries::programs::{self, TracedProgram, traced_program};
 /// Returns PB214 for cuts of one embedded path into the part of another, PB218 for cuts through its support bars, and PB217 for parts that such cuts
 /// leave loose: one finding per part or bar and element, reported in the path that contains both. Also returns PB221 for paths that place a shared
 /// part differently, and PB222 for cuts in loose waste.
-pub(super) fn harmed_neighbours(db: &dyn Db, target: Target) -> &[Diagnostic] {
+pub(super) fn neighbour_problems(db: &dyn Db, target: Target) -> &[Diagnostic] {
     // Most paths embed no others; no query is needed then.
     if has_neighbours(db, target) { cuts_into_neighbours(db, target) } else { &[] }
 }
@@ -39,7 +39,7 @@ fn cuts_into_neighbours(db: &dyn Db, target: Target) -> Vec<Diagnostic> {
     neighbour_findings(db, &[target])
 }
 
-/// Like [`harmed_neighbours`], but for one or more targets with programs that are joined into one.
+/// Like [`neighbour_problems`], but for one or more targets with programs that are joined into one.
 pub(super) fn neighbour_findings(db: &dyn Db, targets: &[Target]) -> Vec<Diagnostic> {
     let Some(program) = placed_program(db, targets) else { return Vec::new() };
     let mut found = program.findings();

@@ -12,8 +12,8 @@ use crate::database::Db;
 use crate::inputs::{Settings, SourceFile, Target};
 use crate::queries::closures::closure;
 use crate::queries::index::{bind, file_index};
-use crate::queries::keep_outs::entered_keep_outs;
-use crate::queries::neighbours::{harmed_neighbours, neighbour_findings};
+use crate::queries::keep_outs::keep_out_collisions;
+use crate::queries::neighbours::{neighbour_findings, neighbour_problems};
 use crate::queries::part::{doubtful_outlines, example_findings, has_doubtful_outlines};
 use crate::queries::programs::ClosurePaths;
 use crate::queries::raw::{locate_in, raw_file, read_layers};
@@ -24,8 +24,8 @@ use crate::queries::raw::{locate_in, raw_file, read_layers};
 pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
     let closure = closure(db, target);
     let is_right = !closure.has_errors() && closure.missing_options.is_empty();
-    let is_harmful = || harmed_neighbours(db, target).iter().any(Diagnostic::is_error);
-    if !is_right || !entered_keep_outs(db, target).is_empty() || is_harmful() {
+    let is_harmful = || neighbour_problems(db, target).iter().any(Diagnostic::is_error);
+    if !is_right || !keep_out_collisions(db, target).is_empty() || is_harmful() {
         return None;
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();
@@ -53,7 +53,7 @@ fn problems_with_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic> {
 /// [`locate`].
 pub fn check_target(db: &dyn Db, target: Target) -> impl Iterator<Item = &Diagnostic> {
     let found = closure(db, target).diagnostics.iter();
-    found.chain(entered_keep_outs(db, target)).chain(harmed_neighbours(db, target))
+    found.chain(keep_out_collisions(db, target)).chain(neighbour_problems(db, target))
 }
 
 /// Returns the findings (PB214, PB217, PB218, PB221, PB222) about how the programs of these targets cut the parts of each other if they are joined

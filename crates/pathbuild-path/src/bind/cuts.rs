@@ -55,7 +55,8 @@ impl Binder<'_> {
         }
     }
 
-    /// Returns the support bars of a segment of this length. Reports bars that are thin or leave no room for the cutter between them.
+    /// Returns the support bars of a segment of this length. Reports bars that are thin or short, or leave no room for the
+    /// cutter beside them.
     pub(super) fn bars(&mut self, scope: &Scope<'_>, length: f64, tool: Option<f64>) -> Option<Bars> {
         let [top, bar, distance] = [Letter::D, Letter::P, Letter::U].map(|letter| self.value(scope, letter));
         let bars = Bars { top: top?, length: bar?, distance: distance? };

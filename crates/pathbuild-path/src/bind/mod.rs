@@ -409,7 +409,7 @@ impl<'a> Binder<'a> {
         self.report_repeated_probes(&path.probes);
     }
 
-    /// Reports probes at the position of an earlier probe, or with its name.
+    /// Reports probes at the position of an earlier probe, or with its label (L).
     fn report_repeated_probes(&mut self, probes: &[Probe]) {
         let (mut places, mut labels) = (BTreeSet::new(), BTreeMap::new());
         for (marker, probe) in self.raw.probes.iter().zip(probes) {

@@ -216,7 +216,7 @@ impl LayerPattern {
     }
 
     /// Returns the text of the first group that captures any of a layer's name.
-    pub(crate) fn captured<'l>(&self, layer: &'l str) -> Option<&'l str> {
+    pub(crate) fn captured_text<'l>(&self, layer: &'l str) -> Option<&'l str> {
         let captures = self.whole.get().captures(layer)?;
         captures.iter().skip(1).flatten().map(|found| found.as_str()).find(|text| !text.is_empty())
     }

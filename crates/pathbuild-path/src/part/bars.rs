@@ -40,8 +40,8 @@ pub struct LostBar {
     pub is_too_short: bool,
 }
 
-/// Returns the bars of all paths that are cut away, once for each path that cuts one away. A bar of which all cuts together leave P, such as a long
-/// one round a corner to which a cut leads, holds as it should.
+/// Returns the bars of all paths that are cut away, once for each path that cuts one away. A bar is left out if all cuts together leave P of it,
+/// which suffices to hold the part: for example, a long bar round a corner to which a cut leads.
 pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
     let mut found = Vec::new();
     for (of, path) in cuts.paths.iter().enumerate() {

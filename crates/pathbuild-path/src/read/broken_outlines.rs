@@ -94,7 +94,7 @@ impl SortedOutlines {
                 None => others.push(chain),
             }
         }
-        let overshooting = overshooting(&others);
+        let overshooting = overshooting_outlines(&others);
         let mut open = if overshooting.is_empty() { others } else { Vec::new() };
         let hanging: BTreeSet<usize> = hanging.iter().flatten().map(|(number, _)| *number).collect();
         open.retain(|chain| !chain.iter().any(|(number, _)| hanging.contains(number)));
@@ -164,7 +164,7 @@ impl BrokenOutline {
 
 /// Returns the outlines that open chains form between the points where they cross each other, if hardly any part of the chains lies beyond those
 /// points: for example, lines that overshoot all corners, as in `#`.
-fn overshooting(chains: &[NumberedCurves]) -> Vec<BrokenOutline> {
+fn overshooting_outlines(chains: &[NumberedCurves]) -> Vec<BrokenOutline> {
     let curves: Vec<(usize, usize, Curve)> = (0..)
         .zip(chains)
         .flat_map(|(chain, curves)| curves.iter().map(move |(number, curve)| (chain, *number, *curve)))

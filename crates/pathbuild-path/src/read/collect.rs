@@ -128,7 +128,7 @@ impl PathCollector<'_> {
     }
 
     /// Returns the findings about the texts of layers that have a path name but contain only texts.
-    pub(crate) fn orphans(mut self) -> Vec<Diagnostic> {
+    pub(crate) fn orphan_findings(mut self) -> Vec<Diagnostic> {
         take(&mut self.texts).assign(&mut self, 0.0);
         let mut diagnostics = take(&mut self.diagnostics);
         for diagnostic in &mut diagnostics {

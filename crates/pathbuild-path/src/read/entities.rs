@@ -111,7 +111,7 @@ impl TextCircle {
         }
         let anchor = Xy::new(text.anchor.x, text.anchor.y);
         Self {
-            centre: anchor + turned(offset, text.rotation),
+            centre: anchor + rotated(offset, text.rotation),
             radius: libm::sqrt(width * width + text.height * text.height) / 2.0,
         }
     }
@@ -146,7 +146,7 @@ impl TextCircle {
         let height = text.height * f64::from(last - first);
         let anchor = Xy::new(text.anchor.x, text.anchor.y);
         Self {
-            centre: anchor + turned(offset, text.rotation),
+            centre: anchor + rotated(offset, text.rotation),
             radius: (libm::sqrt(width * width + height * height) / 2.0).min(0.7 * height),
         }
     }
@@ -255,7 +255,7 @@ fn share(horizontal: HorizontalAlign) -> f64 {
     }
 }
 
-fn turned(offset: Vector2<f64>, degrees: f64) -> Vector2<f64> {
+fn rotated(offset: Vector2<f64>, degrees: f64) -> Vector2<f64> {
     let along = direction(degrees);
     Vector2::new(along.x * offset.x - along.y * offset.y, along.y * offset.x + along.x * offset.y)
 }
@@ -278,7 +278,7 @@ pub(super) fn curve(geometry: &Geometry) -> Option<Curve> {
 }
 
 /// Returns the start, centre or anchor of an entity.
-pub(super) fn begin(geometry: &Geometry) -> Xy {
+pub(super) fn anchor_of(geometry: &Geometry) -> Xy {
     match geometry {
         Geometry::Line(line) => xy(line.start),
         Geometry::Arc(arc) => plane_arc(arc).start,

@@ -59,13 +59,13 @@ pub fn assigned_texts(drawing: &Drawing, language: &Language) -> Vec<AssignedTex
         let PathCollector { name, map, texts: found, .. } = path;
         let Some(entities) = entities.get(&name) else { continue };
         let at = |id: ElementId| map.positions()[id.0 as usize];
-        texts.extend(found.match_texts().into_iter().map(|found| assigned(&name, found, entities, &at)));
+        texts.extend(found.match_texts().into_iter().map(|found| assigned_text(&name, found, entities, &at)));
     }
     texts.sort_by_key(|text| text.position.line);
     texts
 }
 
-fn assigned(
+fn assigned_text(
     path: &PathName,
     found: TextMatch<'_>,
     entities: &[&Entity],

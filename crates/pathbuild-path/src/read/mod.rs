@@ -49,7 +49,7 @@ pub fn raw_file(drawing: &Drawing, language: &Language) -> RawFile {
     let mut diagnostics: Vec<_> =
         drawing.diagnostics.iter().filter(|found| !is_clamp(found)).cloned().collect();
     for path in without_elements {
-        diagnostics.extend(path.orphans());
+        diagnostics.extend(path.orphan_findings());
     }
     for path in &mut collected {
         path.assign_texts(language);

@@ -65,7 +65,7 @@ impl NearNames {
     }
 
     /// Returns the path with the longest name with which the name of another layer begins.
-    pub(super) fn beginning(&self, layer: &str) -> Option<&PathName> {
+    pub(super) fn path_at_beginning(&self, layer: &str) -> Option<&PathName> {
         let layer = case_folded(layer);
         layer.char_indices().rev().find_map(|(end, _)| self.by_folded.get(&layer[..end]))
     }

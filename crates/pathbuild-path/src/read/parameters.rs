@@ -70,7 +70,7 @@ impl PathCheck<'_> {
         };
         self.raw.parameters = start.text;
         if let Some(piece) = text.piece(Letter::At) {
-            match referenced(text, piece, starts) {
+            match lender_named_by(text, piece, starts) {
                 Ok((name, lender)) => self.borrow_parameters(name, lender),
                 Err(problem) => {
                     let problem = start.origin.at(problem.with_text(text.fault(piece)));
@@ -259,7 +259,7 @@ impl PathCheck<'_> {
 ///
 /// # Errors
 /// If there are other letters beside @, if no start has that name, or if that start borrows its parameters itself; without a place.
-fn referenced<'s>(
+fn lender_named_by<'s>(
     text: ParameterText<'_>,
     piece: &LetterValue,
     starts: &'s Starts,

@@ -13,7 +13,7 @@ use crate::line_type::{LineType, LineTypes};
 use crate::names::LayerPattern;
 use crate::part::{DrawnParts, OpenOutline, Part, PartRing};
 use crate::read::broken_outlines::{SortedOutlines, ends_of_chain, gap_problem};
-use crate::read::entities::{AnyText, at_entity, begin, curve, xy};
+use crate::read::entities::{AnyText, anchor_of, at_entity, curve, xy};
 use crate::read::likely_parameters::may_be_stray_text;
 use crate::read::outline_graph::Graph;
 use crate::read::rings::{JOIN_DISTANCE, curves_of, nesting};
@@ -23,8 +23,8 @@ pub fn parts(drawing: &Drawing, language: &Language) -> DrawnParts {
     let mut found = DrawnParts::default();
     let Some(settings) = &language.part else { return found };
     let layers = OutlineLayers::read(drawing, language, &settings.pattern);
-    found.problems.extend(layers.hidden());
-    found.problems.extend(layers.unreadable());
+    found.problems.extend(layers.hidden_problems());
+    found.problems.extend(layers.unreadable_problems());
     for (paths, curves) in &layers.curves {
         let graph = Graph::new(curves.iter().map(|drawn| drawn.curve).collect());
         let outlines = SortedOutlines::new(&graph);
@@ -81,7 +81,7 @@ struct OutlineLayers<'d> {
 impl<'d> OutlineLayers<'d> {
     fn read(drawing: &'d Drawing, language: &'d Language, pattern: &LayerPattern) -> Self {
         let layers: Vec<bool> = drawing.layers.iter().map(|layer| language.is_part(&layer.name)).collect();
-        let path = |name: &str| Some(pattern.captured(name)?.replace('_', ".").to_uppercase().into());
+        let path = |name: &str| Some(pattern.captured_text(name)?.replace('_', ".").to_uppercase().into());
         let paths: Vec<_> = drawing.layers.iter().map(|layer| path(&layer.name)).collect();
         let mut line_types = LineTypes::new(&language.line_types);
         let mut curves: BTreeMap<_, Vec<OutlineCurve>> = BTreeMap::new();
@@ -104,7 +104,7 @@ impl<'d> OutlineLayers<'d> {
     }
 
     /// Returns PB112 for layers that are frozen or off.
-    fn hidden(&self) -> impl Iterator<Item = Diagnostic> {
+    fn hidden_problems(&self) -> impl Iterator<Item = Diagnostic> {
         let layers = self.drawing.layers.iter().zip(&self.layers);
         layers.filter(|(layer, is_part)| **is_part && layer.hidden).map(|(layer, _)| {
             let place = Place { layer: Some(layer.name.clone()), ..Place::default() };
@@ -114,7 +114,7 @@ impl<'d> OutlineLayers<'d> {
     }
 
     /// Returns PB219 for curves that may be part of an outline and could not be read.
-    fn unreadable(&self) -> impl Iterator<Item = Diagnostic> {
+    fn unreadable_problems(&self) -> impl Iterator<Item = Diagnostic> {
         let is_read = |layer: u32| self.layers[layer as usize];
         let problem = |message, cause: &Diagnostic| {
             let entity = cause.place.entity.map_or("?", |entity| entity.name());
@@ -147,7 +147,7 @@ impl<'d> OutlineLayers<'d> {
             let first =
                 entities.find(|(_, entity)| entity.layer as usize == number && is_curve(&entity.geometry))?.0;
             let problem = Diagnostic::new(&messages::NO_CLOSED_OUTLINE).quoting("layer", &*layer.name);
-            Some(at_entity(self.drawing, first, begin(&self.drawing.entities[first].geometry), problem))
+            Some(at_entity(self.drawing, first, anchor_of(&self.drawing.entities[first].geometry), problem))
         };
         without.filter_map(problem).collect()
     }

@@ -15,7 +15,7 @@ use crate::look_alikes;
 use crate::names::PathName;
 use crate::read::candidates::{Candidate, Owner, SearchBudget, find_shape};
 use crate::read::collect::{self, PathCollector, PathLayers};
-use crate::read::entities::{AnyText, TextCircle, at_entity, begin, xy};
+use crate::read::entities::{AnyText, TextCircle, anchor_of, at_entity, xy};
 use crate::read::keep_outs::unread_clamps;
 use crate::read::likely_parameters::{
     ESSENTIAL_LETTERS, is_parameter_text, looks_like_parameters, may_be_probe_text, without_mistakes,
@@ -94,7 +94,9 @@ fn add_layers_with_texts<'n>(
 ) {
     let layers = drawing.layers.iter().zip(is_other).zip(&*near_layers);
     let beginnings: Vec<Option<&PathName>> = layers
-        .map(|((layer, is_other), near)| names.beginning(&layer.name).filter(|_| *is_other && near.is_none()))
+        .map(|((layer, is_other), near)| {
+            names.path_at_beginning(&layer.name).filter(|_| *is_other && near.is_none())
+        })
         .collect();
     if beginnings.iter().all(Option::is_none) {
         return;
@@ -285,7 +287,9 @@ fn near_layer(
         None => problem,
     };
     match entities.first() {
-        Some(first) => Some(at_entity(drawing, *first, begin(&drawing.entities[*first].geometry), problem)),
+        Some(first) => {
+            Some(at_entity(drawing, *first, anchor_of(&drawing.entities[*first].geometry), problem))
+        }
         None => Some(Diagnostic { place: left_out.first()?.diagnostic.place.clone(), ..problem }),
     }
 }

@@ -150,7 +150,7 @@ impl<'a> Walker<'a> {
                 (self.checkpoint)();
             }
             if let Some(segment) = self.next().or_else(|| self.next_within_tolerance()) {
-                self.take(segment);
+                self.traverse(segment);
             } else if let Some(marker) = self.turn_marker() {
                 self.retrace_until(|walk| walk.next().is_some())
                     .map_err(|()| Some(self.turn_found_nothing(marker).into()))?;
@@ -230,7 +230,7 @@ impl<'a> Walker<'a> {
         next
     }
 
-    fn take(&mut self, segment: usize) {
+    fn traverse(&mut self, segment: usize) {
         self.is_traversed[segment] = true;
         self.left -= 1;
         if let Some(open_ends) = &mut self.open_ends {
