@@ -355,6 +355,6 @@ fn a_drawing_that_is_not_searched_is_named_with_the_reason() {
         assert!(text.contains(de), "{text}");
     }
     let text = missed("1400.2P", "en");
-    assert!(text.contains("although the file's name does not include it"), "{text}");
+    assert!(text.contains("although its file name does not contain the path's name"), "{text}");
     assert_eq!(place.run("check parts/1234.1P.dxf").status, Some(0));
 }

@@ -185,7 +185,10 @@ fn a_q_project_that_its_file_name_does_not_cover_is_named_with_its_drawing() {
     let place = Place::of(&DRAWING.replace("gear 1234.dxf", "1234.1-1234.3P.dxf").replace("T4 O3", "T5 O2"));
     assert_eq!(place.run("q-project 1234.1-1234.3P.dxf").status, Some(0));
     for (lang, note) in [
-        ("en", "note: 1234.1-1234.3P_Q.dxf defines the path, although the file's name does not include it"),
+        (
+            "en",
+            "note: 1234.1-1234.3P_Q.dxf defines the path, although its file name does not contain the path's name",
+        ),
         ("de", "1234.1-1234.3P_Q.dxf enthält den Pfad, obwohl der Dateiname ihn nicht nennt"),
     ] {
         for command in ["emit", "check", "where", "deps", "view", "sheet", "texts"] {

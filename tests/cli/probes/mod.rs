@@ -211,7 +211,7 @@ fn too_many_pieces_are_refused() {
     assert!(run.stderr.contains("PB005") && run.stderr.contains("embedding-moves"), "{run}");
     // The number of pieces in the message does not include comments.
     let (_, count) = run.stderr.split_once("the moves of this path into ").unwrap();
-    let pieces: u32 = count.split(',').next().unwrap().parse().unwrap();
+    let pieces: u32 = count.split(' ').next().unwrap().parse().unwrap();
     assert_eq!([limited(pieces).status, limited(pieces - 1).status], [Some(0), Some(1)]);
     let program = plate("z-model = \"tin\"\nz-split = 0.1\n");
     succeed(&emit(&program, "a.dxf"));
