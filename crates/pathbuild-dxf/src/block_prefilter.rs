@@ -65,24 +65,24 @@ fn layer_before(bytes: &[u8], line_end: u8) -> Option<&[u8]> {
     None
 }
 
-/// Whether `is` holds for any position at which the digit may be a whole group code.
-fn any_digit(digit: u8, bytes: &[u8], mut is: impl FnMut(usize) -> bool) -> bool {
+/// Whether `is_match` holds for any position at which the digit may be a whole group code.
+fn any_digit(digit: u8, bytes: &[u8], mut is_match: impl FnMut(usize) -> bool) -> bool {
     // Positions ascend, since the caller counts lines on the way.
-    if bytes.first() == Some(&digit) && is(0) {
+    if bytes.first() == Some(&digit) && is_match(0) {
         return true;
     }
     let mut begin = 0;
     while let Some(window) = bytes.get(begin..).and_then(<[u8]>::first_chunk) {
         let mut places = digits(digit, window);
         while places != 0 {
-            if is(begin + 1 + places.trailing_zeros() as usize) {
+            if is_match(begin + 1 + places.trailing_zeros() as usize) {
                 return true;
             }
             places &= places - 1;
         }
         begin += VECTOR_BYTES;
     }
-    (begin + 1..bytes.len()).any(|at| bytes.get(at) == Some(&digit) && is(at))
+    (begin + 1..bytes.len()).any(|at| bytes.get(at) == Some(&digit) && is_match(at))
 }
 
 /// Number of bytes compared at once.

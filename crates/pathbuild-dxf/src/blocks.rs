@@ -156,7 +156,7 @@ impl<'a> Blocks<'a> {
         if let Some(wanted) = self.wanted.get(&(block, layer)) {
             return Ok(wanted.clone());
         }
-        let (wanted, seen) = self.look_for_wanted(block, layer, reader, steps)?;
+        let (wanted, seen) = self.collect_wanted_layers(block, layer, reader, steps)?;
         let wanted: Rc<[LayerId]> = wanted.into();
         if wanted.is_empty() {
             // The nested blocks draw on no wanted layer either, so all visited insertions share the result.
@@ -198,7 +198,7 @@ impl<'a> Blocks<'a> {
     }
 
     /// Collects the wanted layers of a block and of all blocks nested in it, and the insertions that were visited.
-    fn look_for_wanted(
+    fn collect_wanted_layers(
         &mut self,
         block: BlockId,
         layer: LayerId,
@@ -225,7 +225,7 @@ impl<'a> Blocks<'a> {
             steps.spend(items.len())?;
             for item in items.iter() {
                 let layer = reader.layers.inherited(item.traits.layer, inherited);
-                if let Some(inner) = self.inserted(item) {
+                if let Some(inner) = self.inserted_block(item) {
                     ahead.extend(seen.insert((inner, layer)).then_some((inner, layer)));
                     continue;
                 }
@@ -255,7 +255,7 @@ impl<'a> Blocks<'a> {
     }
 
     /// Returns the block that an item inserts; `None` if the file does not define it.
-    fn inserted(&self, item: &Item<'_>) -> Option<BlockId> {
+    fn inserted_block(&self, item: &Item<'_>) -> Option<BlockId> {
         match &item.shape {
             Ok(Shape::Insert(insert)) => self.find(&insert.block),
             _ => None,

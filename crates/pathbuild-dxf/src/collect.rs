@@ -19,7 +19,7 @@ use smol_str::SmolStr;
 
 use crate::entities::Shape;
 use crate::faults::{EntityError, Fatal};
-use crate::layers::{LayerId, UsedLayer};
+use crate::layers::{LayerId, LayerProperties};
 use crate::names::case_folded;
 use crate::placement::Placement;
 use crate::shapes::Polyline;
@@ -90,7 +90,7 @@ pub(crate) struct Limits {
 pub(crate) struct PlacedEntity<'p> {
     pub(crate) kind: EntityKind,
     pub(crate) layer_id: LayerId,
-    pub(crate) layer: &'p UsedLayer,
+    pub(crate) layer: &'p LayerProperties,
     /// The line type after resolving BYLAYER and BYBLOCK.
     pub(crate) line_type: &'p SmolStr,
     /// The entity's own place in the file, for diagnostics about it.
@@ -132,7 +132,7 @@ impl<'d> Collector<'d> {
         }
     }
 
-    /// Adds an entity with this shape, or records the fault if it has none.
+    /// Adds an entity with this shape, or records the fault if the shape is an error.
     #[inline(always)]
     pub(crate) fn add(
         &mut self,
@@ -392,7 +392,7 @@ impl<'d> Collector<'d> {
         layer
     }
 
-    fn new_layer(&mut self, used: &UsedLayer) -> u32 {
+    fn new_layer(&mut self, used: &LayerProperties) -> u32 {
         let layer = u32::try_from(self.drawing.layers.len()).unwrap_or(u32::MAX);
         self.layers.insert(used.folded.clone(), layer);
         self.drawing.layers.push(Layer { name: used.name.as_str().into(), hidden: used.hidden });

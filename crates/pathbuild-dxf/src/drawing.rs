@@ -53,7 +53,7 @@ pub struct Drawing {
     /// Unsupported curves and insertions on wanted layers (PB111).
     pub left_out: Vec<OmittedCurve>,
     /// The places of the hatches on wanted layers, which draw nothing themselves. The point of a place is on the hatch's boundary, or is the centre
-    /// of one of its arcs.
+    /// of one of the boundary's arcs.
     pub hatches: Vec<Place>,
     /// The texts of multileaders and dimensions in model space on wanted layers.
     pub labels: Vec<Label>,
@@ -79,7 +79,7 @@ impl Drawing {
     }
 }
 
-/// A layer with entities that the caller asked for.
+/// A layer with wanted entities, faults or left-out curves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layer {
     /// The name as first spelt by an entity: trimmed, decoded, without xref prefix.

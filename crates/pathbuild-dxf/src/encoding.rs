@@ -88,15 +88,15 @@ impl<'a> Decoder<'a> {
 
     fn decode_beyond_ascii<'b>(&mut self, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
         match self.charset {
-            Charset::Standard(encoding) => standard(encoding, bytes),
-            Charset::Dos(page) => dos(page, bytes),
-            Charset::Unknown => (standard(WINDOWS_1252, bytes).0, false),
+            Charset::Standard(encoding) => decode_standard(encoding, bytes),
+            Charset::Dos(page) => decode_dos(page, bytes),
+            Charset::Unknown => (decode_standard(WINDOWS_1252, bytes).0, false),
             Charset::Either(file) => {
                 // If a single string is not UTF-8, neither is the file; testing the string first is cheaper.
                 let is_utf8 = [bytes, file].into_iter().all(|text| std::str::from_utf8(text).is_ok());
                 let encoding = if is_utf8 { UTF_8 } else { WINDOWS_1252 };
                 self.charset = Charset::Standard(encoding);
-                standard(encoding, bytes)
+                decode_standard(encoding, bytes)
             }
         }
     }
@@ -117,14 +117,14 @@ fn doubt(charset: Charset<'_>, encoding: &str, text: &str, line: u32) -> Diagnos
     Diagnostic::new(message).quoting("encoding", encoding).at_line(line, None).with_text(fault)
 }
 
-fn standard<'b>(encoding: &'static Encoding, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
+fn decode_standard<'b>(encoding: &'static Encoding, bytes: &'b [u8]) -> (Cow<'b, str>, bool) {
     let (text, had_errors) = encoding.decode_without_bom_handling(bytes);
     // The WHATWG Windows pages map bytes without a character to the control character of the same number.
     let has_holes = encoding.is_single_byte() && text.chars().any(|c| ('\u{80}'..='\u{9f}').contains(&c));
     (text, !had_errors && !has_holes)
 }
 
-fn dos<'b>(page: &TableType, bytes: &[u8]) -> (Cow<'b, str>, bool) {
+fn decode_dos<'b>(page: &TableType, bytes: &[u8]) -> (Cow<'b, str>, bool) {
     // Two pages map bytes without a character to the control character of the same number.
     let is_hole = |character: char| ('\u{80}'..='\u{9f}').contains(&character);
     let text = page.decode_string_lossy(bytes).replace(is_hole, "\u{fffd}");
@@ -239,11 +239,11 @@ fn unescape(text: Cow<'_, str>) -> (Cow<'_, str>, bool) {
 /// Returns the character that the escape at the start of `text` denotes, and the length of the escape in bytes; the inner `None` means that it
 /// denotes no character.
 fn escape(text: &str) -> Option<(Option<char>, usize)> {
-    unicode(text).or_else(|| multibyte(text))
+    unicode_escape(text).or_else(|| multibyte_escape(text))
 }
 
 /// Decodes `\U+XXXX`, or two of them that form a surrogate pair.
-fn unicode(text: &str) -> Option<(Option<char>, usize)> {
+fn unicode_escape(text: &str) -> Option<(Option<char>, usize)> {
     const LENGTH: usize = 7;
     let unit = utf16_unit(text)?;
     let next = utf16_unit(&text[LENGTH..]);
@@ -261,7 +261,7 @@ fn utf16_unit(text: &str) -> Option<u16> {
 }
 
 /// Decodes `\M+nXXXX`: two bytes in the code page n.
-fn multibyte(text: &str) -> Option<(Option<char>, usize)> {
+fn multibyte_escape(text: &str) -> Option<(Option<char>, usize)> {
     let rest = text.strip_prefix("\\M+")?;
     let page = rest.bytes().next().filter(|digit| (b'1'..=b'5').contains(digit))?;
     let bytes = hexadecimal(rest.get(1..5)?)?.to_be_bytes();

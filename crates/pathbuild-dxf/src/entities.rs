@@ -296,7 +296,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
             RecordKind::Label(_) => Shape::Label(shapes::label(fields, options.max_text).map(Box::new)),
             RecordKind::Insert => Shape::Insert(Box::new(Insert::read(fields, decoder)?)),
             RecordKind::Foreign(_) => return Err(EntityError::omitted(&FOREIGN, fields)),
-            _ => Shape::Polyline(shapes::lightweight(fields)?),
+            _ => Shape::Polyline(shapes::lwpolyline(fields)?),
         })
     }
 
@@ -392,17 +392,19 @@ impl RecordKind {
     /// three-dimensional LINE of R10.)
     #[inline]
     pub(crate) fn of(name: &[u8]) -> Option<Self> {
-        Self::upper_case(name).or_else(|| Self::unusual(&name.trim_ascii().to_ascii_uppercase()))
+        Self::by_upper_case_name(name)
+            .or_else(|| Self::by_unusual_name(&name.trim_ascii().to_ascii_uppercase()))
     }
 
     #[cold]
-    fn unusual(name: &[u8]) -> Option<Self> {
+    fn by_unusual_name(name: &[u8]) -> Option<Self> {
         let is_known = ANNOTATIONS.iter().chain(&END_RECORDS).any(|known| known.as_bytes() == name);
-        Self::upper_case(name).or_else(|| (!is_known).then(|| Self::Foreign(EntityKind::foreign(name))))
+        Self::by_upper_case_name(name)
+            .or_else(|| (!is_known).then(|| Self::Foreign(EntityKind::foreign(name))))
     }
 
     #[inline]
-    fn upper_case(name: &[u8]) -> Option<Self> {
+    fn by_upper_case_name(name: &[u8]) -> Option<Self> {
         Some(match name {
             b"ARC" => Self::Arc,
             b"LINE" | b"3DLINE" => Self::Line,

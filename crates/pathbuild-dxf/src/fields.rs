@@ -109,7 +109,7 @@ impl<'a> Fields<'a> {
             } else {
                 groups.pass_until(|role| !role.is_plain(), |group| self.store_repeated(group, repeats))
             }?;
-            if let Some(end) = self.special(&group, groups, &mut want)? {
+            if let Some(end) = self.handle_special(&group, groups, &mut want)? {
                 return Ok(end);
             }
         }
@@ -135,7 +135,7 @@ impl<'a> Fields<'a> {
     /// Handles a group with a special role. If the group ends the entity or skips the rest of it, returns the first pair of the next entity, and
     /// whether this entity is kept.
     #[inline]
-    fn special(
+    fn handle_special(
         &mut self,
         group: &Group<'a>,
         groups: &mut Groups<'a>,

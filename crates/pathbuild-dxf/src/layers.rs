@@ -28,23 +28,23 @@ pub(crate) struct Layers<'a, 'o> {
     table: LayerTable<'a>,
     keep: &'o dyn Fn(&str) -> bool,
     by_spelling: Spellings<'a, LayerId>,
-    found: Vec<FoundLayer<'a>>,
+    found: Vec<LayerSpelling<'a>>,
     last: Option<(&'a [u8], LayerId)>,
 }
 
 /// A spelling of a layer's name that some entity uses, whether the layer is wanted or not.
-struct FoundLayer<'a> {
+struct LayerSpelling<'a> {
     /// The decoded spelling of the name.
     full_name: Cow<'a, str>,
     is_kept: bool,
     /// Whether the layer is layer `0`, which inside a block stands for the layer of the insertion.
     is_inheriting: bool,
-    used: Option<Box<UsedLayer>>,
+    used: Option<Box<LayerProperties>>,
 }
 
 /// The properties of a layer, looked up at the first entity that needs them.
 #[derive(Clone, Debug)]
-pub(crate) struct UsedLayer {
+pub(crate) struct LayerProperties {
     /// The name: trimmed, decoded, without xref prefix.
     pub(crate) name: SmolStr,
     /// The name folded for comparison.
@@ -93,15 +93,15 @@ impl<'a, 'o> Layers<'a, 'o> {
 
     /// Returns the properties of a layer, which are looked up only once.
     #[inline]
-    pub(crate) fn used(
+    pub(crate) fn properties(
         &mut self,
         id: LayerId,
         reading: &mut LayerTableReader<'_, 'a, '_>,
-    ) -> Result<&UsedLayer, Stop<'a>> {
-        let FoundLayer { full_name, used, .. } = &mut self.found[id.0 as usize];
+    ) -> Result<&LayerProperties, Stop<'a>> {
+        let LayerSpelling { full_name, used, .. } = &mut self.found[id.0 as usize];
         match used {
             Some(used) => Ok(used),
-            None => Ok(used.insert(Box::new(UsedLayer::look_up(full_name, &mut self.table, reading)?))),
+            None => Ok(used.insert(Box::new(LayerProperties::look_up(full_name, &mut self.table, reading)?))),
         }
     }
 
@@ -128,7 +128,7 @@ impl<'a, 'o> Layers<'a, 'o> {
     }
 
     #[inline]
-    fn found(&self, id: LayerId) -> &FoundLayer<'a> {
+    fn found(&self, id: LayerId) -> &LayerSpelling<'a> {
         &self.found[id.0 as usize]
     }
 
@@ -137,13 +137,13 @@ impl<'a, 'o> Layers<'a, 'o> {
         let name = without_xref(&full_name);
         let (is_kept, is_inheriting) = ((self.keep)(name), name == "0");
         let id = LayerId(u32::try_from(self.found.len()).unwrap_or(u32::MAX));
-        self.found.push(FoundLayer { full_name, is_kept, is_inheriting, used: None });
+        self.found.push(LayerSpelling { full_name, is_kept, is_inheriting, used: None });
         self.by_spelling.insert(spelling, id);
         id
     }
 }
 
-impl UsedLayer {
+impl LayerProperties {
     #[cold]
     fn look_up<'a>(
         full_name: &str,
@@ -174,18 +174,19 @@ pub(crate) struct LayerTable<'a> {
     tables: Option<Pairs<'a>>,
     lookups: usize,
     /// All layers, once searching them one by one no longer pays.
-    all: Option<KnownLayers<'a>>,
+    all: Option<LayersByName<'a>>,
 }
 
 /// Layers by folded name. Few are ever looked up, so their values are parsed on demand.
 #[derive(Debug, Default)]
-struct KnownLayers<'a> {
+struct LayersByName<'a> {
     records: HashMap<SmolStr, LayerRecord<'a>>,
     /// Layers with an external-reference prefix, by the rest of their names.
     referenced: HashMap<SmolStr, LayerRecord<'a>>,
 }
 
-/// A layer of the table. Programs disagree on which of several records with one name counts, and on whether case matters.
+/// A record of the LAYER table. CAD programs disagree on which of several records with the same name counts, and on whether case matters, so records
+/// that contradict each other are reported.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LayerRecord<'a> {
     line: u32,
@@ -222,7 +223,7 @@ impl<'a> LayerTable<'a> {
             && certain.len() >= MIN_SEARCHED_BYTES
             && !has_escapes()
         {
-            let mut some = KnownLayers::default();
+            let mut some = LayersByName::default();
             let end = reading.read_with(tables, certain, &mut some);
             // Damage that follows the layer's own record concerns other layers.
             if !some.records.contains_key(&case_folded(full_name)) {
@@ -244,7 +245,7 @@ fn case_independent_part(name: &[u8]) -> &[u8] {
     name.split(is_uncertain).max_by_key(|part| part.len()).unwrap_or_default()
 }
 
-impl<'a> KnownLayers<'a> {
+impl<'a> LayersByName<'a> {
     /// Adds a record from its groups, unless it has no name.
     fn add(&mut self, groups: &Fields<'a>, decoder: &mut Decoder<'_>) {
         let Some(name) = groups.get(2) else { return };
@@ -319,8 +320,8 @@ pub(crate) struct LayerTableReader<'r, 'a, 'd> {
 }
 
 impl<'a> LayerTableReader<'_, 'a, '_> {
-    fn read_all(&mut self, mut tables: Pairs<'a>) -> Result<KnownLayers<'a>, Stop<'a>> {
-        let mut layers = KnownLayers::default();
+    fn read_all(&mut self, mut tables: Pairs<'a>) -> Result<LayersByName<'a>, Stop<'a>> {
+        let mut layers = LayersByName::default();
         while let Some(head) = tables.find_pair("0", &LAYER) {
             tables.jump_to(head);
             let mut records = Records::new(tables)?;
@@ -338,7 +339,7 @@ impl<'a> LayerTableReader<'_, 'a, '_> {
         &mut self,
         mut tables: Pairs<'a>,
         written: &[u8],
-        layers: &mut KnownLayers<'a>,
+        layers: &mut LayersByName<'a>,
     ) -> Result<(), Stop<'a>> {
         let mut records = None;
         let begin = tables.consumed();
@@ -361,7 +362,7 @@ impl<'a> LayerTableReader<'_, 'a, '_> {
     }
 
     /// Reads the head record if it is a LAYER.
-    fn record(&mut self, records: &mut Records<'a>, layers: &mut KnownLayers<'a>) -> Result<(), Stop<'a>> {
+    fn record(&mut self, records: &mut Records<'a>, layers: &mut LayersByName<'a>) -> Result<(), Stop<'a>> {
         let is_layer = records.head.is("LAYER");
         (records.head, _) =
             self.fields.fill(&mut records.groups, records.head.line, 0, |_| FillDecision::Keep)?;

@@ -63,7 +63,7 @@ struct Insertion {
 }
 
 /// An insertion of a block.
-struct Site<'s, 'a> {
+struct InsertionSite<'s, 'a> {
     traits: &'s CommonProperties,
     layer: LayerId,
     insert: &'s Insert<'a>,
@@ -119,7 +119,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         };
         match item.shape {
             Ok(Shape::Insert(insert)) => {
-                self.insert(&Site { traits: &item.traits, layer, insert: &insert, around })
+                self.insert(&InsertionSite { traits: &item.traits, layer, insert: &insert, around })
             }
             Ok(Shape::Hatch(point)) if self.reader.layers.is_kept(layer) => {
                 let placed = place_entity(self.reader, &item.traits, layer, around)?;
@@ -148,7 +148,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
     }
 
-    fn insert(&mut self, site: &Site<'_, 'a>) -> Result<(), Fatal> {
+    fn insert(&mut self, site: &InsertionSite<'_, 'a>) -> Result<(), Fatal> {
         self.index_blocks();
         let is_kept = self.reader.layers.is_kept(site.layer);
         if let Some(damage) = &self.damage {
@@ -161,7 +161,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             return self.refuse_insertion(
                 site,
                 &[site.layer],
-                &site.left_out(&BLOCK_MISSING, Arc::default()),
+                &site.omission_error(&BLOCK_MISSING, Arc::default()),
             );
         };
         if !is_kept && !self.blocks_matter {
@@ -207,7 +207,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// of it is visible.
     fn fault_of_insertion(
         &mut self,
-        site: &Site<'_, 'a>,
+        site: &InsertionSite<'_, 'a>,
         block: BlockId,
     ) -> Result<Option<EntityError<'a>>, Fatal> {
         if self.open.contains(&block) || self.open.len() >= MAX_BLOCK_DEPTH {
@@ -217,7 +217,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             return Ok(Some(trouble));
         }
         let is_clipped = self.is_clipped(site.insert.dictionary)?;
-        Ok(is_clipped.then(|| site.left_out(&INSERT_CLIPPED, Arc::default())))
+        Ok(is_clipped.then(|| site.omission_error(&INSERT_CLIPPED, Arc::default())))
     }
 
     /// Whether an insertion with this extension dictionary has a clipping boundary, so that only a part of its block is visible.
@@ -246,7 +246,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// Adds the contents of a block at each of these placements.
     fn add_copies(
         &mut self,
-        site: &Site<'_, 'a>,
+        site: &InsertionSite<'_, 'a>,
         block: BlockId,
         copies: impl Iterator<Item = Placement>,
     ) -> Result<(), Fatal> {
@@ -271,7 +271,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
 
     /// Reports PB111 for an insertion on a wanted layer whose block draws elements on other layers, but nothing visible, except for hatches, on
     /// wanted ones.
-    fn check_elsewhere(&mut self, site: &Site<'_, 'a>, block: BlockId) -> Result<(), Fatal> {
+    fn check_elsewhere(&mut self, site: &InsertionSite<'_, 'a>, block: BlockId) -> Result<(), Fatal> {
         if !self.reader.layers.is_kept(site.layer) {
             return Ok(());
         }
@@ -284,12 +284,12 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
             self.collector.ignore(&placed);
             return Ok(());
         }
-        self.refuse_insertion(site, &[site.layer], &site.left_out(&BLOCK_ELSEWHERE, layers))
+        self.refuse_insertion(site, &[site.layer], &site.omission_error(&BLOCK_ELSEWHERE, layers))
     }
 
     /// Reports a missing block that is inserted on a layer that is not read. Reports nothing if that layer, or that of an insertion around it, is
     /// frozen, or in compatible mode.
-    fn note_missing(&mut self, site: &Site<'_, 'a>) -> Result<(), Fatal> {
+    fn note_missing(&mut self, site: &InsertionSite<'_, 'a>) -> Result<(), Fatal> {
         let is_compatible = self.reader.options.compatible;
         let placed = site.place(self.reader)?;
         if !is_compatible && !placed.layer.is_frozen && placed.frozen.is_none() {
@@ -301,7 +301,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// Reports a faulty insertion once for each wanted layer on which it draws.
     fn refuse_insertion(
         &mut self,
-        site: &Site<'_, 'a>,
+        site: &InsertionSite<'_, 'a>,
         layers: &[LayerId],
         trouble: &EntityError<'a>,
     ) -> Result<(), Fatal> {
@@ -315,12 +315,12 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     }
 }
 
-impl<'a> Site<'_, 'a> {
+impl<'a> InsertionSite<'_, 'a> {
     fn point(&self) -> Option<Point> {
         self.insert.array.as_ref().ok().map(Array::insertion_point)
     }
 
-    fn left_out(&self, message: &'static Message, layers: Arc<[SmolStr]>) -> EntityError<'a> {
+    fn omission_error(&self, message: &'static Message, layers: Arc<[SmolStr]>) -> EntityError<'a> {
         let block = Some(self.insert.block.as_str().into());
         EntityError::LeftOut { message, point: self.point(), block, layers }
     }
@@ -339,7 +339,7 @@ fn place_entity<'p>(
     around: &'p EntityContext,
 ) -> Result<PlacedEntity<'p>, Fatal> {
     let EntityReader { layers, line_types, fields, decoder, .. } = reader;
-    let layer = layers.used(layer_id, &mut LayerTableReader { fields, decoder });
+    let layer = layers.properties(layer_id, &mut LayerTableReader { fields, decoder });
     let layer = layer.map_err(|stop| stop_error(stop, "TABLES"))?;
     let insertion = around.insertion.as_ref();
     Ok(PlacedEntity {

@@ -177,7 +177,7 @@ pub(crate) fn opposite(side: HorizontalAlign) -> HorizontalAlign {
     }
 }
 
-/// Computes the cosine and sine of an angle in degrees. They are exact for right angles, of which most drawings consist.
+/// Computes the cosine and sine of an angle in degrees. They are exact for multiples of 90 degrees, the most frequent angles in drawings.
 fn cos_sin(degrees: f64) -> (f64, f64) {
     let turned = libm::fmod(degrees, 360.0);
     let turned = if turned < 0.0 { turned + 360.0 } else { turned };

@@ -357,7 +357,7 @@ impl Ellipse {
     }
 }
 
-/// Returns the range of the parameter, which is always greater than 0. It is a full turn if [`is_full_turn`] says so.
+/// Returns the range of the parameter in radians, which is always greater than 0: 2π if [`is_full_turn`] is true, otherwise less.
 fn sweep(start: f64, end: f64) -> f64 {
     if is_full_turn(end - start) {
         return TAU;

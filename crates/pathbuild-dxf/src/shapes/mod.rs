@@ -17,7 +17,7 @@ use crate::{Arc, Circle, Geometry, Line};
 pub(crate) use curves::Ellipse;
 pub(crate) use curves::Spline;
 pub(crate) use insert::{Array, Insert};
-pub(crate) use polyline::{Polyline, PolylineBuilder, lightweight};
+pub(crate) use polyline::{Polyline, PolylineBuilder, lwpolyline};
 pub(crate) use text::{label, mtext, text};
 
 /// Whether object coordinates are mirrored: extrusion (0, 0, -1).

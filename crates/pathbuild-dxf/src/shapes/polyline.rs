@@ -19,7 +19,7 @@ pub(crate) struct Polyline {
 }
 
 /// Converts an LWPOLYLINE to lines and arcs.
-pub(crate) fn lightweight<'a>(fields: &Fields<'a>) -> Result<Polyline, EntityError<'a>> {
+pub(crate) fn lwpolyline<'a>(fields: &Fields<'a>) -> Result<Polyline, EntityError<'a>> {
     let flags = fields.whole_number(70)?.unwrap_or(0);
     let z = fields.number(38)?.unwrap_or(0.0);
     let mut corners: Vec<Corner> = Vec::new();
@@ -69,7 +69,7 @@ pub(crate) struct PolylineBuilder {
     is_closed: bool,
     is_mirrored: bool,
     is_spline_fit: bool,
-    /// The widths at the start and end of a piece whose vertex has none.
+    /// The default widths at the start and the end of a piece, for vertices without widths of their own.
     widths: [f64; 2],
     is_wide: bool,
     corners: Vec<Corner>,

@@ -127,13 +127,13 @@ fn anchor<'a>(
         0 if vertical == 0 => Ok((first, None)),
         ALIGNED_CODE | FITTED_CODE => {
             let second = fields.point(11)?;
-            Ok((between(first, second), direction(second.x - first.x, second.y - first.y)))
+            Ok((midpoint(first, second), direction(second.x - first.x, second.y - first.y)))
         }
         _ => Ok((fields.point(11)?, None)),
     }
 }
 
-fn between(a: Point3, b: Point3) -> Point3 {
+fn midpoint(a: Point3, b: Point3) -> Point3 {
     Point3 { x: f64::midpoint(a.x, b.x), y: f64::midpoint(a.y, b.y), z: f64::midpoint(a.z, b.z) }
 }
 
@@ -174,8 +174,8 @@ fn attachment_align(code: i64) -> (HorizontalAlign, VerticalAlign) {
     (horizontal, vertical)
 }
 
-/// Returns the rotation of an MTEXT seen from above: 50 or 11/21, whichever comes later. A mirrored MTEXT runs from right to left, so the opposite of
-/// its direction is returned.
+/// Returns the rotation of an MTEXT seen from above, from group 50 or 11/21, whichever comes later in the file. A mirrored MTEXT runs from right to
+/// left, so the opposite of its direction is returned.
 fn rotation<'a>(fields: &Fields<'a>, is_mirrored: bool) -> Result<f64, BadGroup<'a>> {
     let by_angle = fields.get(50).map(|value| value.line);
     let by_point = fields.get(11).map(|value| value.line).filter(|line| Some(*line) > by_angle);
@@ -275,7 +275,7 @@ impl PlainText {
     /// Appends letters, and compares their height and alignment with those of the first letter.
     fn push(&mut self, letters: &str) {
         if self.is_struck_out {
-            // Blanks keep the parameters around the void ones apart and in their places.
+            // Blanks in place of the void letters keep the remaining parameters apart and in their places.
             letters.chars().for_each(|letter| self.plain.push(if letter == '\n' { letter } else { ' ' }));
             return;
         }
