@@ -181,8 +181,8 @@ impl Context {
         self.machine_view().raw_name(file).into_owned()
     }
 
-    /// Tells the user the date of the run if a waiver with an end has accepted a finding since the last call.
-    pub(crate) fn name_date(&self) {
+    /// Tells the user the date of the run if a waiver with an end date has accepted a finding since the last call.
+    pub(crate) fn report_date(&self) {
         if self.is_date_decisive.swap(false, Ordering::Relaxed)
             && let Some(date) = self.settings.date
         {
@@ -194,10 +194,10 @@ impl Context {
         }
     }
 
-    /// Prints the end of the machine-readable document, and writes the reports. A report that cannot be written is an error. Names the date if the
-    /// command has not done so.
+    /// Prints the end of the machine-readable document, and writes the reports. A report that cannot be written is an error. Reports the date of the
+    /// run if the command has not done so.
     pub(crate) fn end(&self, status: ExitStatus) -> ExitStatus {
-        self.name_date();
+        self.report_date();
         let (status, view) = (self.write_reports(status), self.machine_view());
         if let Some(text) = self.output.end(status.code(), &view) {
             self.printer.document(self.output.stream, &text);
@@ -256,7 +256,7 @@ impl Context {
     }
 
     /// Shows why a request failed, and returns the exit status.
-    pub fn failed(&self, failure: Failure) -> ExitStatus {
+    pub fn show_failure(&self, failure: Failure) -> ExitStatus {
         match failure {
             Failure::Usage(reason) => self.usage(&reason),
             Failure::Refused(faults) => self.refuse(faults),
@@ -273,7 +273,7 @@ impl Context {
     }
 
     /// Shows why a request to the library failed, and returns the exit status.
-    pub(crate) fn request_failed(&self, error: Error) -> ExitStatus {
+    pub(crate) fn show_request_error(&self, error: Error) -> ExitStatus {
         match error {
             Error::Refused(reason) => self.usage(&reason),
             Error::Baseline(found) => self.refuse(for_rendering(found, Vec::new()).diagnostics),

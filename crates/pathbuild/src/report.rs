@@ -48,7 +48,7 @@ fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Durat
     context.output.add_figure("paths", findings.checked.iter().map(|file| file.paths.len()).sum::<usize>());
     context.output.add_figure("drawings", findings.checked.len());
     context.output.add_figure("known", findings.waived.len());
-    context.name_date();
+    context.report_date();
     context.printer.status(summary(findings, findings.waived.len(), time, context.lang()));
     if let (Some(directory), Some(first)) = (pictures, others.first()) {
         let pictures = counted(others.len(), [["picture", "pictures"], ["Bild", "Bilder"]], context.lang());

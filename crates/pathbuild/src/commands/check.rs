@@ -19,7 +19,7 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     let options = options(args);
     match context.library().and_then(|library| library.check_with(&args.inputs.texts(), &options)) {
         Ok(report) => conclude(context, args, report, begun.elapsed()),
-        Err(error) => context.request_failed(error),
+        Err(error) => context.show_request_error(error),
     }
 }
 

@@ -20,7 +20,7 @@ pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
     let options = options(args);
     match context.library().and_then(|library| library.emit(&args.inputs.texts(), &options)) {
         Ok(report) => conclude(context, args, report),
-        Err(error) => context.request_failed(error),
+        Err(error) => context.show_request_error(error),
     }
 }
 

@@ -85,7 +85,7 @@ fn file(node: &Node) -> Cow<'_, str> {
 }
 
 /// Formats the target of an embedding.
-fn end(graph: &Graph, end: &EmbeddingEnd) -> String {
+fn target_text(graph: &Graph, end: &EmbeddingEnd) -> String {
     match end {
         EmbeddingEnd::Node(node) => path(&graph.nodes[*node]),
         EmbeddingEnd::Nowhere(name, code) => missing_target(name.as_ref(), *code),
@@ -191,7 +191,7 @@ impl GraphTexts {
         if step.is_lender {
             remarks.push(self.lender.to_owned());
         }
-        let EmbeddingEnd::Node(node) = step.to else { return (end(graph, &step.to), remarks) };
+        let EmbeddingEnd::Node(node) = step.to else { return (target_text(graph, &step.to), remarks) };
         let node = &graph.nodes[node];
         if node.is_example {
             remarks.push(self.example.to_owned());
@@ -215,7 +215,7 @@ fn list(graph: &Graph, words: &GraphTexts) -> String {
         }
         for embedding in below[index].iter().map(|embedding| &graph.embeddings[*embedding]) {
             let sign = if embedding.is_lender { '@' } else { '>' };
-            _ = write!(text, "{} {sign} {}", path(node), end(graph, &embedding.to));
+            _ = write!(text, "{} {sign} {}", path(node), target_text(graph, &embedding.to));
             _ = match embedding.count {
                 1 => writeln!(text),
                 count => writeln!(text, "  ({count} {})", words.times),

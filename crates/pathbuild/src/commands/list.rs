@@ -47,7 +47,7 @@ fn show(context: &Context, args: &ListArgs, print: impl FnOnce(&Context, &[Row],
     let listed = context.library().and_then(|library| library.paths_with(&args.inputs().texts(), &options));
     let listed = match listed {
         Ok(listed) => listed,
-        Err(error) => return context.request_failed(error),
+        Err(error) => return context.show_request_error(error),
     };
     let rows: Vec<Row> = listed.paths.into_iter().map(row).collect();
     print(context, &rows, listed.drawings);

@@ -69,7 +69,7 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Emit(args) => emit::run(context, args),
         Command::Adjust(args) => adjust::run(context, args),
         Command::Import(args) => import::run(context, args),
-        Command::Verify(args) => concluded(context, verify::run(context, args)),
+        Command::Verify(args) => status_of(context, verify::run(context, args)),
         Command::Post(args) => post::run(context, args),
         Command::Explain(args) => explain::run(context, args),
         Command::Completions(args) => completions::run(context, args),
@@ -82,9 +82,9 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
         Command::Where(args) => locate::run(context, args),
         Command::Why(args) => why::run(context, args),
         Command::Texts(args) => texts::run(context, args),
-        Command::View(args) => concluded(context, view::run(context, args)),
-        Command::Sheet(args) => concluded(context, sheet::run(context, args)),
-        Command::Diff(args) => concluded(context, diff::run(context, args)),
+        Command::View(args) => status_of(context, view::run(context, args)),
+        Command::Sheet(args) => status_of(context, sheet::run(context, args)),
+        Command::Diff(args) => status_of(context, diff::run(context, args)),
         Command::QProject(args) => q_project::run(context, args),
         Command::Cache(args) => cache::run(context, args),
         Command::Init(args) => init::run(context, args.example),
@@ -94,8 +94,8 @@ pub fn run(context: &Context, command: &Command) -> ExitStatus {
     }
 }
 
-fn concluded(context: &Context, run: Result<ExitStatus, Failure>) -> ExitStatus {
-    run.unwrap_or_else(|failure| context.failed(failure))
+fn status_of(context: &Context, run: Result<ExitStatus, Failure>) -> ExitStatus {
+    run.unwrap_or_else(|failure| context.show_failure(failure))
 }
 
 /// Returns an error message if the format is for graphs and the command prints none, or if the format is only for reports.

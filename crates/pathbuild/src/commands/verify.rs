@@ -30,7 +30,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> Result<ExitStatus, Failure> 
     let places: Vec<&str> =
         args.files.iter().map(|file| file.as_str()).filter(|file| *file != STANDARD_INPUT).collect();
     let verified = match context.library().and_then(|library| library.verify(&places, &options)) {
-        Err(error @ Error::Post(_)) => return Ok(context.request_failed(error)),
+        Err(error @ Error::Post(_)) => return Ok(context.show_request_error(error)),
         verified => verified,
     };
     let programs = verified.as_ref().map_or(args.files.len(), |verified| verified.programs.len());
@@ -44,7 +44,7 @@ pub fn run(context: &Context, args: &VerifyArgs) -> Result<ExitStatus, Failure> 
         Err(Error::Findings(found)) if args.against.is_some() => {
             conclude(context, &for_rendering(found, Vec::new())).max(ExitStatus::Errors)
         }
-        Err(error) => context.request_failed(error),
+        Err(error) => context.show_request_error(error),
     })
 }
 
@@ -117,7 +117,7 @@ fn options(args: &VerifyArgs) -> Result<VerifyOptions, Box<Diagnostic>> {
 /// Shows findings and their number, and returns the exit status.
 fn conclude(context: &Context, findings: &Findings) -> ExitStatus {
     let status = context.conclude_findings(findings);
-    context.name_date();
+    context.report_date();
     let (errors, warnings) = (findings.errors(), findings.warnings());
     let phrase = |en: &'static str, de: &'static str| context.choose(en, de);
     let known = match findings.waived.len() {

@@ -34,7 +34,7 @@ pub fn run(context: &Context, args: &ViewArgs) -> Result<ExitStatus, Failure> {
     Ok(deliver(context, output.file.as_deref(), output.format.bytes(scene, output.shown), &findings))
 }
 
-/// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown. Only for programs, the message names the options
+/// Reports that there is no stock to show: nothing is cut, or the cutter or the material is unknown. For programs, the message also names the options
 /// that would help.
 fn report_missing_stock(context: &Context, findings: &Findings, is_program: bool) -> ExitStatus {
     let reason = context.choose(

@@ -161,7 +161,7 @@ impl Listener for WatchPrinter<'_> {
         let FirstCheck { drawings, paths, findings, time, .. } = beginning;
         let context = self.context;
         context.show(findings);
-        context.name_date();
+        context.report_date();
         let counts = FindingCounts::of(findings);
         let checked = json!({ "paths": paths, "drawings": drawings });
         self.write_counts(0, checked, counts, findings.diagnostics.len());
@@ -186,7 +186,7 @@ impl Listener for WatchPrinter<'_> {
         let (new, gone) = (&update.new, update.fixed.len());
         context.show(&Findings { diagnostics: new.clone(), ..Findings::default() });
         context.show_fixed(&update.fixed);
-        context.name_date();
+        context.report_date();
         let names =
             |files: &BTreeSet<Utf8PathBuf>| files.iter().map(|file| context.file(file)).collect::<Vec<_>>();
         let change = json!({

@@ -28,21 +28,23 @@ fn annotation(diagnostic: &Diagnostic, view: &View) -> String {
     let command = diagnostic.severity.name();
     let mut properties = Vec::new();
     if let Some(file) = view.file(diagnostic) {
-        properties.push(format!("file={}", property(&file)));
+        properties.push(format!("file={}", escape_property(&file)));
         properties.push(format!("line={}", diagnostic.place.line.unwrap_or(1)));
         properties.extend(diagnostic.place.column.map(|column| format!("col={column}")));
     }
-    properties
-        .push(format!("title={}", property(&format!("{} {}", diagnostic.code(), diagnostic.code().name()))));
-    format!("::{command} {}::{}\n", properties.join(","), data(&view::message(diagnostic, view)))
+    properties.push(format!(
+        "title={}",
+        escape_property(&format!("{} {}", diagnostic.code(), diagnostic.code().name()))
+    ));
+    format!("::{command} {}::{}\n", properties.join(","), escape_data(&view::message(diagnostic, view)))
 }
 
 /// Escapes the text after the second `::`.
-fn data(text: &str) -> String {
+fn escape_data(text: &str) -> String {
     shown::lines(text).replace('%', "%25").replace('\n', "%0A")
 }
 
 /// Escapes the value of a property.
-fn property(text: &str) -> String {
-    data(text).replace(':', "%3A").replace(',', "%2C")
+fn escape_property(text: &str) -> String {
+    escape_data(text).replace(':', "%3A").replace(',', "%2C")
 }

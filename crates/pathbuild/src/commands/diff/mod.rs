@@ -31,7 +31,7 @@ use crate::render::Format;
 use output::Output;
 use revision::Revision;
 
-/// Runs the command. Changed paths are no error. Paths that have errors now, and therefore cannot be compared, are one.
+/// Runs the command. Changed paths do not count as errors. Paths that have errors now, and therefore cannot be compared, do.
 ///
 /// # Errors
 /// If the sides cannot be read or have nothing in common to compare.

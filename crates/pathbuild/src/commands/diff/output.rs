@@ -322,12 +322,12 @@ fn code(text: &str) -> String {
 /// Prints a JSON row for each changed path, and one for the whole comparison.
 pub(super) fn rows(context: &Context, comparison: &Comparison) {
     for changed in &comparison.paths {
-        context.row("path_change", path(changed, context.lang()));
+        context.row("path_change", path_json(changed, context.lang()));
     }
     context.row("comparison", json!({ "paths": comparison.path_count, "changed": comparison.paths.len() }));
 }
 
-fn path(path: &PathDiff, lang: Lang) -> Value {
+fn path_json(path: &PathDiff, lang: Lang) -> Value {
     let outcome = match &path.outcome {
         Outcome::Added => "added",
         Outcome::Removed => "removed",
@@ -340,7 +340,7 @@ fn path(path: &PathDiff, lang: Lang) -> Value {
     let [old, new] = path.files.each_ref().map(|file| file.as_deref().map(Utf8Path::as_str));
     let mut value = json!({ "path": path.name, "old_file": old, "new_file": new, "outcome": outcome });
     if let Outcome::Changed(program) = &path.outcome {
-        value["changes"] = program.groups.iter().map(group).collect();
+        value["changes"] = program.groups.iter().map(group_json).collect();
         if program.has_undivided_moves {
             value["has_undivided_moves"] = json!(true);
         }
@@ -348,18 +348,18 @@ fn path(path: &PathDiff, lang: Lang) -> Value {
             value["is_unwritten"] = json!(true);
         }
         if !program.states.is_empty() {
-            value["states"] = program.states.iter().map(state).collect();
+            value["states"] = program.states.iter().map(state_json).collect();
         }
         value["old"] = json!(program.totals[0]);
         value["new"] = json!(program.totals[1]);
         if let Some(reasons) = &program.reasons {
-            value["explained_by"] = reasons.iter().map(|reason| self::reason(reason, lang)).collect();
+            value["explained_by"] = reasons.iter().map(|reason| reason_json(reason, lang)).collect();
         }
     }
     value
 }
 
-fn reason(reason: &Reason, lang: Lang) -> Value {
+fn reason_json(reason: &Reason, lang: Lang) -> Value {
     let mut value = json!({ "message": message(reason, lang) });
     let kind = match reason {
         Reason::Drawn(DrawnChange { kind, change, count, at, end }) => {
@@ -395,7 +395,7 @@ fn reason(reason: &Reason, lang: Lang) -> Value {
         }
         Reason::Embedded { path, reasons } => {
             value["path"] = json!(path);
-            value["explained_by"] = reasons.iter().map(|inner| self::reason(inner, lang)).collect();
+            value["explained_by"] = reasons.iter().map(|inner| reason_json(inner, lang)).collect();
             "embedded"
         }
     };
@@ -403,7 +403,7 @@ fn reason(reason: &Reason, lang: Lang) -> Value {
     value
 }
 
-fn state(change: &StateChange) -> Value {
+fn state_json(change: &StateChange) -> Value {
     let mut value = json!({ "kind": change.kind.name(), "line": change.line });
     set_values(&mut value, change.words.each_ref());
     value
@@ -414,7 +414,7 @@ fn set_values(value: &mut Value, [was, now]: [impl Serialize; 2]) {
     value["now"] = json!(now);
 }
 
-fn group(group: &Group) -> Value {
+fn group_json(group: &Group) -> Value {
     let mut value =
         json!({ "moves": group.moves, "length": thousandths(group.length), "first_to": group.at });
     let kind = match group.kind {
