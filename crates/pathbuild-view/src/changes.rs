@@ -379,7 +379,7 @@ pub fn groups(compared: &ComparedMoves) -> Vec<Group> {
         };
         for ComparedMove { movement, number } in moves {
             let kind = (!is_rapid(movement)).then_some(change.kind);
-            let group = if kind.is_none() { &mut rapids } else { of_kind(&mut groups, change.kind) };
+            let group = if kind.is_none() { &mut rapids } else { group_of_kind(&mut groups, change.kind) };
             match counted.iter_mut().find(|(known, _)| kind.is_some() && *known == kind) {
                 Some((_, last)) if last == number => {}
                 Some((_, last)) => {
@@ -401,7 +401,7 @@ pub fn groups(compared: &ComparedMoves) -> Vec<Group> {
     groups
 }
 
-fn of_kind(groups: &mut Vec<Group>, kind: ChangeKind) -> &mut Group {
+fn group_of_kind(groups: &mut Vec<Group>, kind: ChangeKind) -> &mut Group {
     let known = groups.iter().position(|group| group.kind == Some(kind));
     let index = known.unwrap_or_else(|| {
         groups.push(Group { kind: Some(kind), moves: 0, length: 0.0, at: None });
@@ -481,7 +481,7 @@ impl Identities {
         };
         let feed = feed.map(|feed| self.ends.number([feed, 0.0, 0.0]));
         let middle = self.middles.number(relative(way.point(0.5)));
-        MoveIdentity { kind: class(movement.kind), ends, middle, turn, feed, named }
+        MoveIdentity { kind: machine_kind(movement.kind), ends, middle, turn, feed, named }
     }
 
     /// Returns the line that a move follows.
@@ -506,7 +506,7 @@ impl Identities {
 }
 
 /// Returns one kind for all cuts along elements, which are the same for the machine.
-fn class(kind: MoveKind) -> MoveKind {
+fn machine_kind(kind: MoveKind) -> MoveKind {
     if kind == MoveKind::Mark { MoveKind::Mill } else { kind }
 }
 

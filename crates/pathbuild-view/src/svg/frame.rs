@@ -195,8 +195,8 @@ const CELL: f64 = 4.0;
 /// Maximum vertical distance of a text from its preferred position, in multiples of its height.
 const MAX_TEXT_DISTANCE: u32 = 6;
 
-/// Number of candidate positions, counted from the first, that are so near to the symbol of a label that the label cannot be taken for
-/// another's.
+/// Number of candidate positions, counted from the first, that are so near to the symbol of a label that the label cannot be mistaken for that of
+/// another symbol.
 const NEAR_CANDIDATES: usize = 13;
 
 /// Upper left and lower right corner of a rectangle in px.

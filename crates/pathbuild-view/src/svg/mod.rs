@@ -38,7 +38,7 @@ pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.open("id=\"drawing\"");
     let mut room = OccupiedSpace::new(frame.area());
     let hidden = drawing(&mut canvas, scene, &frame, &depths, shown, &mut room);
-    symbols::findings(&mut canvas, scene, &frame, &mut room, legend.listed);
+    symbols::draw_findings(&mut canvas, scene, &frame, &mut room, legend.listed);
     canvas.close();
     canvas.cover([[0.0, frame.area()[1][1]], [Frame::WIDTH, legend.bottom()]]);
     legend.draw(&mut canvas, &hidden);
@@ -85,7 +85,7 @@ fn stock_svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.title(&scene.title);
     canvas.open("id=\"drawing\"");
     stock.draw(&mut canvas, &frame, "stock");
-    symbols::findings(&mut canvas, scene, &frame, &mut OccupiedSpace::new(frame.area()), legend.listed);
+    symbols::draw_findings(&mut canvas, scene, &frame, &mut OccupiedSpace::new(frame.area()), legend.listed);
     canvas.close();
     canvas.cover([[0.0, frame.area()[1][1]], [Frame::WIDTH, legend.bottom()]]);
     legend.draw(&mut canvas, &[]);

@@ -98,7 +98,7 @@ impl<'s> MilledStock<'s> {
         let band = step.max((top - low) * count as f64 / MAX_ROUND_STROKES);
         let mut painter = StrokeBuilder { strokes: Vec::with_capacity(2 * count), step, band };
         for StockMove { at, movement, setting, .. } in cuts(scene) {
-            painter.cut(at, &movement.way, &setting);
+            painter.add_cut(at, &movement.way, &setting);
         }
         let mut strokes = painter.strokes;
         raise_edges(&mut strokes, top - low);
@@ -377,8 +377,8 @@ pub enum StockChange {
 /// Draws the material that a change additionally removes from the stock, or additionally leaves. Returns `None` if there is none, or if
 /// the stock is unknown.
 pub fn stock_change_svg(old: &ScenePath, new: &ScenePath, change: StockChange, lang: Lang) -> Option<String> {
-    // Programs are compared in their own coordinates, wherever the path is in the drawing, and by the areas that their cutters sweep, whatever the
-    // shapes of the tips.
+    // Programs are compared in their own coordinates, regardless of the position of the path in the drawing, and by the areas that their cutters
+    // sweep, regardless of the shapes of the tips.
     let [old, new] = [old, new].map(|path| {
         let mut path = ScenePath { zero: [0.0; 2], parts: Vec::new(), tip: Tip::Flat, ..path.clone() };
         path.tools.iter_mut().for_each(|tool| tool.tip = Tip::Flat);

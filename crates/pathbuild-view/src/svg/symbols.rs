@@ -36,12 +36,12 @@ pub(super) fn draw_below_moves(canvas: &mut Canvas, scene: &Scene, frame: &Frame
                     }
                     room.occupy(text_rectangle(at, size, text));
                 }
-                other_text(canvas, at, size, *rotation, text);
+                draw_other_text(canvas, at, size, *rotation, text);
             }
         }
     }
     canvas.close();
-    keep_outs(canvas, scene, &place, room);
+    draw_keep_outs(canvas, scene, &place, room);
 }
 
 /// Returns the approximate rectangle of a text that is centred on a point.
@@ -51,7 +51,7 @@ fn text_rectangle([x, y]: Point, size: f64, text: &str) -> Rectangle {
 }
 
 /// Draws clamps, each with its height in the middle.
-fn keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &mut OccupiedSpace) {
+fn draw_keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, room: &mut OccupiedSpace) {
     canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR_COLOUR}\" stroke-width=\"1.2\""));
     let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR_COLOUR}\" fill-opacity=\"0.14\"");
     for clamp in &scene.keep_outs {
@@ -85,7 +85,7 @@ pub(super) fn outline(shapes: &[Shape], place: &PageTransform) -> String {
     data + "Z"
 }
 
-fn other_text(canvas: &mut Canvas, [x, y]: Point, size: f64, rotation: f64, text: &str) {
+fn draw_other_text(canvas: &mut Canvas, [x, y]: Point, size: f64, rotation: f64, text: &str) {
     if size < MIN_LEGIBLE_SIZE {
         return;
     }
@@ -107,7 +107,7 @@ pub(super) fn draw_above_moves(
     shown: VisibleParts,
     room: &mut OccupiedSpace,
 ) -> Vec<u32> {
-    elements(canvas, path, place);
+    draw_elements(canvas, path, place);
     canvas.open(&format!(
         "id=\"bars\" fill=\"none\" stroke=\"{BAR_COLOUR}\" stroke-width=\"4\" stroke-opacity=\"0.75\""
     ));
@@ -116,7 +116,7 @@ pub(super) fn draw_above_moves(
     }
     canvas.close();
     draw_ends(canvas, path, place, shown, room);
-    probes(canvas, path, place, room);
+    draw_probes(canvas, path, place, room);
     let hidden = if shown.order { draw_order_numbers(canvas, path, place, room) } else { Vec::new() };
     draw_embedded_names(canvas, path, place, room);
     hidden
@@ -124,7 +124,7 @@ pub(super) fn draw_above_moves(
 
 /// Draws the elements that no move shows. If the path has no program, these are all elements except for the start and end markers;
 /// otherwise, for example, subpaths and turn markers.
-fn elements(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
+fn draw_elements(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
     canvas.open("id=\"elements\" fill=\"none\" stroke-width=\"1.4\"");
     for element in &path.elements {
         let style = match element.kind {
@@ -236,7 +236,7 @@ fn draw_embedded_names(
     canvas.close();
 }
 
-fn probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
+fn draw_probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
     canvas.open(&format!("id=\"probes\" stroke=\"{PROBE_COLOUR}\" fill=\"none\""));
     for probe in &path.probes {
         let at = place.to_page(probe.at);
@@ -352,7 +352,7 @@ pub(super) fn draw_order_numbers(
     }
     placed.sort_by_key(|(order, _)| *order);
     for (order, at) in placed {
-        number(canvas, order, at);
+        draw_number(canvas, order, at);
     }
     canvas.close();
     hidden
@@ -366,7 +366,7 @@ fn find_number(room: &mut OccupiedSpace, order: u32, places: &[Point]) -> Option
     room.occupy_first_free(&taken).map(|found| places[found])
 }
 
-fn number(canvas: &mut Canvas, order: u32, at: Point) {
+fn draw_number(canvas: &mut Canvas, order: u32, at: Point) {
     let style = format!("fill=\"#fff\" fill-opacity=\"0.85\" stroke=\"{INK_COLOUR}\" stroke-width=\"0.6\"");
     let width = number_width(order);
     if width > 2.0 * NUMBER_RADIUS {
@@ -445,12 +445,12 @@ pub(super) fn draw_ends(
     if let Some(start) = start {
         let at = place.to_page(start.shape.start());
         canvas.circle(at, 5.0, &format!("fill=\"{PROBE_COLOUR}\" stroke=\"#fff\" stroke-width=\"1\""));
-        label(canvas, room, at, [-8.0, 17.0], shown.choose("start X0 Y0", "Start X0 Y0"), PROBE_COLOUR);
+        draw_label(canvas, room, at, [-8.0, 17.0], shown.choose("start X0 Y0", "Start X0 Y0"), PROBE_COLOUR);
     } else if path.elements.is_empty() && !path.moves.is_empty() {
         let at = place.to_page([0.0, 0.0]);
         canvas.line([at[0] - 7.0, at[1]], [at[0] + 7.0, at[1]], &format!("stroke=\"{PROBE_COLOUR}\""));
         canvas.line([at[0], at[1] - 7.0], [at[0], at[1] + 7.0], &format!("stroke=\"{PROBE_COLOUR}\""));
-        label(canvas, room, at, [4.0, 13.0], "X0 Y0", PROBE_COLOUR);
+        draw_label(canvas, room, at, [4.0, 13.0], "X0 Y0", PROBE_COLOUR);
     }
     if let Some(end) = end {
         let [x, y] = place.to_page(end.shape.start());
@@ -459,7 +459,7 @@ pub(super) fn draw_ends(
             svg_number(x - 4.5),
             svg_number(y - 4.5)
         ));
-        label(canvas, room, [x, y], [-8.0, -11.0], shown.choose("end", "Ende"), INK_COLOUR);
+        draw_label(canvas, room, [x, y], [-8.0, -11.0], shown.choose("end", "Ende"), INK_COLOUR);
     }
     canvas.close();
     room.lines.truncate(known);
@@ -484,14 +484,21 @@ fn lines<'a>(
 /// Number of straight lines that approximate an arc.
 const ARC_PIECES: u32 = 8;
 
-fn label(canvas: &mut Canvas, room: &mut OccupiedSpace, at: Point, offset: Point, text: &str, color: &str) {
+fn draw_label(
+    canvas: &mut Canvas,
+    room: &mut OccupiedSpace,
+    at: Point,
+    offset: Point,
+    text: &str,
+    color: &str,
+) {
     let halo = "stroke=\"#fff\" stroke-width=\"2.5\" paint-order=\"stroke\"";
     let at = room.place_beside(at, offset, 9.5, text);
     canvas.text(at, 9.5, Anchor::Start, &format!("fill=\"{color}\" {halo}"), text);
 }
 
 /// Circles the places of findings, and numbers the first `numbered` findings. Findings at the same place share a circle.
-pub(super) fn findings(
+pub(super) fn draw_findings(
     canvas: &mut Canvas,
     scene: &Scene,
     frame: &Frame,

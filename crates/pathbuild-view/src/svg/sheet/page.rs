@@ -93,7 +93,9 @@ pub(super) fn pages(sheet: &Sheet, lang: Lang) -> Vec<Page> {
         );
     }
     let area = Column::new([LEFT_EDGE, TEXT_TOP], [RIGHT_EDGE, BOTTOM_EDGE]);
-    pages.extend(picture::stock(sheet, area).map(|placed| Page { picture: Some(placed), ..Page::default() }));
+    pages.extend(
+        picture::stock_picture(sheet, area).map(|placed| Page { picture: Some(placed), ..Page::default() }),
+    );
     pages
 }
 

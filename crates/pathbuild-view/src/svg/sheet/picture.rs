@@ -81,7 +81,7 @@ pub(super) fn larger_picture(sheet: &Sheet, area: Column) -> Option<PlacedPictur
 }
 
 /// Returns a picture of the stock after milling for a whole page; `None` if nothing is cut.
-pub(super) fn stock(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
+pub(super) fn stock_picture(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     let radius = sheet.tools.iter().map(|tool| tool.diameter / 2.0).fold(0.0, f64::max);
     let [low, high] = removed_box(sheet).filter(|_| has_stock(&sheet.scene))?;
     let corners = with_min_extent([low.map(|at| at - radius), high.map(|at| at + radius)]);
@@ -186,13 +186,13 @@ impl PlacedPicture {
         room.lines.extend(axes);
         room.lines.extend(removed_box(sheet).into_iter().flat_map(|corners| sides(corners, &place)));
         let hidden = drawing(canvas, &sheet.scene, &frame, &depths, shown, &mut room);
-        symbols::findings(canvas, &sheet.scene, &frame, &mut room, sheet.scene.findings.len());
+        symbols::draw_findings(canvas, &sheet.scene, &frame, &mut room, sheet.scene.findings.len());
         canvas.close();
         if let Some(box_) = removed_box(sheet) {
             draw_dimensions(canvas, box_, &place, [left, bottom]);
         }
         if self.has_inset {
-            self.inset(canvas, sheet, lang);
+            self.draw_inset(canvas, sheet, lang);
         }
         self.legend(canvas, sheet, &depths, shown, &hidden);
     }
@@ -238,7 +238,7 @@ impl PlacedPicture {
     }
 
     /// Draws the true-size inset, omitting details that would be too small to read.
-    fn inset(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
+    fn draw_inset(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
         let [low, high] = removed_box(sheet).unwrap_or(self.corners);
         let left = self.area.left + self.area.width - inset_width(self.corners) + 20.0;
         let frame = Frame::at_scale([low, high], UNITS_PER_MM, [left, self.area.top + TOP_MARGIN]);
@@ -305,12 +305,12 @@ fn draw_dimensions(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransf
     ));
     let y = bottom + DIMENSION_DISTANCE;
     arrows(canvas, [x0, y], [x1, y]);
-    extension(canvas, [x0, y1], [x0, y + 4.0]);
-    extension(canvas, [x1, y1], [x1, y + 4.0]);
+    draw_extension_line(canvas, [x0, y1], [x0, y + 4.0]);
+    draw_extension_line(canvas, [x1, y1], [x1, y + 4.0]);
     let x = left - DIMENSION_DISTANCE;
     arrows(canvas, [x, y1], [x, y0]);
-    extension(canvas, [x0, y1], [x - 4.0, y1]);
-    extension(canvas, [x0, y0], [x - 4.0, y0]);
+    draw_extension_line(canvas, [x0, y1], [x - 4.0, y1]);
+    draw_extension_line(canvas, [x0, y0], [x - 4.0, y0]);
     canvas.close();
     let number = |axis: usize, value: f64| format!("{}{}", ["X", "Y"][axis], mm(value));
     canvas.open(&format!("id=\"numbers\" fill=\"{INK_COLOUR}\""));
@@ -361,6 +361,6 @@ fn arrows(canvas: &mut Canvas, from: Point, to: Point) {
     }
 }
 
-fn extension(canvas: &mut Canvas, from: Point, to: Point) {
+fn draw_extension_line(canvas: &mut Canvas, from: Point, to: Point) {
     canvas.line(from, to, "stroke-width=\"0.4\"");
 }

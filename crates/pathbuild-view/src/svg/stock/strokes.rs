@@ -69,7 +69,8 @@ pub(super) struct Stroke {
 }
 
 impl SweptArea {
-    /// Returns a key that is equal for areas that look the same: the move in micrometres, without heights and whatever its direction, and the diameter.
+    /// Returns a key that is equal for areas that look the same: the move in micrometres, without heights and regardless of its direction, and the
+    /// diameter.
     pub(super) fn key(&self) -> [i64; 8] {
         let Move { from, to, shape, .. } = &self.way;
         #[expect(clippy::cast_possible_truncation, reason = "saturates")]
@@ -263,7 +264,7 @@ pub(super) struct StrokeBuilder {
 impl StrokeBuilder {
     /// Adds the strokes that a cut paints. A slope is divided into pieces, each of which has the height of its upper end; so is an arc that bulges up
     /// or down. Only level cuts and plunges have an edge: the edges of neighbouring slopes would cover each other's surfaces.
-    pub(super) fn cut(&mut self, at: MovePiece, way: &Move, setting: &CuttingConditions) {
+    pub(super) fn add_cut(&mut self, at: MovePiece, way: &Move, setting: &CuttingConditions) {
         let step = self.step;
         let [from, to] = [way.from.z(), way.to.z()];
         let [.., Some((low, high))] = way.extent() else { return };
