@@ -280,7 +280,8 @@ pub(crate) fn handle(text: &[u8]) -> Option<Handle> {
     number.map(Handle)
 }
 
-/// Passes over the groups of an application, from `102/{NAME` to `102/}`. Returns the first pair of the next entity if that comes first.
+/// Passes over the groups of an application, from `102/{NAME` to `102/}`. If the entity ends before its group does, returns the first pair of the
+/// next entity; otherwise `None`.
 fn skip_application_group<'a>(
     groups: &mut Groups<'a>,
     pass: impl FnMut(&Group<'a>),
