@@ -101,7 +101,7 @@ impl Context {
         }
     }
 
-    /// Returns a workspace for another tree, with that tree's configuration and without a cache. Also returns diagnostics of that
+    /// Returns a workspace for the tree of these inputs, with that tree's configuration and without a cache. Also returns diagnostics of that
     /// configuration.
     pub fn workspace_of_inputs(&self, inputs: &Inputs) -> (Workspace, Vec<Diagnostic>) {
         let (settings, faults) =

@@ -137,8 +137,8 @@ pub(crate) fn refusal(workspace: &Workspace) -> Option<String> {
         .then(|| workspace.phrase("{}: it is not UTF-8", "{}: das ist kein UTF-8", CACHE_DIR_VARIABLE))
 }
 
-/// Returns the directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, or else the user's cache directory, which `config.toml` may name;
-/// `None` if it is unknown.
+/// Returns the directory of `--cache-dir` or `PATHBUILD_CACHE_DIR`, or else the user's cache directory, which `config.toml` may name; `None` if no
+/// such directory is known.
 pub(crate) fn cache_home(
     named: Option<&Utf8Path>,
     configured: Option<Utf8PathBuf>,

@@ -87,7 +87,7 @@ fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
     is_drawing(file).then_some(file)
 }
 
-/// Points with coordinates that differ by at most this many mm are the same place.
+/// Distance in mm along each axis up to which two points count as the same place.
 const SAME_PLACE: f64 = 1e-6;
 
 /// Returns the place of a finding, with further places mentioned in its message and notes.

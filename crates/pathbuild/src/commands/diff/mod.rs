@@ -214,7 +214,7 @@ fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revisio
     let root = if is_drawing { place.parent().unwrap_or(Utf8Path::new("")).to_owned() } else { place };
     let absolute =
         |place: &Utf8Path| pathbuild_workspace::config::clean(&context.working_directory.join(place));
-    // A directory that has a configuration with a library stands for the library.
+    // A directory whose own configuration names a library stands for the whole library.
     let is_library = !is_drawing
         && workspace.has_library()
         && workspace.settings.directory().is_some_and(|directory| absolute(directory) == absolute(&root));
@@ -226,7 +226,7 @@ fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revisio
 }
 
 /// Refuses to compare with a revision that lacks drawings because they are in a submodule. `library` is the workspace whose library is compared;
-/// `None` for the directory itself.
+/// `None` if the directory itself is compared.
 fn refuse_submodules(
     context: &Context,
     revision: &Revision,
