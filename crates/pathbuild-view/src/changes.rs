@@ -515,7 +515,7 @@ const DEPTHS: usize = 5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct MillingResult {
-    /// Lowest Z in mm at places along the line, from the end with the smaller number.
+    /// Lowest Z in mm at places along the line, beginning at the end of the line with the smaller number.
     bottom: [f64; DEPTHS],
     /// Feed in mm/min of the pass that is deepest in the middle.
     feed: f64,

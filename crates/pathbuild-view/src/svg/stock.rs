@@ -84,7 +84,7 @@ impl<'s> MilledStock<'s> {
             count += 1;
         }
         blanks.sort_by(|one, other| one.1.total_cmp(&other.1));
-        // Extend the stock to the rapid moves below every upper face: if the real stock reaches that far, they run through material.
+        // Extend the stock to the rapid moves that go below every upper face: if the real stock reaches that far, these moves run through material.
         if let Some((blank, top)) = blanks.first_mut() {
             for extent in low_rapids(scene, *top).filter_map(|rapid| rapid.extent()) {
                 *blank = enclosing_box(*blank, extent);

@@ -400,7 +400,7 @@ fn anchor_point(shape: &Shape) -> Point {
     }
 }
 
-/// Returns points at this distance around a point, in all directions that are tried.
+/// Returns points at this distance around a point, one in each of [`LEADER_DIRECTIONS`] directions.
 fn points_around([x, y]: Point, distance: f64) -> impl Iterator<Item = Point> {
     (0..LEADER_DIRECTIONS).map(move |direction| {
         let (sin, cos) =
