@@ -124,7 +124,7 @@ impl Finding {
         Some(self.waiver.as_ref()?.until?.to_string())
     }
 
-    /// Converts the diagnostics of a run, with the configured severities, sorted and without duplicates. Leaves out the accepted ones.
+    /// Converts the diagnostics of a run, with the configured severities, sorted and without duplicates. Accepted findings are left out.
     pub(crate) fn from_diagnostics(workspace: &Workspace, diagnostics: Vec<Diagnostic>) -> Vec<Self> {
         Self::reported_and_accepted(workspace.findings(diagnostics)).0
     }
