@@ -23,7 +23,8 @@ pub enum ElementPart {
 type Rank = u8;
 
 impl ElementPart {
-    /// Returns rank and distance if a text circle overlaps this part. (book: language/parameter-texts)
+    /// Returns the rank of this part and its distance in mm from a text circle's centre, if the circle overlaps the part. (book:
+    /// language/parameter-texts)
     fn overlapped(&self, centre: Point, radius: f64) -> Option<(Rank, f64)> {
         match self {
             Self::Circle(circle) => {
