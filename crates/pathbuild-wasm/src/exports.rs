@@ -42,7 +42,7 @@ pub extern "C" fn answered() -> *const u8 {
     RESPONSE.with_borrow(Vec::as_ptr)
 }
 
-/// Returns the length in bytes of the message of a panic that ended the call; 0 if it ended for another reason.
+/// Returns the length in bytes of the message of the panic that ended a call; 0 if no panic did.
 #[unsafe(no_mangle)]
 pub extern "C" fn panicked() -> usize {
     PANIC.with_borrow(Vec::len)
