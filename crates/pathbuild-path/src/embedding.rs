@@ -493,7 +493,7 @@ impl<'a> SubpathChecker<'a> {
         let is_known =
             |given: &SubpathValue| inner.definitions.iter().any(|known| given.variable == Some(known.name));
         let unknown = values.iter().filter(|given| !is_known(given)).count();
-        // Each unknown variable may be a misspelling of a missing one, so as many missing ones are not reported.
+        // An unknown variable may be a misspelling of a missing one, so one missing variable is not reported for each unknown one.
         let missing = inner.definitions.iter().filter(|known| !is_given(known)).skip(unknown);
         let missing = missing.map(|definition| {
             let problem = Diagnostic::new(&parameters::MISSING_VALUE_HERE)

@@ -50,7 +50,7 @@ pub struct Placement {
     shift: Vector2<f64>,
 }
 
-/// See [`Curve::place_key`].
+/// Key of the place of a curve, see [`Curve::place_key`].
 pub(crate) type PlaceKey = [[i64; 2]; 3];
 
 impl Curve {

@@ -233,7 +233,7 @@ impl ElementClass {
         CELLS.get(self as usize).map_or(LetterUse::Allowed, |cells| cells[letter as usize])
     }
 
-    /// Returns the letters that have an effect in the text of an element of this class, for help. It leaves out @, which needs a text of its own.
+    /// Returns the letters that have an effect in the text of an element of this class, for help. @ is left out: it needs a text of its own.
     pub fn known_letters(self) -> impl Iterator<Item = char> {
         Letter::ALL
             .into_iter()

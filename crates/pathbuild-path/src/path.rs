@@ -63,7 +63,7 @@ pub struct Path {
     pub end_origin: Origin,
     /// Curves on the path's layers that do not belong to it, with their start points if known.
     pub left_out: Vec<(EntityKind, Option<Point>)>,
-    /// Properties that errors leave unknown; `None` for a path without errors.
+    /// Properties that errors leave unknown; `None` for a path without errors and with all needed values.
     pub(crate) uncertainty: Option<Box<PathUncertainty>>,
 }
 

@@ -26,7 +26,7 @@ pub struct TracedProgram {
     /// The program. For emitted targets it equals that of [`program`](crate::queries::program); checked targets use the sweep height of a
     /// check.
     pub program: Program,
-    /// The origin of each step. Its paths are indices into [`TracedProgram::parts`].
+    /// The origin of each step. Paths are given as indices into [`TracedProgram::parts`].
     pub trace: Trace<usize>,
     /// The paths in the program with their values, each once.
     pub parts: Vec<Part>,

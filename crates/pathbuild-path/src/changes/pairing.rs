@@ -162,8 +162,8 @@ impl<'i> Pairing<'i> {
         });
     }
 
-    /// Whether the CAD program has kept the handles of elements: at least nine in ten elements that were not moved have their old handle. A program
-    /// that renumbers elements leaves those that are drawn before the first new one as they were.
+    /// Whether the CAD program has kept the handles of elements: at least nine in ten elements that were not moved have their old handle. A few
+    /// equal handles prove nothing: a program that renumbers elements does not change those before the first new one.
     fn has_lasting_handles(&self) -> bool {
         let handles = self.both.iter().filter_map(|(old, new)| Some((old.handle?, new.handle?)));
         let (kept, all) =

@@ -159,7 +159,7 @@ impl PathName {
         text.split_once(self.as_str()).is_some_and(|(before, behind)| is_meant(before) || is_meant(behind))
     }
 
-    /// Whether a regular expression of E or --restrict matches anywhere in the name. It respects case.
+    /// Whether a regular expression of E or `--restrict`, compiled with [`name_regex`], matches anywhere in the name.
     pub fn is_match(&self, pattern: &Regex) -> bool {
         pattern.is_match(&self.0)
     }

@@ -294,7 +294,7 @@ pub(crate) fn is_overlapped(text: &TextCircle, shape: &Shape) -> bool {
     overlap(text, shape).is_some()
 }
 
-/// Returns the kind of a shape that a text does not overlap, and the distance by which the text would belong to it.
+/// Returns the kind of a shape that a text does not overlap, and the distance that would be compared if the text overlapped it.
 fn possible_overlap(text: &TextCircle, shape: &Shape) -> (OverlapKind, f64) {
     match shape {
         Shape::Circle { centre, .. } => (OverlapKind::Circle, text.distance_to_centre(*centre)),

@@ -282,7 +282,7 @@ impl PathCollector<'_> {
         self.uncertainty.has_broken_entity = true;
         let is_circle =
             matches!(diagnostic.place.entity, Some(EntityKind::Circle | EntityKind::Other) | None);
-        // The finding about elements far from the origin names only the first one.
+        // A finding about elements far from the origin names only the first of them; others may be circles.
         self.has_broken_circle |= is_circle || diagnostic.message == &messages::TOO_LARGE;
         self.add_located(diagnostic);
     }

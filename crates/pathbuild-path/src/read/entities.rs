@@ -1,4 +1,4 @@
-//! The entities of a drawing as this crate sees them: points in the plane, and texts with the circles by which they find their elements.
+//! The entities of a drawing as this crate sees them: points in the plane, and texts with the circles that determine their elements.
 //! (book: language/parameter-texts)
 
 use std::mem::take;
