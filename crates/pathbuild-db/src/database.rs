@@ -282,7 +282,7 @@ impl Database {
     /// waited for panicked on another thread.
     ///
     /// # Errors
-    /// PB005 if it exceeded the time limit, PB001 if a drawing changed meanwhile, PB006 if it panicked; all without a place.
+    /// PB005 if the work exceeded the time limit, PB001 if a drawing changed meanwhile, PB006 if the work panicked; all without a place.
     pub fn run_guarded<R>(&self, limit: Duration, work: impl Fn() -> R) -> Result<R, Box<Diagnostic>> {
         loop {
             let payload = match catch_unwind(AssertUnwindSafe(&work)) {
@@ -421,7 +421,7 @@ pub(crate) struct TimeoutPanic(pub(crate) Duration);
 /// passed on.
 ///
 /// # Errors
-/// PB006 if it panicked, PB005 if it exceeded its time limit; both without a place.
+/// PB006 if the work panicked, PB005 if it exceeded its time limit; both without a place.
 pub fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
         if payload.is::<Cancelled>() {

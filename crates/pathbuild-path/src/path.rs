@@ -21,7 +21,8 @@ pub struct Path {
     pub name: CaseSensitiveName,
     /// Cutter diameter (O) in mm.
     pub tool: f64,
-    /// Whether the cutter may be wider than its shank, so that it must not rise in its groove: a configured slot cutter, or one that is not configured.
+    /// Whether the cutter may be wider than its shank, so that it must not rise in its groove: it is configured as a slot cutter, or
+    /// not configured.
     pub may_be_slot_cutter: bool,
     /// Thickness of the material (T) in mm.
     pub thickness: f64,

@@ -509,7 +509,7 @@ pub(crate) fn mistake_in_text(text: ParameterText<'_>, class: ElementClass) -> O
     if let Some(problem) = mistake {
         return Some(Misreading { problem, unread: Letters::ALL });
     }
-    // A remark gives no parameters, but in place of the path's own text it may hide them.
+    // A remark gives no parameters. If it stands in place of the path's own text, however, any letter may be missing because of that.
     let unread = if class == ElementClass::PathStart { Letters::ALL } else { Letters::default() };
     remark_mistake(text, class).map(|problem| Misreading { problem, unread })
 }

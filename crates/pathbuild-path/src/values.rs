@@ -152,7 +152,7 @@ impl<'t> Values<'t> {
         self.value(self.text.index(letter)?)
     }
 
-    /// Returns T. One that is not positive counts as faulty: with the surface at Z0, no other height can be compared with it.
+    /// Returns T. A value that is not positive counts as faulty: with the surface at Z0, no other height can be compared with it.
     pub(crate) fn thickness(&self) -> GivenNumber {
         match self.number(Letter::T) {
             GivenNumber::Number(thickness) if !above(thickness, 0.0) => GivenNumber::Faulty,

@@ -342,7 +342,7 @@ impl<'db> NameKey<'db> {
 pub struct PathSummary {
     /// Findings about the path's drawing or the values of its variables.
     pub problems: Vec<Diagnostic>,
-    /// What paths that embed this one need to know of it; `None` if the drawing of the path or the values have errors.
+    /// The properties on which paths that embed this one depend; `None` if the drawing of the path or the values have errors.
     pub signature: Option<PathSignature>,
     /// The known part of the signature of a path with errors, used to judge what it embeds. `None` for a path without errors, and
     /// if nothing is drawn.

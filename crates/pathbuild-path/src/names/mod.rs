@@ -125,7 +125,7 @@ impl PathPattern {
         Some((PathName(text[found.clone()].into()), found))
     }
 
-    /// Returns the groups of a name, for comparison with file names. `None` if it does not match.
+    /// Returns the groups of a name, for comparison with file names. `None` if the pattern does not match the name.
     pub(crate) fn groups(&self, name: &str) -> Option<Groups> {
         self.0.groups(name)
     }

@@ -199,7 +199,7 @@ impl LayerPattern {
         Ok(Self { whole, first: first_character(pattern), letters: letters.into_iter().collect() })
     }
 
-    /// Returns the letters of the expression: those that a name may lack.
+    /// Returns the letters of the expression, for guessing which letter is missing in a name.
     pub(crate) fn letters(&self) -> &str {
         &self.letters
     }

@@ -1,4 +1,4 @@
-//! Judges whether a text that nothing has read was meant as a parameter text. (book: language/parameter-texts)
+//! Determines whether a text that is not read as parameters was meant as a parameter text. (book: language/parameter-texts)
 
 use crate::letter::{Letter, Letters};
 use crate::look_alikes;
@@ -101,8 +101,8 @@ pub(super) fn is_parameter_text(text: &str) -> bool {
     readings.into_iter().filter_map(|id| texts.get(id)).any(looks_like_parameters)
 }
 
-/// Whether a text consists of letters with numbers or variables, and perhaps a remark with Q, and gives a letter that would spoil a part if it were
-/// missing.
+/// Whether a text consists of letters with numbers or variables, and perhaps a remark with Q, and gives a letter without which a part would be
+/// spoilt.
 pub(super) fn looks_like_parameters(text: ParameterText<'_>) -> bool {
     let is_number = |written: ValueKind| matches!(written, ValueKind::Number(_) | ValueKind::Reference);
     text.letters.has_any(ESSENTIAL_LETTERS)

@@ -295,7 +295,7 @@ impl<'a> Walker<'a> {
         self.turns.use_marker(self.path, self.at)
     }
 
-    /// Retraces the traversed segments until `is_found` succeeds; an error if it reaches the start first. (book: language/order-and-turns)
+    /// Retraces the traversed segments until `is_found` returns true; fails if the start is reached first. (book: language/order-and-turns)
     fn retrace_until(&mut self, is_found: impl Fn(&mut Self) -> bool) -> Result<(), ()> {
         loop {
             let (segment, passage) = self.way_back.pop().ok_or(())?;
