@@ -263,21 +263,17 @@ impl Library {
         })
     }
 
-    /// Checks the library and, after each change of a drawing, everything that depends on it, until `on_report` returns false. If the configuration names
-    /// no library, the directory is checked. Other requests wait meanwhile. Only a library on disk can be watched.
+    /// Checks the library and, after each change of a drawing, everything that depends on it, until `seen` returns false for a report. If the
+    /// configuration names no library, the directory is checked. Other requests wait meanwhile. Only a library on disk can be watched.
     ///
     /// # Errors
     /// If the system cannot report changes, or if the baseline has errors.
-    pub fn watch(
-        &self,
-        on_report: impl FnMut(WatchReport) -> bool + Send + 'static,
-    ) -> Result<WatchEnd, Error> {
+    pub fn watch(&self, seen: impl FnMut(WatchReport) -> bool + Send + 'static) -> Result<WatchEnd, Error> {
         self.work(move |open| {
             let workspace = open.workspace;
             let inputs = whole_library(workspace);
             let request = watch::Request { inputs: &inputs, emits: false, lists: false, polls: false };
-            let end =
-                request.run(&with_absolute_paths(workspace), &ReportForwarder::new(workspace, on_report));
+            let end = request.run(&with_absolute_paths(workspace), &ReportForwarder::new(workspace, seen));
             // The session's results may be out of date.
             open.session = None;
             match end {
