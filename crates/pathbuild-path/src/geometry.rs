@@ -281,6 +281,14 @@ impl Curve {
         }
     }
 
+    /// Returns the point of the curve that is nearest to a point.
+    pub(crate) fn nearest(&self, point: Xy) -> Xy {
+        match self {
+            Self::Line(line) => line.nearest(point),
+            Self::Arc(arc) => arc.nearest(point),
+        }
+    }
+
     /// Returns the interior points of this curve that may be nearest to `other`. Empty if `other` is a line: the ends of both curves and the
     /// candidates on `other` then suffice.
     fn nearest_candidates(&self, other: &Self) -> Vec<Xy> {
@@ -334,6 +342,15 @@ impl Arc {
             return (out.norm() - self.radius).abs();
         }
         (point - self.start).norm().min((point - self.end).norm())
+    }
+
+    fn nearest(&self, point: Xy) -> Xy {
+        let out = point - self.centre;
+        match out.try_normalize(0.0) {
+            Some(direction) if self.spans(out) => self.centre + direction * self.radius,
+            _ if (point - self.start).norm() <= (point - self.end).norm() => self.start,
+            _ => self.end,
+        }
     }
 
     /// Whether the arc contains the point of its circle that lies in the direction `out` from the centre.

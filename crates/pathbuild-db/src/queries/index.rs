@@ -226,13 +226,13 @@ impl FileIndex {
         paths.extend(raw.paths.into_iter().map(path));
         paths.sort_unstable_by(|a, b| a.header.name.cmp(&b.header.name));
         let mut diagnostics = raw.diagnostics;
+        let is_complete = cuts.len() == paths.len();
         let mut parts = parts.unwrap_or_default();
-        parts.judge_open_outlines(&cuts);
+        parts.judge_outlines(&cuts, is_complete);
         let DrawnParts { parts, mut problems, .. } = parts;
         lower_to_warnings(db, &mut problems);
         diagnostics.append(&mut problems);
         cuts.sort_unstable_by(|one, other| one.name.cmp(&other.name));
-        let is_complete = cuts.len() == paths.len();
         let parts = (has_parts || !cuts.is_empty()).then(|| Arc::new(FileParts { parts, cuts, is_complete }));
         // `collect` would reuse the allocation of `paths`, which is fifty times as large as needed.
         let mut shared = Vec::with_capacity(paths.len());

@@ -146,8 +146,9 @@ pub(super) fn doubtful_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic
     let reading = Reading { compatible: false, ..Settings::get(db).reading(db).clone() };
     let mut drawn =
         read_parts(&read_layers_as(db, file, &reading, &|layer| language.is_part(layer)), language);
-    let paths = file_parts(db, file).map_or(&[][..], |found| &found.cuts);
-    drawn.judge_open_outlines(paths);
+    let (paths, is_complete) =
+        file_parts(db, file).map_or((&[][..], false), |found| (&found.cuts[..], found.is_complete));
+    drawn.judge_outlines(paths, is_complete);
     let place = |problem, (part, ring): &(usize, usize)| {
         let place = drawn.places.get(*part)?.get(*ring)?.clone();
         let mut problem = Diagnostic { place, ..problem };

@@ -801,9 +801,41 @@ fn of_rings_in_each_other_the_one_that_is_cut_must_be_met() {
     assert_eq!(milled(5.97), [""; 0], "within the tolerance");
     assert!(left(&milled(5.8), "0.1"), "{:?}", milled(5.8));
     assert_eq!(milled(6.03), [""; 0], "within the tolerance");
-    assert!(left(&milled(6.2), "1.1"), "up to the thread, more than O away from the cut: {:?}", milled(6.2));
+    let gouged = |found: &[String], depth: &str| {
+        found.len() == 1 && found[0].starts_with(&format!("PB213 the cutter goes {depth} mm"))
+    };
+    assert!(gouged(&milled(6.2), "0.1"), "nearer to the hole: {:?}", milled(6.2));
+    assert!(gouged(&milled(7.15), "0.575"), "{:?}", milled(7.15));
+    assert!(left(&milled(7.25), "0.575"), "nearer to the thread: {:?}", milled(7.25));
     assert!(left(&milled(7.9), "0.25"), "{:?}", milled(7.9));
     assert_eq!(milled(8.4), [""; 0]);
+}
+
+/// The edge of a pocket or of a chamfer lies around a hole that is cut, but is not cut itself: it is a line on the part.
+#[test]
+fn outlines_around_openings_are_lines_on_the_part_unless_they_are_cut() {
+    let with = |outlines: &str, cut: &str| {
+        let end = cut.lines().last().and_then(|line| line.split(' ').nth(2)).unwrap_or_default();
+        let way = format!("sweep 31,13 20,6\n{cut}\nsweep {end} 0,0");
+        codes(&(plate("bars").replace("sweep 31,13 0,0", &way) + outlines))
+    };
+    let (groove, through) = ("mill 20,6 24,6 \"B1\"", "mill 20,6 24,6");
+    let chamfer = "polyline 1.5,1.5 40.5,1.5 40.5,25.5 1.5,25.5 closed\n";
+    let pasted = "polyline 1.015,1 41.015,1 41.015,26 1.015,26 closed\n";
+    let pocket = "polyline 19,5 37,5 37,19 19,19 closed\n";
+    for outlines in [chamfer, pasted, pocket, &format!("{chamfer}{pocket}")] {
+        assert_eq!(with(outlines, groove), [""; 0], "{outlines}");
+        assert_eq!(with(outlines, through), ["PB213"], "{outlines}");
+        assert_eq!(
+            with(&format!("{outlines}circle 23,13 d 3\n"), groove),
+            ["PB220"],
+            "a second hole: {outlines}"
+        );
+    }
+    // One side is cut through the plate, and then all of them.
+    assert_eq!(with(pocket, "mill 20,6 36,6"), ["PB213"]);
+    let all = "mill 20,6 36,6\nmill 36,6 36,18\nmill 36,18 20,18\nmill 20,18 20,6";
+    assert_eq!(with(pocket, all), [""; 0], "an opening");
 }
 
 /// A hole is 2.9 or 3.1 mm from the edge, along which a cutter of 6 mm runs: material of the part lies between the two, so the cut is not for the

@@ -143,17 +143,16 @@ impl<'s> PartCheck<'s> {
 
     /// Returns the outermost ring of each nest that no path cuts out.
     fn nests_without_cuts(&self) -> impl Iterator<Item = usize> {
-        let rings = &self.part.part.rings;
-        let is_cut =
-            |nest: usize| rings.iter().zip(&self.is_cut).any(|(ring, cut)| *cut && ring.nest == nest);
-        (0..rings.len()).filter(move |ring| rings[*ring].nest == *ring && !is_cut(*ring))
+        let part = self.part.part;
+        let is_cut = |nest: usize| (0..).zip(&self.is_cut).any(|(ring, cut)| *cut && part.nest(ring) == nest);
+        (0..part.rings.len()).filter(move |ring| part.nest(*ring) == *ring && !is_cut(*ring))
     }
 
     /// Returns the rings in openings that paths cut out like parts: support bars stand along their outside, or cuts follow it all round. Bars and
     /// cuts at the edge of a ring around them do not count, because they hold or clear the waste of that ring.
     fn inner_parts(&self) -> impl Iterator<Item = usize> {
         let rings = self.part.part.rings.iter().enumerate();
-        let inner = rings.filter(|(ring, drawn)| drawn.nest != *ring);
+        let inner = rings.filter(|(_, drawn)| !drawn.around.is_empty());
         let is_cut = |ring: usize, drawn: &PartRing| {
             self.has_bars_outside(ring, drawn) || self.is_cut_round(ring, drawn)
         };
@@ -429,7 +428,7 @@ mod tests {
     #[test]
     fn the_order_of_cuts_does_not_matter() {
         let plate = rectangle([0.0, 0.0], [40.0, 20.0], 1).into_iter().map(Curve::Line).collect();
-        let rings = vec![PartRing { curves: plate, nest: 0 }];
+        let rings = vec![PartRing { curves: plate, around: Vec::new() }];
         let parts = [Part { layer: "Part".into(), paths: None, rings }];
         let pattern = LayerPattern::new("Part").expect("a valid pattern");
         let settings = PartSettings { pattern, tolerance: 0.02, is_held_otherwise: false };

@@ -169,8 +169,8 @@ impl<'s> LeftoverSearch<'s> {
     /// Returns the material left at all rings. Of the rings of a nest, only the ring that the cuts follow best is considered.
     pub(super) fn leftovers(&self) -> Leftovers {
         let mut nests: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for (ring, drawn) in self.part.part.rings.iter().enumerate() {
-            nests.entry(drawn.nest).or_default().push(ring);
+        for ring in 0..self.part.part.rings.len() {
+            nests.entry(self.part.part.nest(ring)).or_default().push(ring);
         }
         let mut found = Leftovers::default();
         let mut longest = 0.0;
@@ -418,8 +418,9 @@ impl<'s> LeftoverSearch<'s> {
         if ring == 0 {
             return *self.is_ringed.get_or_init(|| is_surrounded(self.part, &ways.collect::<Vec<_>>()));
         }
-        let rings = &self.part.part.rings;
-        let is_alone = rings.iter().filter(|other| other.nest == rings[ring].nest).count() == 1;
+        let part = self.part.part;
+        let is_alone =
+            (0..part.rings.len()).filter(|other| part.nest(*other) == part.nest(ring)).count() == 1;
         let embeds_others = self.cuts.paths.iter().any(|path| !path.embedded.is_empty());
         let is_inside = |(way, _): &(Curve, f64)| self.part.side(way.middle()).is_beside(ring);
         is_alone && !embeds_others && first_enclosing(&ways.filter(is_inside).collect::<Vec<_>>()).is_some()
@@ -453,8 +454,8 @@ impl<'s> LeftoverSearch<'s> {
 
     /// Returns the curves near a box that limit the cutter beside a ring: not those of other rings in the same nest, which are alternatives.
     fn curves_beside(&self, ring: usize, extent: AABB<[f64; 2]>) -> impl Iterator<Item = (usize, &Curve)> {
-        let rings = &self.part.part.rings;
-        let is_other = move |other: usize| other != ring && rings[other].nest == rings[ring].nest;
+        let part = self.part.part;
+        let is_other = move |other: usize| other != ring && part.nest(other) == part.nest(ring);
         self.part.curves_near(extent).filter(move |(other, _)| !is_other(*other))
     }
 
@@ -502,7 +503,7 @@ impl<'s> LeftoverSearch<'s> {
         let thickness = (0..SAMPLES).map(sample).map(|at| self.distance(at)).fold(0.0, f64::max);
         let is_through = nearest.through().is_some();
         Some(Leftover {
-            nest: self.part.part.rings[ring].nest,
+            nest: self.part.part.nest(ring),
             path: nearest.path,
             element: nearest.cut.element,
             from: place(from),
@@ -525,7 +526,7 @@ impl<'s> LeftoverSearch<'s> {
     fn swept_leftover(&self, ring: usize, ((from, to), number): (Stretch, usize)) -> Leftover {
         let IndexedSweep { path, sweep, radius } = &self.cuts.sweeps[number];
         Leftover {
-            nest: self.part.part.rings[ring].nest,
+            nest: self.part.part.nest(ring),
             path: *path,
             element: sweep.element,
             from: self.part.ring_point(ring, from),

@@ -10,6 +10,7 @@ mod enclosure;
 mod gouge;
 mod intervals;
 mod leftover;
+mod lines;
 mod loose;
 mod neighbours;
 mod open;
@@ -66,15 +67,14 @@ pub struct Part {
 pub struct PartRing {
     /// The curves of the ring, in order. Each begins at the end of the previous curve.
     pub curves: Vec<Curve>,
-    /// Index of the outermost opening that contains this ring, or of the ring itself if none does. Rings of the same nest are alternatives,
-    /// of which only one must be cut: for example, a hole and the circle around it that shows its thread.
-    pub nest: usize,
+    /// Indices of the openings around this ring, from the outermost.
+    pub around: Vec<usize>,
 }
 
 fn placed_part(part: &Part, placement: &Placement) -> Part {
     let ring = |ring: &PartRing| PartRing {
         curves: ring.curves.iter().map(|curve| placement.place_curve(curve)).collect(),
-        nest: ring.nest,
+        around: ring.around.clone(),
     };
     Part { rings: part.rings.iter().map(ring).collect(), ..part.clone() }
 }
@@ -86,13 +86,19 @@ pub struct DrawnParts {
     pub parts: Vec<Part>,
     /// For each part, the places of its rings in the file.
     pub places: Vec<Vec<Place>>,
-    /// The open outlines that are findings only if paths cut along them; see [`DrawnParts::judge_open_outlines`].
+    /// The open outlines that are findings only if paths cut along them; see [`DrawnParts::judge_outlines`].
     pub(crate) open: Vec<OpenOutline>,
     /// Findings about outlines (PB219), with their positions in the file.
     pub problems: Vec<Diagnostic>,
 }
 
 impl Part {
+    /// Returns the index of the outermost opening that contains a ring, or of the ring itself if none does. Rings of the same nest are alternatives,
+    /// of which only one must be cut: for example, a hole and the core hole of its thread.
+    pub fn nest(&self, ring: usize) -> usize {
+        self.rings[ring].around.first().copied().unwrap_or(ring)
+    }
+
     /// Whether the part may belong to a path.
     pub(crate) fn may_belong_to(&self, path: &PathName) -> bool {
         may_belong_to(self.paths.as_ref(), path)

@@ -34,7 +34,7 @@ const PLACES: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
 impl DrawnParts {
     /// Adds PB219 for each open outline along which these paths cut, and leaves out the parts that it surrounds: they are its openings. Cuts beside
     /// the outline of a part do not count.
-    pub fn judge_open_outlines(&mut self, paths: &[PathCuts]) {
+    pub(super) fn judge_open_outlines(&mut self, paths: &[PathCuts]) {
         if self.open.is_empty() {
             return;
         }

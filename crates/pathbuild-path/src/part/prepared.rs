@@ -154,7 +154,7 @@ impl<'p> PreparedPart<'p> {
         }
     }
 
-    fn contains(&self, ring: usize, at: Xy) -> bool {
+    pub(crate) fn contains(&self, ring: usize, at: Xy) -> bool {
         let PreparedRing { extent, outline, .. } = &self.rings[ring];
         extent.contains_point(&[at.x, at.y])
             && outline.get_or_init(|| Outline::new(&self.part.rings[ring].curves)).contains(at)

@@ -51,7 +51,7 @@ impl PlacedCuts<'_> {
             let part = placed_part(part, &self.placement);
             let part = PreparedPart::new(&part);
             let openings = part.part.rings.iter().enumerate().skip(1);
-            let mut outermost = openings.filter(|(ring, drawn)| drawn.nest == *ring);
+            let mut outermost = openings.filter(|(_, drawn)| drawn.around.is_empty());
             outermost.find_map(|(ring, _)| {
                 let through_cuts = OnceCell::new();
                 Opening { owner: self, part: &part, ring, earlier, through_cuts }

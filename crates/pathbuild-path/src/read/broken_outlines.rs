@@ -56,7 +56,7 @@ impl SortedOutlines {
         let mut rings = graph.rings();
         rings.sort_by_key(|ring| ring[0].0);
         let nesting = nesting(&rings.iter().map(curves_of).collect::<Vec<_>>());
-        let is_outermost: Vec<bool> = nesting.iter().map(Option::is_none).collect();
+        let is_outermost: Vec<bool> = nesting.iter().map(Vec::is_empty).collect();
         let mut broken = Vec::new();
         let mut is_left_out = vec![false; rings.len()];
         for (number, ring) in rings.iter().enumerate() {

@@ -175,24 +175,23 @@ impl<'d> OutlineLayers<'d> {
             )
             .place
         };
-        let is_rim = |ring: &usize| nesting[*ring].is_none() && !outlines.is_enclosed(&bare[*ring]);
+        let is_rim = |ring: &usize| nesting[*ring].is_empty() && !outlines.is_enclosed(&bare[*ring]);
         for outer in (0..bare.len()).filter(is_rim) {
             let mut part = Part {
                 layer: place(outer).layer.unwrap_or_default().into(),
                 paths: paths.cloned(),
-                rings: vec![PartRing { curves: bare[outer].clone(), nest: 0 }],
+                rings: vec![PartRing { curves: bare[outer].clone(), around: Vec::new() }],
             };
             let mut places: Vec<Place> = vec![place(outer)];
             let mut numbers: BTreeMap<usize, usize> = BTreeMap::new();
             let openings: Vec<usize> =
-                (0..bare.len()).filter(|ring| nesting[*ring].is_some_and(|(own, _)| own == outer)).collect();
+                (0..bare.len()).filter(|ring| nesting[*ring].first() == Some(&outer)).collect();
             numbers.extend(openings.iter().copied().zip(1..));
             for opening in openings {
-                let top = nesting[opening].map_or(opening, |(_, top)| top);
                 let curves = bare[opening].iter().rev().map(|curve| curve.reversed()).collect();
                 // Where openings cross each other, the outer one may be in another part.
-                let nest = numbers.get(&top).copied().unwrap_or(part.rings.len());
-                part.rings.push(PartRing { curves, nest });
+                let around = nesting[opening].iter().filter_map(|ring| numbers.get(ring).copied());
+                part.rings.push(PartRing { curves, around: around.collect() });
                 places.push(place(opening));
             }
             found.parts.push(part);

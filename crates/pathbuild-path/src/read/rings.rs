@@ -27,11 +27,10 @@ fn area(ring: &[Curve]) -> f64 {
     ring.iter().map(|curve| curve.area_from(origin)).sum::<f64>().abs()
 }
 
-/// Returns for each ring inside others the outermost ring around it, and the second outermost, or the ring itself if there is no second. `None` for
-/// rings inside no other.
-pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
+/// Returns for each ring the rings around it, from the outermost.
+pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Vec<usize>> {
     if rings.len() == 1 {
-        return vec![None];
+        return vec![Vec::new()];
     }
     let outlines: Vec<Outline> = rings.iter().map(|ring| Outline::new(ring)).collect();
     let boxes = outlines.iter().enumerate();
@@ -51,13 +50,12 @@ pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Option<(usize, usize)>> {
             around
         })
         .collect();
-    let outermost = |ring: usize| {
-        let outer = *around[ring].iter().min_by_key(|other| around[**other].len())?;
-        let mut between: Vec<usize> = around[ring].iter().copied().filter(|other| *other != outer).collect();
-        between.push(ring);
-        Some((outer, *between.iter().min_by_key(|other| around[**other].len())?))
+    let sorted = |inner: &Vec<usize>| {
+        let mut inner = inner.clone();
+        inner.sort_by_key(|ring| around[*ring].len());
+        inner
     };
-    (0..rings.len()).map(outermost).collect()
+    around.iter().map(sorted).collect()
 }
 
 /// A place where two curves of a sequence cross, with the index of each curve and the distance in mm along it.

@@ -228,7 +228,7 @@ pub fn finished_part(part: &PlacedPart<'_>) -> FinishedPart {
             .iter()
             .map(|left| LeftMaterial { outline: shapes(&left.outline), reach: left.reach })
             .collect(),
-        nests: drawn.rings.iter().map(|ring| ring.nest).collect(),
+        nests: (0..drawn.rings.len()).map(|ring| drawn.nest(ring)).collect(),
         gouges: outline(&part.gouges),
         lost_bars,
         radius,
