@@ -222,6 +222,7 @@ fn values(data: &[u8]) {
         max_correction: 1.0,
         below_plate: 0.5,
         model: ZModel::default(),
+        shims: &[],
     };
     if let Ok(adjusted) = adjust(&inputs) {
         let (least, most) = adjusted.corrections;

@@ -30,6 +30,7 @@ fn inputs<'a>(program: &'a [u8], values: &'a [u8]) -> Inputs<'a> {
         max_correction: 1.0,
         below_plate: 0.5,
         model: ZModel::default(),
+        shims: &[],
     }
 }
 
@@ -605,6 +606,57 @@ fn cuts_that_no_longer_go_through_are_told_once() {
     assert_eq!(plate_warnings(&["-0.200"], 0.201), ["a_Clean.gcode:1:6 PB602"]);
     assert_eq!(plate_warnings(&heights, 0.3), ["a_Clean.gcode:3:6 PB602"], "the highest");
     assert_eq!(plate_warnings(&["0.100"], 0.3), [""; 0], "drawn above the plate");
+}
+
+/// Returns the warnings about a program with these moves, each as its coordinates and its height, after a correction by the same amount.
+fn warnings_of_cuts(cuts: &[(&str, &str)], correction: f64, shims: &[f64]) -> Vec<String> {
+    let line = |(words, z): &(&str, &str)| match *words {
+        "START" => format!("(START Subpath {z})\n"),
+        "END" => format!("(END Subpath {z})\n"),
+        words => format!("G01 {words} Z{z}(={z}+1.000*[#51-2.000])\n"),
+    };
+    let program = format!("G00 X0 Y0 Z9\n{}", cuts.iter().map(line).collect::<String>());
+    let values = format!("([1.000 2.000]/T=2.000) #51={}\n", 2.0 + correction);
+    placed_codes(
+        &adjust(&Inputs { shims, ..inputs(program.as_bytes(), values.as_bytes()) }).unwrap().warnings,
+    )
+}
+
+#[test]
+fn cuts_above_deeper_ones_need_not_go_through() {
+    let passes = |last: &str| {
+        let cuts = [("X0", "1.000"), ("X9", "0.000"), ("X20", "0.000"), ("X20", last), ("X9", last)];
+        warnings_of_cuts(&cuts, 0.1, &[])
+    };
+    assert_eq!(passes("-0.200"), ["a_Clean.gcode:3:9 PB602"], "nothing deeper between X0 and X9");
+    let back = |to: &str| {
+        let cuts = [("X0", "0.000"), ("X9", "0.000"), ("X9", "-0.200"), (to, "-0.200")];
+        warnings_of_cuts(&cuts, 0.1, &[])
+    };
+    assert_eq!(back("X0"), [""; 0]);
+    assert_eq!(back("X0.001").len(), 1, "another move");
+    assert_eq!(passes("0.000"), ["a_Clean.gcode:3:9 PB602"], "the last pass");
+}
+
+#[test]
+fn cuts_on_shims_end_at_the_shims() {
+    let raised = |z: &str, correction: f64, shims: &[f64]| {
+        let cuts = [
+            ("START", "1.1P"),
+            ("END", "1.1P"),
+            ("START", "2.1P"),
+            ("X9", z),
+            ("END", "2.1P"),
+            ("X20", "1.000"),
+        ];
+        warnings_of_cuts(&cuts, correction, shims)
+    };
+    assert_eq!(raised("0.800", 0.2, &[0.0, 1.0]), [""; 0]);
+    assert_eq!(raised("0.800", 0.201, &[0.0, 1.0]), ["a_Clean.gcode:5:9 PB602"]);
+    assert_eq!(raised("0.800", 0.201, &[1.0, 0.0]), [""; 0], "the other path lies on shims");
+    assert_eq!(raised("0.800", 0.201, &[]), [""; 0], "unknown");
+    assert_eq!(raised("0.800", -0.3, &[0.0, 1.0]), [""; 0]);
+    assert_eq!(raised("0.800", -0.301, &[0.0, 1.0]), ["a_Clean.gcode:5:9 PB602"]);
 }
 
 #[test]

@@ -7,8 +7,8 @@ use pathbuild_diagnostic::messages::gcode as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Point, TraceStep, Value};
 use pathbuild_dxf::Drawing;
 use pathbuild_path::{
-    Bindings, ElementParameters, Origin, Path, PathName, PathRole, RawPath, SourceMap, WalkedPath, Xy,
-    element_parameters,
+    Bindings, ElementParameters, Origin, Path, PathName, PathRole, RawPath, Segment, SegmentKind, SourceMap,
+    WalkedPath, Xy, element_parameters,
 };
 use pathbuild_toolpath::{FoldPaths, Occurrence, Program, StepOrigin, Trace, fold_traced};
 use rustc_hash::FxHashMap;
@@ -50,6 +50,21 @@ pub struct DrawnPath<'db> {
     pub raw: &'db RawPath,
     /// The positions of the elements in the file.
     pub positions: &'db SourceMap,
+}
+
+/// Returns the heights in mm by which embedded paths are raised in the program of a target, in the order in which they begin. Empty if none is raised.
+pub fn heights_of_shims(db: &dyn Db, target: Target) -> Vec<f64> {
+    let is_raised =
+        |segment: &Segment| matches!(&segment.kind, SegmentKind::Subpath(embedded) if embedded.height != 0.0);
+    let has_shims = |instance: &Instance<'_>| {
+        path(db, *instance).path.as_ref().is_some_and(|path| path.segments.iter().any(is_raised))
+    };
+    if !closure(db, target).reached.iter().any(has_shims) {
+        return Vec::new();
+    }
+    let Some(traced) = traced_program(db, target) else { return Vec::new() };
+    let embedded = traced.trace.occurrences.iter().filter(|occurrence| occurrence.parent.is_some());
+    embedded.map(|occurrence| occurrence.raised).collect()
 }
 
 /// Returns the program of a target with the origins of its steps, even if it harms a part; `None` if its moves are unknown. Only the last one is

@@ -108,15 +108,15 @@ messages! {
     }
     /// Cuts through the material that end above the plate after the correction.
     RAISED_ABOVE_PLATE: CorrectionTooLarge as Warning {
-        en: "cuts down to the plate (Z 0) or below it now end above it, up to Z {z}: they may no longer go through",
-        de: "Schnitte bis auf die Platte (Z 0) oder tiefer enden jetzt darüber, bis Z {z}: sie gehen womöglich nicht mehr durch",
+        en: "cuts down to the underside of the sheet (Z {level}) or below it now end above it, up to Z {z}: they may no longer go through",
+        de: "Schnitte bis zur Unterseite des Blechs (Z {level}) oder tiefer enden jetzt darüber, bis Z {z}: sie gehen womöglich nicht mehr durch",
         help_en: "if the sheet lies flat on the plate and is thicker than drawn, correct T in the drawing and run `emit` again, or write a lower B; if the sheet bulges, its underside is raised as well and the cuts go through: change nothing",
         help_de: "liegt das Blech eben auf der Platte und ist dicker als gezeichnet, T in der Zeichnung berichtigen und noch einmal emit aufrufen, oder B tiefer setzen; wölbt sich das Blech, liegt auch seine Unterseite höher, und die Schnitte gehen durch: nichts ändern",
     }
     /// Cuts that a correction takes too far below the plate.
     LOWERED_BELOW_PLATE: CorrectionTooLarge as Warning {
-        en: "the correction takes cuts down to Z {z}: {depth} mm below the plate",
-        de: "die Korrektur führt Schnitte bis Z {z} hinunter: {depth} mm unter die Platte",
+        en: "the correction takes cuts down to Z {z}: {depth} mm below the underside of the sheet",
+        de: "die Korrektur führt Schnitte bis Z {z} hinunter: {depth} mm unter die Unterseite des Blechs",
         help_en: "if the sheet is thinner than drawn, correct T in the drawing and run `emit` again, or write a higher B; set `below-plate` under [warnings] to allow more than {limit} mm",
         help_de: "ist das Blech dünner als gezeichnet, T in der Zeichnung berichtigen und noch einmal emit aufrufen, oder B höher setzen; mit `below-plate` unter [warnings] mehr als {limit} mm erlauben",
     }

@@ -1,5 +1,7 @@
 //! Compares the heights of a corrected program with the plate and with the measured surface. (book: language/probes)
 
+use std::ops::Range;
+
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_path::approx::above;
@@ -7,13 +9,19 @@ use pathbuild_toolpath::ZModel;
 
 use super::check::{MIN_DIFFERENCE, Values};
 use super::scan::{FormulaSpan, Line, formula_spans, lines, plain_height, value_of};
-use super::surface::{AppliedCorrection, MeasuredSurface};
+use super::surface::{AppliedCorrection, CutDepths, MeasuredSurface};
 use super::values::{ProbeTable, ProgramProbe};
 use super::{MeasuredHeights, Source, is_height};
 
 /// Evaluates the formulas of a program that lists measured heights in its header, and returns findings about the resulting heights. `below_plate` is
-/// the depth in mm below the plate beyond which a lowered height is reported, and `model` the model of the surface between the probes.
-pub fn corrected_heights(program: Source<'_>, below_plate: f64, model: ZModel) -> Vec<Diagnostic> {
+/// the depth in mm below the plate beyond which a lowered height is reported, `model` the model of the surface between the probes, and `shims` those
+/// of [`Inputs`](super::Inputs).
+pub fn corrected_heights(
+    program: Source<'_>,
+    below_plate: f64,
+    model: ZModel,
+    shims: &[f64],
+) -> Vec<Diagnostic> {
     let stated = ProbeTable::read(program).probes;
     let measured = |(number, probe): (&u32, &ProgramProbe)| Some((*number, probe.measured?));
     let measured: Values = stated.iter().filter_map(measured).collect();
@@ -22,7 +30,7 @@ pub fn corrected_heights(program: Source<'_>, below_plate: f64, model: ZModel) -
     }
     let drawn: Values = stated.iter().map(|(number, probe)| (*number, probe.height)).collect();
     let surface = MeasuredSurface::new(&stated, &measured, model);
-    let mut rules = HeightRules::new(below_plate, measured.values().copied());
+    let mut rules = HeightRules::new(below_plate, measured.values().copied(), shims);
     for line in lines(program) {
         rules.line(line);
         for spot in formula_spans(line.content()).filter(|spot| is_height(line.content(), spot)) {
@@ -37,39 +45,66 @@ pub fn corrected_heights(program: Source<'_>, below_plate: f64, model: ZModel) -
 }
 
 /// The rules about corrected heights: pass every line and every corrected height of a program, then call [`finish`](Self::finish).
-pub(super) struct HeightRules {
+pub(super) struct HeightRules<'a> {
     /// Depth in mm below the plate beyond which a lowered height is reported.
     below_plate: f64,
+    /// The heights in mm by which embedded paths are raised, in the order of the comments where they begin.
+    shims: &'a [f64],
+    /// The number of embedded paths that have begun.
+    embedded: usize,
+    /// The heights in mm of the embedded paths around the current line, from the outermost.
+    levels: Vec<f64>,
     /// The highest measured surface in mm; `None` if nothing was measured.
     surface: Option<f64>,
     /// Whether the program has had its start height, which is not corrected.
     has_started: bool,
     /// The error of a start height that is not above the measured surface.
     in_material: Option<Diagnostic>,
-    /// The greatest height above the plate of a cut that was drawn down to the plate or below it, with its warning.
-    raised: Option<(f64, Diagnostic)>,
-    /// The least height that a correction lowered too far below the plate, with its warning.
+    /// The cuts that were drawn down to the plate or below it, but end above it.
+    raised: Vec<RaisedCut<'a>>,
+    /// The greatest depth in mm below the plate to which a correction lowered a cut too far, with its warning.
     lowered: Option<(f64, Diagnostic)>,
     /// All corrections, in the order of their lines.
     applied: Vec<AppliedCorrection>,
 }
 
-impl HeightRules {
-    pub(super) fn new(below_plate: f64, measured: impl Iterator<Item = f64>) -> Self {
+/// A cut that was drawn down to the plate or below it, but ends above it.
+struct RaisedCut<'a> {
+    line: Line<'a>,
+    /// The place of the height in the line.
+    span: Range<usize>,
+    /// The corrected height in mm.
+    height: f64,
+    /// Height in mm of the plate, or of the shims on it.
+    level: f64,
+}
+
+impl<'a> HeightRules<'a> {
+    pub(super) fn new(below_plate: f64, measured: impl Iterator<Item = f64>, shims: &'a [f64]) -> Self {
         let surface = measured.reduce(f64::max);
         Self {
             below_plate,
+            shims,
+            embedded: 0,
+            levels: Vec::new(),
             surface,
             has_started: false,
             in_material: None,
-            raised: None,
+            raised: Vec::new(),
             lowered: None,
             applied: Vec::new(),
         }
     }
 
-    /// Checks the first height without a formula, at which the tool moves before the first and after the last cut.
+    /// Notes where embedded paths begin and end, and checks the first height without a formula, at which the tool moves before the first and after
+    /// the last cut.
     pub(super) fn line(&mut self, line: Line<'_>) {
+        if line.content().starts_with(b"(START Subpath ") {
+            self.levels.push(self.shims.get(self.embedded).copied().unwrap_or_default());
+            self.embedded += 1;
+        } else if line.content().starts_with(b"(END Subpath ") {
+            self.levels.pop();
+        }
         let Some(surface) = self.surface.filter(|_| !self.has_started) else { return };
         let Some(span) = plain_height(line.content()) else { return };
         self.has_started = true;
@@ -84,28 +119,40 @@ impl HeightRules {
     /// lowered too far below the plate.
     pub(super) fn check_corrected_height(
         &mut self,
-        line: Line<'_>,
+        line: Line<'a>,
         spot: &FormulaSpan,
         drawn: f64,
         height: f64,
     ) {
         self.applied.push(AppliedCorrection { line: line.number, correction: height - drawn });
-        let warning = |message| {
-            let problem = line.fault(message, spot.number.start..spot.formula.end).with("z", height);
-            Some((height, problem.with("depth", -height).with("limit", self.below_plate)))
+        let level = self.levels.last().copied().unwrap_or_default();
+        let span = spot.number.start..spot.formula.end;
+        let depth = level - height;
+        if drawn <= level + MIN_DIFFERENCE && -depth > MIN_DIFFERENCE {
+            self.raised.push(RaisedCut { line, span, height, level });
+        } else if height < drawn
+            && above(depth, self.below_plate)
+            && self.lowered.as_ref().is_none_or(|(most, _)| depth > *most)
+        {
+            let problem = line.fault(&messages::LOWERED_BELOW_PLATE, span).with("z", height);
+            self.lowered = Some((depth, problem.with("depth", depth).with("limit", self.below_plate)));
+        }
+    }
+
+    /// Returns PB602 for the cut that ends highest above the plate. A cut that a deeper one at the same place follows or precedes, such as that of an
+    /// earlier pass, does not count.
+    fn raised_cut<'s>(&'s self, program: Source<'_>) -> Option<Diagnostic> {
+        if self.raised.is_empty() {
+            return None;
+        }
+        let depths = CutDepths::of(program);
+        let remaining = self.raised.iter().filter(|cut| !depths.is_deeper(cut.line.number, cut.height));
+        let highest = |best: &'s RaisedCut<'a>, next: &'s RaisedCut<'a>| {
+            if next.height - next.level > best.height - best.level { next } else { best }
         };
-        if drawn <= 0.0
-            && height > MIN_DIFFERENCE
-            && self.raised.as_ref().is_none_or(|(most, _)| height > *most)
-        {
-            self.raised = warning(&messages::RAISED_ABOVE_PLATE);
-        }
-        if height < drawn
-            && above(-height, self.below_plate)
-            && self.lowered.as_ref().is_none_or(|(least, _)| height < *least)
-        {
-            self.lowered = warning(&messages::LOWERED_BELOW_PLATE);
-        }
+        let RaisedCut { line, span, height, level } = remaining.reduce(highest)?;
+        let problem = line.fault(&messages::RAISED_ABOVE_PLATE, span.clone());
+        Some(problem.with("z", *height).with("level", *level))
     }
 
     /// Returns PB606 for a cut that ends with a correction other than the one measured at its end.
@@ -120,7 +167,8 @@ impl HeightRules {
     /// Returns the findings about the corrected program. `surface` is `None` if the places of its probes are not known.
     pub(super) fn finish(self, program: Source<'_>, surface: Option<&MeasuredSurface>) -> Vec<Diagnostic> {
         let below = || surface?.rapid_below(program, &self.applied);
-        let extremes = [self.raised, self.lowered].into_iter().flatten().map(|(_, warning)| warning);
-        self.in_material.or_else(below).into_iter().chain(extremes).collect()
+        let raised = self.raised_cut(program);
+        let lowered = self.lowered.as_ref().map(|(_, warning)| warning.clone());
+        self.in_material.clone().or_else(below).into_iter().chain(raised).chain(lowered).collect()
     }
 }

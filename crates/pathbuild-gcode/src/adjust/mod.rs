@@ -58,6 +58,8 @@ pub struct Inputs<'a> {
     pub below_plate: f64,
     /// The model of the surface between the probes with which the program was written.
     pub model: ZModel,
+    /// The heights in mm by which embedded paths are raised, in the order in which they begin in the program. Empty if the drawing is unknown.
+    pub shims: &'a [f64],
 }
 
 /// The result of [`adjust`]: a program with measured heights, and findings about its probes.
@@ -151,7 +153,8 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     let has_all = problems.is_empty() && survey.probes.keys().all(|probe| values.contains_key(probe));
     let (max_correction, below_plate) = (f64::INFINITY, f64::INFINITY);
     let model = ZModel::default();
-    let inputs = Inputs { program: clean, values: program, log: None, max_correction, below_plate, model };
+    let inputs =
+        Inputs { program: clean, values: program, log: None, max_correction, below_plate, model, shims: &[] };
     has_all.then(|| evaluate_formulas(&inputs, &values).ok()).flatten().map(|(adjusted, _)| adjusted.program)
 }
 
@@ -240,13 +243,13 @@ const CORRECTION_SLACK: (f64, f64) = (1.002, 0.002);
 ///
 /// # Errors
 /// Formulas that cannot be evaluated, or whose result is too large.
-fn evaluate_formulas(
-    inputs: &Inputs<'_>,
+fn evaluate_formulas<'a>(
+    inputs: &Inputs<'a>,
     values: &Values,
-) -> Result<(AdjustedProgram, HeightRules), Vec<Diagnostic>> {
+) -> Result<(AdjustedProgram, HeightRules<'a>), Vec<Diagnostic>> {
     let bytes = inputs.program.bytes;
     let adjusted = AdjustedProgram::default();
-    let rules = HeightRules::new(inputs.below_plate, values.values().copied());
+    let rules = HeightRules::new(inputs.below_plate, values.values().copied(), inputs.shims);
     let mut writer = Writer { inputs, values, adjusted, rules, problems: Vec::new() };
     writer.adjusted.program.reserve(bytes.len() + bytes.len() / 32);
     writer.adjusted.program.extend_from_slice(byte_order_mark(bytes));
@@ -265,17 +268,17 @@ fn evaluate_formulas(
     Ok((writer.adjusted, writer.rules))
 }
 
-struct Writer<'w> {
-    inputs: &'w Inputs<'w>,
+struct Writer<'w, 'a> {
+    inputs: &'w Inputs<'a>,
     values: &'w Values,
     adjusted: AdjustedProgram,
-    rules: HeightRules,
+    rules: HeightRules<'a>,
     problems: Vec<Diagnostic>,
 }
 
-impl Writer<'_> {
+impl<'a> Writer<'_, 'a> {
     /// Copies a line of the header. The line of a probe gets the measured height, so that `verify` can evaluate the formulas again.
-    fn header_line(&mut self, line: Line<'_>) {
+    fn header_line(&mut self, line: Line<'a>) {
         let content = line.content();
         let entry = entry_of_line(content);
         let value = entry.and_then(|(probe, _)| self.values.get(&probe));
@@ -292,7 +295,7 @@ impl Writer<'_> {
         self.adjusted.program.extend_from_slice(behind);
     }
 
-    fn line(&mut self, line: Line<'_>) {
+    fn line(&mut self, line: Line<'a>) {
         self.rules.line(line);
         let mut done = 0;
         for spot in formula_spans(line.content()) {
@@ -313,7 +316,7 @@ impl Writer<'_> {
         self.adjusted.program.extend_from_slice(&line.bytes[done..]);
     }
 
-    fn height(&mut self, line: Line<'_>, spot: &FormulaSpan) -> Result<f64, Box<Diagnostic>> {
+    fn height(&mut self, line: Line<'a>, spot: &FormulaSpan) -> Result<f64, Box<Diagnostic>> {
         let formula = &line.content()[spot.formula.clone()];
         let to_problem = |fault: Fault| Box::new(fault_diagnostic(line, &fault));
         let height = value_of(formula, &mut MeasuredHeights(self.values))

@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Point};
-use pathbuild_motion::{Move, Pace, Position};
+use pathbuild_motion::{Move, MoveShape, Pace, Position};
 use pathbuild_path::Xy;
 use pathbuild_path::approx::above;
 use pathbuild_toolpath::{MIN_REPORTED_DEVIATION, Surface, ZModel};
 
+use super::Source;
+use super::check::{MIN_DIFFERENCE, Values};
 use super::scan::lines;
 use super::values::ProgramProbe;
-use super::{Source, check::Values};
 use crate::dialect::Dialect;
 use crate::interpret::{Options, interpret_each};
 
@@ -134,6 +135,64 @@ impl MeasuredSurface {
         let problem = problem_of_line(program, line, message)?;
         Some(problem.with("off", off.abs()).with("at", Point::new(at.x, at.y)))
     }
+}
+
+/// The heights to which the cuts of a program go, by place.
+pub(super) struct CutDepths {
+    /// The place of the move in each line that cuts.
+    places: BTreeMap<u32, CutPlace>,
+    /// The least height in mm at each place.
+    lowest: BTreeMap<CutPlace, f64>,
+}
+
+/// The ends of a move in ascending order, and the centre of its arc, in micrometres. All passes along an element have the same ends. A vertical move
+/// begins and ends at one point, which is also that of the other moves that begin or end there.
+type CutPlace = [i64; 6];
+
+impl CutDepths {
+    pub(super) fn of(program: Source<'_>) -> Self {
+        let mut depths = Self { places: BTreeMap::new(), lowest: BTreeMap::new() };
+        each_move(program, &mut |line, motion| {
+            if !matches!(motion.pace, Pace::Feed(_)) {
+                return;
+            }
+            depths.places.insert(line, cut_place(motion));
+            let ends = [motion.from, motion.to];
+            let points = ends.map(|end| (point_place(&end), end.z()));
+            let whole = (cut_place(motion), motion.from.z().min(motion.to.z()));
+            for (place, z) in points.into_iter().chain([whole]) {
+                let lowest = depths.lowest.entry(place).or_insert(z);
+                *lowest = lowest.min(z);
+            }
+        });
+        depths
+    }
+
+    /// Whether some cut goes deeper at the place of the cut in a line, which ends at this height.
+    pub(super) fn is_deeper(&self, line: u32, height: f64) -> bool {
+        let lowest = self.places.get(&line).and_then(|place| self.lowest.get(place));
+        lowest.is_some_and(|lowest| *lowest < height - MIN_DIFFERENCE)
+    }
+}
+
+fn cut_place(motion: &Move) -> CutPlace {
+    let [from, to] = [&motion.from, &motion.to].map(|end| [end.x(), end.y()].map(micrometres));
+    let (first, last) = (from.min(to), from.max(to));
+    let centre = match motion.shape {
+        MoveShape::Arc(arc) => arc.centre.map(micrometres),
+        MoveShape::Line => [0, 0],
+    };
+    [first[0], first[1], last[0], last[1], centre[0], centre[1]]
+}
+
+fn point_place(at: &Position) -> CutPlace {
+    let [x, y] = [at.x(), at.y()].map(micrometres);
+    [x, y, x, y, 0, 0]
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "saturates")]
+fn micrometres(length: f64) -> i64 {
+    (1000.0 * length).round() as i64
 }
 
 /// Returns the correction that applies in a line.

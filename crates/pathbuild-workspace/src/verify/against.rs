@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{Db, Role, Target, Trace, check_file, placed_keep_outs, program};
+use pathbuild_db::{Db, Role, Target, Trace, check_file, heights_of_shims, placed_keep_outs, program};
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message};
 use pathbuild_gcode::adjust::{Source, adjusted_again, states_heights};
@@ -34,6 +34,8 @@ pub(super) struct ReferenceProgram {
     file: Utf8PathBuf,
     /// The clamps around the program, if its drawings contain any.
     clamps: Option<Clamps>,
+    /// The heights in mm by which embedded paths are raised.
+    shims: Vec<f64>,
     /// PB111 for elements on the layers of the program's paths that are not milled.
     left_out: Vec<Diagnostic>,
     /// The inputs that the program depends on; `None` unless the session traces them.
@@ -71,6 +73,14 @@ fn clamps(db: &dyn Db, target: Target) -> Option<Clamps> {
     (!placed.is_empty()).then(|| Clamps::new(placed, cutter))
 }
 
+/// Returns the heights in mm by which embedded paths are raised in the program of a target, in the order in which they begin.
+///
+/// # Errors
+/// PB006 if a query triggers a bug.
+pub fn shims(session: &Session<'_>, target: Target) -> Result<Vec<f64>, Box<Diagnostic>> {
+    session.query_target(target, |db| heights_of_shims(db, target))
+}
+
 /// Returns the errors of a native program that cannot run on the machine, because it exceeds the machine's capabilities (PB747, PB748) or hits clamps
 /// around the program of this target (PB407). Heights are those to which the tool moves, with their corrections.
 ///
@@ -103,19 +113,24 @@ impl ReferenceProgram {
             let names = checked.missing_options.iter().map(|option| option.name());
             return Err(Failure::Usage(missing_values(session.workspace(), names)));
         }
-        let outcome =
-            session.query_target(target, |db| Some((program(db, target).clone()?, clamps(db, target))));
+        let outcome = session.query_target(target, |db| {
+            Some((program(db, target).clone()?, clamps(db, target), heights_of_shims(db, target)))
+        });
         let found = outcome.map_err(|problem| Failure::Found(vec![*problem]))?;
-        let (drawn, clamps) = found.ok_or_else(|| Failure::Found(Vec::new()))?;
+        let (drawn, clamps, shims) = found.ok_or_else(|| Failure::Found(Vec::new()))?;
         let file = target.file(session.db()).path(session.db()).clone();
         let is_left_out =
             |found: &&Diagnostic| !drawn.left_out.is_empty() && found.code() == Code::UnsupportedCurve;
         let left_out = checked.diagnostics.iter().filter(is_left_out).cloned().collect();
-        Ok(Self { drawn, file, clamps, left_out, trace: checked.trace.clone() })
+        Ok(Self { drawn, file, clamps, shims, left_out, trace: checked.trace.clone() })
     }
 
     pub(super) fn left_out(&self) -> &[Diagnostic] {
         &self.left_out
+    }
+
+    pub(super) fn shims(&self) -> &[f64] {
+        &self.shims
     }
 
     pub(super) fn file(&self) -> &Utf8Path {

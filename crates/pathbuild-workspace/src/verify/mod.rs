@@ -36,7 +36,7 @@ use crate::program::{DefinitionTranslation, Program, ProgramReader, ReadingOptio
 use crate::session::Session;
 use crate::workspace::{Failure, Workspace};
 
-pub use against::unmillable_moves;
+pub use against::{shims, unmillable_moves};
 pub use checks::{
     APPROACH_ABOVE_MATERIAL, Assumption, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text,
     summary,
@@ -608,7 +608,8 @@ impl<'v> Examination<'v> {
             let source = Source { file: &program.file, bytes: &program.text };
             let below_plate = verifier.settings.warnings.below_plate.value;
             let model = verifier.settings.general.z_model.value;
-            found.extend(corrected_heights(source, below_plate, model));
+            let shims = verifier.against.as_ref().map_or(&[][..], ReferenceProgram::shims);
+            found.extend(corrected_heights(source, below_plate, model, shims));
         }
         found.extend(written.statistics);
         found.extend(self.sources.disagreements());

@@ -23,7 +23,7 @@ use pathbuild_workspace::emit::{DrawingComparison, compare_with_drawing};
 use pathbuild_workspace::files::write_error;
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::session::{OutputKind, Session};
-use pathbuild_workspace::verify::unmillable_moves;
+use pathbuild_workspace::verify::{shims, unmillable_moves};
 
 /// Runs the command. If there are several programs, an error in one does not prevent writing the others.
 pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
@@ -201,6 +201,8 @@ impl<'a> Adjustment<'a> {
         self.show(&clean);
         let mut session = Session::new(self.context);
         let target = self.compare(&mut session, job, &clean)?;
+        let shims = target.map(|target| shims(&session, target)).transpose();
+        let shims = shims.map_err(|problem| vec![*problem])?.unwrap_or_default();
         let source = |file, bytes| Source { file, bytes };
         let adjusted = adjust(&Inputs {
             program: source(&job.clean, &clean),
@@ -209,6 +211,7 @@ impl<'a> Adjustment<'a> {
             max_correction: self.max_correction,
             below_plate: self.context.settings.warnings.below_plate.value,
             model: self.context.settings.general.z_model.value,
+            shims: &shims,
         })?;
         if target.is_none() {
             let edited = edited_heights(job, &adjusted);
