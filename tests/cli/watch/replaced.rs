@@ -20,7 +20,8 @@ fn unpack(place: &Place, directory: &str) {
     }
 }
 
-/// The process stays in the directory in which it was started, even if that is renamed or removed.
+/// The process stays in the directory in which it was started, even if that is renamed or removed. While the files are copied, `watch` may begin more
+/// than once, so the edit that follows may be part of its first report.
 #[test]
 fn a_working_directory_that_is_replaced_is_watched() {
     for arguments in
@@ -34,8 +35,7 @@ fn a_working_directory_that_is_replaced_is_watched() {
         unpack(&place, "work");
         watch.until("watching 2 paths");
         watch.write("work/library/parts/1001.dxf", dxf("1001.1P", 4, &[]));
-        let said = watch.until("parts/1001.dxf: changed");
-        assert!(said.iter().any(|line| line.contains("PB506")), "{arguments}: {said:#?}");
+        watch.until("PB506");
 
         // The directory is missing for a while.
         fs::remove_dir_all(place.path().join("work")).unwrap();
@@ -43,8 +43,7 @@ fn a_working_directory_that_is_replaced_is_watched() {
         unpack(&place, "work");
         watch.until("watching 2 paths");
         watch.write("work/library/parts/1001.dxf", dxf("1001.1P", 5, &["1999.1P"]));
-        let said = watch.until("parts/1001.dxf: changed");
-        assert!(said.iter().any(|line| line.contains("PB503")), "{arguments}: {said:#?}");
+        watch.until("PB503");
     }
 }
 
