@@ -58,6 +58,31 @@ fn a_hole_without_an_outline_around_it_is_named() {
     }
 }
 
+/// A helical circle is drawn as the outer edge of the cut, so around a disc it is larger than the disc by 2 O.
+#[test]
+fn a_circle_around_a_disc_is_no_hole() {
+    let start = START.replace("A20", "A40");
+    let gouges = |circle: &str, outlines: &str| {
+        let drawing = format!(
+            "{start}sweep -5,-5 20,20\n{circle}\nsweep 20,20 50,-5\nend 50,-5\nlayer Part\n{outlines}\n"
+        );
+        let mut found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
+        found.retain(|found| found.code().to_string() == "PB213");
+        found
+    };
+    let disc = "circle 20,20 d 20";
+    for (line_type, diameter) in [("bars", 20.0), ("bars", 22.0), ("bars", 23.9), ("mill", 22.0)] {
+        let found = gouges(&format!("{line_type} circle 20,20 d {diameter}"), disc);
+        let [found] = &found[..] else { panic!("{line_type} {diameter}: {found:?}") };
+        assert!((number(found, "depth") - (12.0 - diameter / 2.0)).abs() < 1e-6, "{found:?}");
+    }
+    assert_eq!(gouges("bars circle 20,20 d 24", disc), []);
+    let is_hole =
+        |outlines: &str| gouges("mill circle 20,20 d 20", outlines)[0].text(Lang::En).contains("this hole");
+    assert!(is_hole(disc));
+    assert!(!is_hole(&format!("{disc}\ncircle 20,20 d 8")), "a washer");
+}
+
 /// A contour 0.5 mm too far outside leaves material all round. Without bars, the part is still loose.
 #[test]
 fn a_contour_too_far_outside_leaves_material_all_round() {

@@ -8,6 +8,13 @@ messages! {
         help_en: "draw the path at a distance of half of O from the outline, or correct the outline; `part-tolerance` in pathbuild.toml permits small differences",
         help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen oder den Umriss berichtigen; `part-tolerance` in pathbuild.toml erlaubt kleine Abweichungen",
     }
+    /// A helical circle that enters the part.
+    GOUGE_BY_CIRCLE: GougedPart {
+        en: "the cutter goes {depth} mm into the part at {point}, over a length of {length} mm",
+        de: "der Fräser gerät bei {point} {depth} mm tief in das Teil, auf einer Länge von {length} mm",
+        help_en: "draw the circle as the outer edge of the cut: as large as the hole that it mills, and larger than a disc around which it runs by 2 O; or correct the outline",
+        help_de: "den Kreis als Außenkante des Schnitts zeichnen: so groß wie das Loch, das er fräst, und um 2 O größer als die Scheibe, um die er läuft; oder den Umriss berichtigen",
+    }
     /// A cut with the whole cutter inside the part.
     GOUGE_INSIDE: GougedPart {
         en: "the cutter goes {depth} mm into the part at {point}, over a length of {length} mm",

@@ -232,14 +232,12 @@ impl<'s> PartCheck<'s> {
         let gouges = gouges(self.part, &self.judged);
         gouges.into_iter().map(|((path, element), gouge)| {
             let path_cuts = self.cuts.paths[path];
-            let mut problem = gouge_problem(&gouge, path_cuts.radius);
-            let circle = path_cuts.elements[element as usize].circle;
-            let centre = circle.or_else(|| (gouge.length == 0.0).then_some(gouge.at));
-            let is_rim = |centre: Xy| {
-                let radius = (gouge.at - centre).norm() + path_cuts.radius;
-                self.has_rim_within(centre, radius + self.settings.tolerance)
-            };
-            if centre.is_some_and(is_rim) {
+            let cut = &path_cuts.elements[element as usize];
+            let mut problem = gouge_problem(&gouge, path_cuts.radius, cut.circle.is_some());
+            let centre = cut.circle.or_else(|| (gouge.length == 0.0).then_some(gouge.at));
+            let is_rim =
+                |centre: Xy| self.is_rim_circle(centre, (gouge.at - centre).norm() + path_cuts.radius);
+            if cut.supported.is_none() && centre.is_some_and(is_rim) {
                 problem =
                     Diagnostic::new(&messages::GOUGED_BY_ITS_HOLE).quoting("layer", &*self.part.part.layer);
             }
@@ -247,12 +245,11 @@ impl<'s> PartCheck<'s> {
         })
     }
 
-    /// Whether the outermost ring of the part lies within a circle.
-    fn has_rim_within(&self, centre: Xy, radius: f64) -> bool {
-        let mut curves = self.part.part.rings[0].curves.iter();
-        curves.all(|curve| {
-            [curve.start(), curve.middle()].iter().all(|point| (point - centre).norm() <= radius)
-        })
+    /// Whether the part is a disc without openings, and this circle its rim.
+    fn is_rim_circle(&self, centre: Xy, radius: f64) -> bool {
+        let [rim] = &*self.part.part.rings else { return false };
+        let is_on_circle = |point: &Xy| ((point - centre).norm() - radius).abs() <= self.settings.tolerance;
+        rim.curves.iter().all(|curve| [curve.start(), curve.middle()].iter().all(is_on_circle))
     }
 
     /// Returns the paths with cuts that go into the part and must not.
@@ -342,12 +339,17 @@ fn near_paths(part: &Part, ring: usize, cuts: &CutIndex<'_>, judged: &Classified
     near
 }
 
-fn gouge_problem(gouge: &Gouge, radius: f64) -> Diagnostic {
+fn gouge_problem(gouge: &Gouge, radius: f64, is_circle: bool) -> Diagnostic {
     let problem = if gouge.length == 0.0 {
         Diagnostic::new(&messages::GOUGE_BY_HOLE).with("tool", 2.0 * radius)
     } else {
-        let is_inside = gouge.depth >= 2.0 * radius;
-        let message = if is_inside { &messages::GOUGE_INSIDE } else { &messages::GOUGE };
+        let message = if gouge.depth >= 2.0 * radius {
+            &messages::GOUGE_INSIDE
+        } else if is_circle {
+            &messages::GOUGE_BY_CIRCLE
+        } else {
+            &messages::GOUGE
+        };
         Diagnostic::new(message).with("length", gouge.length)
     };
     let mut problem = problem.with("depth", gouge.depth).with("point", diagnostic_point(gouge.at));
