@@ -176,7 +176,8 @@ impl Interpreter<'_> {
         for (axis, slot) in coordinates.into_iter().enumerate() {
             let Some(slot) = slot else { continue };
             self.mark_axis_stated(axis);
-            if let Some(at) = self.state.offsets.from_machine_coordinate(axis, self.millimetres(slot)) {
+            if let Some(at) = self.state.offsets.position_of_machine_coordinate(axis, self.millimetres(slot))
+            {
                 to.at[axis] = at;
                 to.known = to.known.with(Axes::of(axis));
             } else {
@@ -193,7 +194,8 @@ impl Interpreter<'_> {
     /// Reports the first move that goes to a low height in machine coordinates from a known X and Y, where the part may be. If the machine's offsets
     /// are known, nothing is reported.
     fn check_machine_height(&mut self, block: &Block<'_>, z: Option<Slot>) {
-        let Some(slot) = z.filter(|_| self.state.offsets.from_machine_coordinate(2, 0.0).is_none()) else {
+        let Some(slot) = z.filter(|_| self.state.offsets.position_of_machine_coordinate(2, 0.0).is_none())
+        else {
             return;
         };
         let is_over_part = self.state.position.known.has(Axes::XY);

@@ -398,7 +398,7 @@ impl Offsets {
     }
 
     /// Converts a machine coordinate to a position, if the machine's origin is known.
-    pub(super) fn from_machine_coordinate(&self, axis: usize, coordinate: f64) -> Option<f64> {
+    pub(super) fn position_of_machine_coordinate(&self, axis: usize, coordinate: f64) -> Option<f64> {
         self.is_configured.then(|| coordinate - self.base(axis))
     }
 

@@ -192,7 +192,7 @@ impl Reach {
             match travel {
                 // The limits are those of the system in which the program begins.
                 Travel::Placed(limits) if index == 0 => {
-                    found.extend(self.outside_findings(axis, range, limits[axis]))
+                    found.extend(self.outside_findings(axis, range, limits[axis]));
                 }
                 Travel::Placed(_) => {}
                 Travel::Size(sizes) => found.extend(self.size_finding(axis, whole, sizes[axis])),
