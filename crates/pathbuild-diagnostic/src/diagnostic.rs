@@ -84,12 +84,12 @@ impl Diagnostic {
         self.severity == Severity::Error
     }
 
-    /// Returns this diagnostic as an error, regardless of its severity so far.
+    /// Returns this diagnostic with the severity of an error.
     pub fn as_error(self) -> Self {
         Self { severity: Severity::Error, ..self }
     }
 
-    /// Returns this diagnostic as a warning, regardless of its severity so far.
+    /// Returns this diagnostic with the severity of a warning.
     pub fn as_warning(self) -> Self {
         Self { severity: Severity::Warning, ..self }
     }

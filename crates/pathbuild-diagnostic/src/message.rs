@@ -4,7 +4,7 @@ use std::hash::{Hash, Hasher};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::location::{Number, Point, with_decimal_separator};
-use crate::words::{Lang, NONE, Text, interned_name, interned_text};
+use crate::words::{Lang, NONE, Text, interned_str, interned_text};
 use crate::{Code, Severity, shown};
 
 /// A [`Text`] with the values of its arguments, for use in another message: "it has 17219 bytes, the limit is 1000".
@@ -257,5 +257,5 @@ pub(crate) fn deserialize_arguments<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Arguments, D::Error> {
     let arguments = Vec::<(&str, Value)>::deserialize(deserializer)?;
-    Ok(arguments.into_iter().map(|(name, value)| (interned_name(name), value)).collect())
+    Ok(arguments.into_iter().map(|(name, value)| (interned_str(name), value)).collect())
 }

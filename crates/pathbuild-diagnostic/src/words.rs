@@ -171,13 +171,13 @@ pub(crate) fn interned_text<'de, D: Deserializer<'de>>(deserializer: D) -> Resul
     static INTERNED_TEXTS: LazyLock<Mutex<HashMap<(&'static str, &'static str), &'static Text>>> =
         LazyLock::new(Mutex::default);
     let (en, de) = <(&str, &str)>::deserialize(deserializer)?;
-    let (en, de) = (interned_name(en), interned_name(de));
+    let (en, de) = (interned_str(en), interned_str(de));
     let mut all = INTERNED_TEXTS.lock().unwrap_or_else(PoisonError::into_inner);
     Ok(all.entry((en, de)).or_insert_with(|| Box::leak(Box::new(Text { en, de }))))
 }
 
 /// Returns a copy of a text that lives until the process ends. Equal texts share one copy.
-pub(crate) fn interned_name(text: &str) -> &'static str {
+pub(crate) fn interned_str(text: &str) -> &'static str {
     static INTERNED_NAMES: LazyLock<Mutex<HashSet<&'static str>>> = LazyLock::new(Mutex::default);
     let mut all = INTERNED_NAMES.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(known) = all.get(text) {

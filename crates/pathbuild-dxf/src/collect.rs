@@ -30,7 +30,7 @@ pub(crate) struct Collector<'d> {
     drawing: &'d mut Drawing,
     /// Indices into [`Drawing::layers`] by folded name.
     layers: BTreeMap<SmolStr, u32>,
-    /// The notes given so far, with the number of entities that each is about.
+    /// The notes already given, with the number of entities that each is about.
     noted: BTreeMap<(u32, LayerNote), CountedNote>,
     /// The folded names of missing blocks that are inserted on layers that are not read, to report each of them once.
     missing_blocks: BTreeSet<SmolStr>,

@@ -193,7 +193,7 @@ pub(crate) struct LayerRecord<'a> {
     line_type: Option<Cow<'a, [u8]>>,
     colour: Option<Value<'a>>,
     flags: Option<Value<'a>>,
-    /// Line of the first further record with this name whose properties differ.
+    /// Line of the first further record with this name and other properties.
     contradiction: Option<u32>,
 }
 

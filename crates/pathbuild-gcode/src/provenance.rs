@@ -201,7 +201,7 @@ const BLOCK_BYTES: usize = 1 << 16;
 
 /// Calls `use_block` with the bytes to hash of a program, block by block.
 fn each_block(program: &Program, mut use_block: impl FnMut(&[u8])) {
-    let mut bytes = HashedBytes(Vec::new());
+    let mut bytes = HashInput(Vec::new());
     bytes.number(program.tool);
     bytes.number(program.sweep_height);
     for step in &program.steps {
@@ -215,9 +215,10 @@ fn each_block(program: &Program, mut use_block: impl FnMut(&[u8])) {
     use_block(&bytes.0);
 }
 
-struct HashedBytes(Vec<u8>);
+/// The bytes of a program from which its hash is computed.
+struct HashInput(Vec<u8>);
 
-impl HashedBytes {
+impl HashInput {
     /// Appends a number, rounded to thousandths.
     #[expect(clippy::cast_possible_truncation, reason = "saturates far beyond any machine")]
     fn number(&mut self, number: f64) {

@@ -32,14 +32,14 @@ pub fn native_remark(text: &str) -> Remark<'_> {
     match text.strip_prefix("START Subpath ") {
         Some(name) => Remark::Operation(name),
         None if text.starts_with("END Subpath ") => Remark::End,
-        None if is_of_head(text) => Remark::Goes,
+        None if is_head_comment(text) => Remark::Goes,
         None => Remark::Stays,
     }
 }
 
 /// Whether a comment is the provenance or the title at the head of a program written by pathbuild. Such comments are dropped, because the
 /// job's own comments repeat them.
-pub fn is_of_head(text: &str) -> bool {
+pub fn is_head_comment(text: &str) -> bool {
     text.parse::<Provenance>().is_ok() || path_of_title(text).is_some()
 }
 

@@ -29,7 +29,7 @@ pub struct ComparedMoves {
     pub has_undivided_moves: bool,
 }
 
-/// A move, or a piece of a move whose other pieces changed differently.
+/// A move, or a piece of a move if its pieces changed differently.
 #[derive(Clone, Debug)]
 pub struct ComparedMove {
     /// The geometry of the move or piece.

@@ -11,7 +11,7 @@ use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_motion::{Action, Step};
 use pathbuild_post::{
-    Job, NativeCutter, Output, Remark, ToolTable, altered_words, is_of_head, native_remark,
+    Job, NativeCutter, Output, Remark, ToolTable, altered_words, is_head_comment, native_remark,
 };
 
 use crate::emit::program_of_other_path;
@@ -146,7 +146,7 @@ impl Request<'_> {
         let head = Provenance::of_head(&program.text);
         let remark: fn(&str) -> Remark<'_> = match (program.dialect, &head) {
             (Dialect::Native, _) => native_remark,
-            (_, Some(_)) => |text| if is_of_head(text) { Remark::Goes } else { Remark::Stays },
+            (_, Some(_)) => |text| if is_head_comment(text) { Remark::Goes } else { Remark::Stays },
             (_, None) => |_| Remark::Stays,
         };
         let is_native = program.dialect == Dialect::Native;

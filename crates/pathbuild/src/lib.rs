@@ -55,7 +55,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
     }
 }
 
-/// Returns the error for an empty argument, as in a script whose variable is not set. Taken as the name of a file, an empty argument would mean the
+/// Returns the error for an empty argument, as in a script with an unset variable. Taken as the name of a file, an empty argument would mean the
 /// working directory, and the script would write all programs instead of one.
 fn empty_argument_error(number: usize, lang: Lang) -> String {
     match lang {

@@ -182,8 +182,8 @@ messages! {
     STALE_OF_IGNORED: StaleOutput {
         en: "{name} was written from {drawing}, which is ignored (.ignore, .gitignore, hidden name), so `emit` does not keep it up to date",
         de: "{name} wurde aus {drawing} geschrieben; diese Zeichnung wird ignoriert (.ignore, .gitignore, versteckter Name), `emit` hält das Programm also nicht aktuell",
-        help_en: "delete it if it is no longer needed; to keep it up to date, emit the drawing by its name",
-        help_de: "es löschen, wenn es nicht mehr gebraucht wird; um es aktuell zu halten, die Zeichnung namentlich mit emit schreiben",
+        help_en: "delete it if it is no longer needed; to keep it up to date, run `emit` with the drawing's name",
+        help_de: "es löschen, wenn es nicht mehr gebraucht wird; um es aktuell zu halten, `emit` mit dem Namen der Zeichnung aufrufen",
     }
     /// A program that lies beside its drawing although programs are written into another directory now.
     STALE_BESIDE: StaleOutput {

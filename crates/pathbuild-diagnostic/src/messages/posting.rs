@@ -354,7 +354,7 @@ messages! {
     }
     /// Note: a move after the last cut.
     GOES_TOO_FAR: PostDiffers {
-        en: "this is {found} to {place} after the program's last cut",
+        en: "the output goes on after the program's last cut, with {found} to {place}",
         de: "nach dem letzten Schnitt des Programms folgt hier noch {found} nach {place}",
     }
     /// Note: a move between two cuts that the program does not contain and that may hit material.
@@ -557,9 +557,9 @@ messages! {
     }
     /// A program with correction formulas that were not applied, to be written through a post.
     POST_UNADJUSTED: UncorrectedHeights {
-        en: "the program has correction formulas that have not been worked out: written through a post, its heights would stay uncorrected",
+        en: "the program has correction formulas that have not been worked out yet: a post would write its heights uncorrected",
         de: "das Programm hat Korrekturformeln, die noch nicht ausgerechnet sind: ein Postprozessor würde seine Höhen unkorrigiert schreiben",
-        help_en: "run `pathbuild adjust` first, and take the _Milling.gcode that it writes",
+        help_en: "run `pathbuild adjust` first, and use the _Milling.gcode that it writes",
         help_de: "zuerst `pathbuild adjust` ausführen und die _Milling.gcode nehmen, die es schreibt",
     }
 }

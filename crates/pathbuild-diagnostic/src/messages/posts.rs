@@ -280,8 +280,8 @@ messages! {
     VARIABLE_UNDEFINED_NEAREST: UnknownMacro {
         en: "{text}, line {line}, column {column}: there is no variable {name} here",
         de: "{text}, Zeile {line}, Spalte {column}: die Variable {name} gibt es hier nicht",
-        help_en: "did you mean {nearest}? Translate names of another program in [alias]",
-        help_de: "ist {nearest} gemeint? Namen eines anderen Programms in [alias] übersetzen",
+        help_en: "did you mean {nearest}? If {name} is another program's name for a variable, translate it in [alias]",
+        help_de: "ist {nearest} gemeint? Wenn {name} bei einem anderen Programm so heißt, den Namen in [alias] übersetzen",
     }
     /// Variables with texts that refer to each other, nested more deeply than the limit.
     VARIABLE_DEPTH: EndlessMacro {

@@ -167,7 +167,7 @@ pub fn listed_heights(program: &[u8]) -> BTreeMap<u32, f64> {
     entries.filter_map(|(number, probe)| Some((number, probe.measured?))).collect()
 }
 
-/// Returns the probes that comments of a program list, each with its line, its place and the height that was expected there.
+/// Returns the probes listed in a program's header, each with its line, its position, and the height in mm at which it was drawn.
 pub fn listed_probes(program: &[u8]) -> Vec<(u32, [f64; 2], f64)> {
     let lines = (1..).zip(program.split(|byte| *byte == b'\n'));
     let probe = |(line, text): (u32, &[u8])| {

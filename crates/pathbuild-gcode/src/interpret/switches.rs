@@ -283,7 +283,7 @@ impl Interpreter<'_> {
             _ => ToolLength::Other(code),
         };
         if !is_across && matches!(length, ToolLength::Off | ToolLength::OfTool(_)) {
-            // The tip is at another Z from here on, although the tool does not move.
+            // The tip's Z changes here although the tool does not move, so Z no longer counts as stated.
             self.state.stated_since_stop = self.state.stated_since_stop.without(Axes::Z);
         }
         if code != 431 {

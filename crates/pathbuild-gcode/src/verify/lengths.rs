@@ -25,7 +25,7 @@ pub struct LengthRules<'c> {
     first: Option<u32>,
     /// The line and the tool of the first cut with a known tool before any length was applied.
     bare: Option<(u32, u32)>,
-    /// The cuts with the length in an H whose number is not that of the tool.
+    /// The cuts with the length of an H number other than that of the tool.
     cuts_with_other_entry: Vec<OtherEntry>,
     /// The rapid moves that state Z with the length in an H whose number is not that of the tool.
     rapids_with_other_entry: Vec<OtherEntry>,
@@ -43,7 +43,7 @@ pub struct LengthRules<'c> {
     waiting: Option<WaitingTool>,
     /// The line of the last T word.
     selected_line: u32,
-    /// Tools for which the program does not stop, if it has no M6.
+    /// Problems of tools that T selects without a stop before the next cut. They are reported only if the program has no M6.
     unchanged: Problems,
     problems: Problems,
 }

@@ -50,7 +50,8 @@ impl Frame {
     }
 }
 
-/// Returns the most frequent shift between elements of the same form and text, if at least two share it; the shortest of several.
+/// Returns the most frequent shift between elements of the same kind, form and text, if at least two share it. Of equally frequent shifts, the
+/// shortest is returned.
 fn common_shift(old: &[Item<'_>], new: &[Item<'_>]) -> Option<Vector2<f64>> {
     let mut by_form: BTreeMap<_, [Vec<Xy>; 2]> = BTreeMap::new();
     for (side, items) in [old, new].into_iter().enumerate() {

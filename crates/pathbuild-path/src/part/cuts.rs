@@ -173,8 +173,8 @@ impl<'c> CutIndex<'c> {
         self.boxes.near(widened(&extent, reach(self.largest_radius))).filter(is_near)
     }
 
-    /// Whether a cut may cut out an outline beside it: it goes through the plate, belongs to a segment with support bars, or is that of a slot
-    /// cutter.
+    /// Whether a cut may cut out an outline beside it: it goes through the plate, belongs to a segment with support bars, or is milled
+    /// with a slot cutter.
     pub(super) fn may_cut_out(&self, cut: &IndexedCut<'c>) -> bool {
         cut.through().is_some() || cut.element(self).supported.is_some() || self.paths[cut.path].is_slot
     }

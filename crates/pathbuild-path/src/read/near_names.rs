@@ -64,7 +64,7 @@ impl NearNames {
         longer.or_else(version).or_else(shorter)
     }
 
-    /// Returns the path with the longest name with which the name of another layer begins.
+    /// Returns the path with the longest name that is a proper prefix of another layer's name. Names are compared as in [`path`](Self::path).
     pub(super) fn path_at_beginning(&self, layer: &str) -> Option<&PathName> {
         let layer = case_folded(layer);
         layer.char_indices().rev().find_map(|(end, _)| self.by_folded.get(&layer[..end]))

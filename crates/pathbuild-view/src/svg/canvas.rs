@@ -93,7 +93,7 @@ impl Canvas {
         ));
     }
 
-    /// Hides everything drawn so far in an area. A clip path for the other areas would cost a renderer the memory of two more images of the page.
+    /// Hides everything that is already drawn in an area. A clip path for the other areas would cost a renderer the memory of two more images of the page.
     pub(super) fn cover(&mut self, [[x, y], [right, bottom]]: [Point; 2]) {
         self.raw(&format!(
             "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#fff\"/>",

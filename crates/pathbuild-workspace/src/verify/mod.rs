@@ -2,6 +2,7 @@
 
 mod against;
 mod checks;
+mod possible_posts;
 mod run;
 mod stock;
 
@@ -15,7 +16,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
 use pathbuild_gcode::adjust::{Source, corrected_heights, first_open_formula, listed_heights};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{Header, HeaderReader};
-use pathbuild_gcode::interpret::{EvidenceKind, Guess};
+use pathbuild_gcode::interpret::Guess;
 use pathbuild_gcode::native;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::verify::{
@@ -30,17 +31,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::types::{Requirement, SpindleControl, Tool};
 use crate::config::{Settings, number, positive};
-use crate::files;
-use crate::post_processor::{PostArguments, PostProcessor, known_words, machine, tool_table};
-use crate::program::{DefinitionTranslation, Program, ProgramReader, ReadingOptions, Translate};
+use crate::post_processor::{PostProcessor, known_words, machine, tool_table};
+use crate::program::{Program, ProgramReader, ReadingOptions, Translate};
 use crate::session::Session;
-use crate::workspace::{Failure, Workspace};
+use crate::workspace::Failure;
 
 pub use against::{shims, unmillable_moves};
 pub use checks::{
     APPROACH_ABOVE_MATERIAL, Assumption, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text,
     summary,
 };
+use possible_posts::PossiblePosts;
 pub use run::{Request, Verification};
 use stock::Sources;
 
@@ -739,72 +740,4 @@ impl<'v> Examination<'v> {
 /// determine how fine they are, and about ignored feeds, because the user asked to ignore them.
 fn is_absent_from_drawing(doubt: &Diagnostic) -> bool {
     doubt.code() != Code::DoubtfulArc && doubt.message.key != FEED_IGNORED.key
-}
-
-/// The posts that may have written the programs of a run.
-#[derive(Debug)]
-struct PossiblePosts {
-    /// The post named by `--post`.
-    named: Option<PostProcessor>,
-    /// The configured post, unless `--post` is given.
-    configured: Option<PostProcessor>,
-    dialect: Option<Dialect>,
-}
-
-impl PossiblePosts {
-    /// Opens the posts of the command line and the configuration.
-    ///
-    /// # Errors
-    /// If the post named by `--post` does not exist, or is broken.
-    fn new(workspace: &Workspace, options: &VerifyOptions) -> Result<Self, Vec<Diagnostic>> {
-        let dialect = options.reading.dialect;
-        let post = |name| {
-            let dialect = dialect.map(|dialect| dialect.name().into());
-            PostProcessor::for_run(workspace, name, PostArguments { dialect, ..PostArguments::default() })
-        };
-        let named = options.post.as_deref().map(|name| post(Some(name))).transpose()?.flatten();
-        // Ignore a configured post that is broken: `emit` reports that.
-        let configured = || {
-            let own = PostProcessor::for_run(workspace, None, PostArguments::default()).ok().flatten()?;
-            // A post that names its dialect has not written programs of another dialect.
-            if own.reader().is_some() { Some(own) } else { post(None).ok().flatten() }
-        };
-        let configured = if named.is_some() { None } else { configured() };
-        Ok(Self { named, configured, dialect })
-    }
-
-    /// Whether a file has a usual extension of programs, or that of one of the posts.
-    fn is_program(&self, file: &Utf8Path) -> bool {
-        files::is_program(file)
-            || self.named.iter().chain(&self.configured).any(|post| post.has_extension(file))
-    }
-
-    /// Returns the file and the identity of each post, which determine the words in its programs.
-    fn identities(&self) -> Vec<(Option<&Utf8Path>, String)> {
-        let posts = self.named.iter().chain(&self.configured);
-        posts.map(|post| (post.file(), blake3::hash(&post.identity()).to_string())).collect()
-    }
-
-    /// Returns the dialect that the command line names, directly or through the post.
-    fn dialect(&self) -> Option<Dialect> {
-        self.dialect.or(self.named.as_ref().and_then(PostProcessor::reader))
-    }
-
-    /// Returns the post that wrote a program of this dialect, if known: the post named by `--post`, or else the configured one. A configured
-    /// definition that names no dialect is assumed if the dialect was guessed without a header.
-    fn writer_of(&self, dialect: Dialect, evidence: Option<EvidenceKind>) -> Option<&PostProcessor> {
-        let is_without_header = evidence.is_some_and(|kind| kind != EvidenceKind::Header);
-        let may_have_written = |post: &&PostProcessor| match post.reader() {
-            Some(reader) => reader == dialect,
-            None => is_without_header && dialect != Dialect::Native,
-        };
-        self.named.as_ref().or(self.configured.as_ref().filter(may_have_written))
-    }
-
-    /// Translates a text by means of the post definition that wrote it; `None` if the definition is unknown or its programs are read in a dialect.
-    fn translate(&self, text: &[u8], guess: Option<&Guess>) -> Option<DefinitionTranslation> {
-        let dialect = guess.map(|guess| guess.dialect).or(self.dialect)?;
-        let writer = self.writer_of(dialect, guess.map(|guess| guess.evidence.kind))?;
-        Some(DefinitionTranslation { name: writer.name(), translated: writer.translate(text)? })
-    }
 }

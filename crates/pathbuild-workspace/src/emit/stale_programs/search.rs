@@ -324,7 +324,7 @@ impl<'a> StaleSearch<'a> {
         job.files.iter().all(|(present, _)| *present != kind).then_some(FormerFile { job, kind, provenance })
     }
 
-    /// Returns the job whose files have this stem.
+    /// Returns the job with files of this stem.
     fn job(&self, name: OutputName<'_>) -> Option<&'a Job> {
         Some(self.run.jobs[*self.by_stem.get(Utf8Path::new(name.stem))?])
     }

@@ -214,7 +214,7 @@ fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revisio
     let root = if is_drawing { place.parent().unwrap_or(Utf8Path::new("")).to_owned() } else { place };
     let absolute =
         |place: &Utf8Path| pathbuild_workspace::config::clean(&context.working_directory.join(place));
-    // A directory whose own configuration names a library stands for the whole library.
+    // If a directory's own configuration names a library, the directory stands for the whole library.
     let is_library = !is_drawing
         && workspace.has_library()
         && workspace.settings.directory().is_some_and(|directory| absolute(directory) == absolute(&root));
