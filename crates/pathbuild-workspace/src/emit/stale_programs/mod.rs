@@ -193,11 +193,9 @@ pub(super) fn report_unselected(session: &mut Session<'_>, programs: &[StaleProg
         return Vec::new();
     }
     let provenances = Provenances::new(&session.workspace().settings, None);
-    let is_stale = |db: &Database, earlier: &StaleProgram| match &earlier.reason {
-        Reason::Unselected { target, moves, .. } => {
-            program(db, *target).as_ref().is_some_and(|now| provenances.of(&[&**now]).moves != *moves)
-        }
-        _ => true,
+    let is_stale = |db: &Database, earlier: &StaleProgram| {
+        let Reason::Unselected { target, moves, .. } = &earlier.reason else { return false };
+        program(db, *target).as_ref().is_some_and(|now| provenances.of(&[&**now]).moves != *moves)
     };
     let size = session.programs_per_batch(programs.len());
     let compared = session.in_batches(programs, size, |session, batch| session.map_guarded(batch, is_stale));
