@@ -761,8 +761,10 @@ fn programs_in_a_former_output_directory_are_stale_once_the_path_is_changed() {
         ("nc", None, true),
         ("nc", Some("nc"), false),
         ("projects/a/nc", Some("nc"), true),
-        // Only the library is searched recursively.
+        // Only the library is searched recursively, and otherwise the directories beside that of the programs and above it.
         ("other/nc", Some("nc"), false),
+        ("other/nc", Some("other/gcode"), true),
+        ("other/a/nc", Some("other/gcode"), false),
         (".nc", Some("nc"), false),
         ("../nc", Some("nc"), false),
     ] {

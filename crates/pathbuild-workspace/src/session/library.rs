@@ -361,16 +361,27 @@ impl Session<'_> {
         Walk { obeys_git: false, ..self.walk(&is_wanted) }.search(directory).drawings
     }
 
-    /// Returns the directory of the configuration and those directly in it, except hidden ones and those that .ignore excludes; none if they cannot
-    /// be listed.
-    pub(crate) fn top_directories(&self) -> Vec<Utf8PathBuf> {
-        let Some(top) = self.context.settings.directory().map(|top| self.normal(top)) else {
+    /// Returns the directories that may have been the output directory: that of the configuration and those on the way from it to `out_dir`, each
+    /// with those directly in it. Leaves out hidden ones, those that .ignore excludes, and those that cannot be listed.
+    pub(crate) fn possible_output_directories(&self, out_dir: Option<&Utf8Path>) -> Vec<Utf8PathBuf> {
+        let Some(mut place) = self.context.settings.directory().map(|top| self.normal(top)) else {
             return Vec::new();
         };
         let walk = Walk { obeys_git: false, ..self.walk(&|_| false) };
-        let listed = catch_bugs(|| Directory::list(&top, None, walk, &Budget::new(walk.rules_limit)));
-        let Ok(Ok(Some(listed))) = listed else { return Vec::new() };
-        std::iter::once(top).chain(listed.directories).collect()
+        let budget = Budget::new(walk.rules_limit);
+        let (mut directories, mut rules) = (Vec::new(), None);
+        let way = out_dir.and_then(|out_dir| out_dir.strip_prefix(&place).ok().map(Utf8Path::to_owned));
+        let mut way = way.iter().flat_map(|way| way.iter());
+        directories.push(place.clone());
+        while let Ok(Ok(Some(listed))) = catch_bugs(|| Directory::list(&place, rules.take(), walk, &budget)) {
+            directories.extend_from_slice(&listed.directories);
+            let Some(next) = way.next().map(|name| join(&place, name)) else { break };
+            if !listed.directories.contains(&next) {
+                break;
+            }
+            (place, rules) = (next, listed.rules);
+        }
+        directories
     }
 
     /// Queries the database about a directory.

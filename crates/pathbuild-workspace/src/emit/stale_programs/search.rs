@@ -93,8 +93,9 @@ impl<'a> StaleSearch<'a> {
             let names = self.run.file_names_in(directory, diagnostics);
             stale.extend(self.stale_in(directory, &names, out_dir));
         }
-        let top = if directories.is_empty() { Vec::new() } else { session.top_directories() };
-        for directory in top.iter().filter(|directory| seen.insert(directory)) {
+        let former =
+            if directories.is_empty() { Vec::new() } else { session.possible_output_directories(out_dir) };
+        for directory in former.iter().filter(|directory| seen.insert(directory)) {
             // No programs are expected in this directory, so no error is reported if it cannot be listed.
             let names = session.file_names_in(directory).unwrap_or_default();
             stale.extend(self.stale_in(directory, &names, None));
