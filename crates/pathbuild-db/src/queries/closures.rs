@@ -18,7 +18,7 @@ use crate::inputs::{Limits, Role, Settings, SourceFile, Target};
 use crate::queries::embedding::{Embedding, Outcome, embeds};
 use crate::queries::index::{NameKey, PathSummary, keep_out_problems, path_index};
 use crate::queries::lookup::{find_path, own_directory, search_path};
-use crate::queries::part::part_problems;
+use crate::queries::part::{is_about_waste, part_problems};
 use crate::queries::raw::raw_path;
 
 /// The paths that a target reaches, including its own.
@@ -243,13 +243,15 @@ impl<'db> ClosureWalk<'db> {
     /// Reports the findings in one path, stage by stage, and visits what it embeds. Returns their most serious error. Each stage skips errors that
     /// merely follow from those of earlier stages.
     fn visit_stages(&mut self, instance: Instance<'db>, depth: u32) -> PathErrors<'db> {
-        let summary = summary(self.db, instance);
-        let mut has_errors = self.report_all(instance, keep_out_problems(self.db, instance.file(self.db)));
-        has_errors |= self.report_all(instance, &summary.problems);
+        let db = self.db;
+        let summary = summary(db, instance);
+        let mut has_errors = self.report_all(instance, keep_out_problems(db, instance.file(db)));
+        let problems = summary.problems.iter().filter(|found| !is_about_waste(db, instance, found));
+        has_errors |= self.report_all(instance, problems);
         if let Some(signature) = &summary.signature {
             self.check_feed(instance, signature);
             let sweep_problems = self.sweep_problems(summary, signature, depth);
-            has_errors |= self.report_all(instance, &sweep_problems);
+            has_errors |= self.report_all(instance, sweep_problems.iter());
         }
         has_errors |= self.report_all(instance, &summary.walk_problems);
         has_errors |= self.report_all(instance, part_problems(self.db, instance));
@@ -429,9 +431,14 @@ impl<'db> ClosureWalk<'db> {
     }
 
     /// Reports the findings in a path, skipping duplicates. Returns whether any is an error.
-    fn report_all(&mut self, instance: Instance<'db>, found: &[Diagnostic]) -> bool {
-        let has_errors = found.iter().any(Diagnostic::is_error);
-        for mut diagnostic in found.iter().cloned() {
+    fn report_all<'f>(
+        &mut self,
+        instance: Instance<'db>,
+        found: impl IntoIterator<Item = &'f Diagnostic>,
+    ) -> bool {
+        let mut has_errors = false;
+        for mut diagnostic in found.into_iter().cloned() {
+            has_errors |= diagnostic.is_error();
             diagnostic.file.get_or_insert_with(|| instance.file(self.db).path(self.db).clone());
             let same = self.known.entry(hash(&identity(&diagnostic))).or_default();
             if !same.iter().any(|index| identity(&self.diagnostics[*index]) == identity(&diagnostic)) {

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
+use pathbuild_diagnostic::{Code, Diagnostic};
 use pathbuild_path::{Curve, Part, PartFindings, PathCuts, check_parts, parts as read_parts};
 
 use crate::database::Db;
@@ -98,6 +98,15 @@ fn part_problems_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> V
         found.iter().filter(is_new)
     };
     findings.of_paths.iter().enumerate().flat_map(of_path).cloned().collect()
+}
+
+/// Whether a finding about a path is PB212 for a ring in an opening of a part that may belong to the path. Such a ring encloses waste; whether the
+/// part itself is held is checked with its outline (PB217).
+pub(super) fn is_about_waste<'db>(db: &'db dyn Db, instance: Instance<'db>, problem: &Diagnostic) -> bool {
+    let Some(at) = problem.place.point.filter(|_| problem.code() == Code::LostBars) else { return false };
+    let path = instance.name(db).name(db);
+    let is_opening = |part: &Part| part.may_belong_to(&path) && part.has_opening_at(at);
+    file_parts(db, instance.file(db)).is_some_and(|found| found.parts.iter().any(is_opening))
 }
 
 /// Returns the cuts of a path with its values. `None` if the path has errors, or if the settings name no layers with parts.

@@ -31,6 +31,30 @@ fn a_plate_without_bars_is_loose_unless_something_else_holds_it() {
     assert_eq!(held.codes(&[("1234.1P.dxf", &drawing)]), [""; 0]);
 }
 
+/// A ring in an opening encloses waste, which needs no support bars, unless the opening belongs to a part of another path.
+#[test]
+fn a_ring_in_an_opening_needs_no_bars() {
+    let drawing = |part: &str, window: &str| {
+        let window = format!("polyline {window} closed\n");
+        format!(
+            "{START}sweep -5,-5 11,6\nmill 11,6 31,6 31,21 11,21 11,6\nsweep 11,6 50,-5\nend 50,-5\n\
+             layer 1234.2P\nstart 60,-5 \"T2 O2 I0.5 B-0.2 D0.8 P3 U8 A20 S5\"\nsweep 60,-5 42,0\n\
+             bars 42,0 42,27 0,27 0,0 42,0\nsweep 42,0 50,-9\nend 50,-9\n\
+             layer \"{part}\"\npolyline 1,1 41,1 41,26 1,26 closed\n{window}"
+        )
+    };
+    let is_reported = |part: &str, window: &str| {
+        let test = PartTest { pattern: Some("Part ?([0-9_]*)"), ..PartTest::default() };
+        test.codes(&[("1234.dxf", &drawing(part, window))]).contains(&"PB212".to_owned())
+    };
+    let opening = "10,5 32,5 32,22 10,22";
+    assert!(!is_reported("Part", opening));
+    assert!(!is_reported("Part", "10.99,5 32,5 32,22 10.99,22"));
+    assert!(is_reported("Part", "11.01,5 32,5 32,22 11.01,22"), "the ring begins in the part");
+    assert!(!is_reported("Part 1234_1", opening));
+    assert!(is_reported("Part 1234_2", opening), "the part of the other path");
+}
+
 /// Without an outline around them, the circles of holes are taken for outlines of parts.
 #[test]
 fn a_hole_without_an_outline_around_it_is_named() {

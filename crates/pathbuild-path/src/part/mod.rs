@@ -18,16 +18,17 @@ mod prepared;
 mod waste;
 
 use pathbuild_diagnostic::messages::part as messages;
-use pathbuild_diagnostic::{Diagnostic, Place, Value};
+use pathbuild_diagnostic::{Diagnostic, Place, Point, Value};
 use smol_str::SmolStr;
 
-use crate::geometry::{Curve, Placement};
+use crate::geometry::{Curve, Placement, Xy};
 use crate::names::{LayerPattern, PathName};
 
 pub(crate) use boxes::{BoxIndex, square};
 pub(crate) use intervals::{Stretch, add_stretches_within, join_stretches};
 pub(crate) use loose::first_enclosing;
 pub(crate) use open::OpenOutline;
+use prepared::{PreparedPart, Side};
 
 pub use bars::LostBar;
 pub use check::{PartFindings, check_parts};
@@ -99,8 +100,13 @@ impl Part {
         self.rings[ring].around.first().copied().unwrap_or(ring)
     }
 
+    /// Whether a point lies in an opening of the part.
+    pub fn has_opening_at(&self, at: Point) -> bool {
+        matches!(PreparedPart::new(self).side(Xy::new(at.x.0, at.y.0)), Side::Openings(_))
+    }
+
     /// Whether the part may belong to a path.
-    pub(crate) fn may_belong_to(&self, path: &PathName) -> bool {
+    pub fn may_belong_to(&self, path: &PathName) -> bool {
         may_belong_to(self.paths.as_ref(), path)
     }
 
