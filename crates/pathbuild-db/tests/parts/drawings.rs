@@ -1355,6 +1355,31 @@ fn beside_a_path_with_errors_only_gouges_are_found() {
     assert_eq!(path(0.5, &other("x")), ["PB213"]);
 }
 
+/// A helix, the circle below it and the passes that leave bars run along the same circle. Its length counts once, as seen from above.
+#[test]
+fn the_length_of_a_circle_in_the_part_counts_once() {
+    let length = |text: &str, verb: &str, [cut, drawn]: [f64; 2]| {
+        let drawing = format!(
+            "layer 1234.1P\nstart -15,-15 \"{text}\"\nsweep -15,-15 11,13\n{verb} circle 11,13 d {cut}\n\
+             sweep 11,13 50,-5\nend 50,-5\nlayer Part\npolyline -20,-20 41,-20 41,46 -20,46 closed\n\
+             circle 11,13 d {drawn}\n"
+        );
+        let found = PartTest::default().diagnostics(&[("1234.1P.dxf", &drawing)]);
+        let gouge = found.iter().find(|found| found.code().to_string() == "PB213");
+        number(gouge.unwrap_or_else(|| panic!("{found:?}")), "length")
+    };
+    let turn = std::f64::consts::TAU;
+    for bottom in ["0", "-0.2", "-0.9"] {
+        for infeed in ["1", "0.7"] {
+            let text = format!("T3 O2 I{infeed} B{bottom} D1.2 P3 U9 A40 S5");
+            let helix = length(&text, "mill", [6.0, 5.6]);
+            assert!((helix - 2.0 * turn).abs() < 1e-6, "{text}: {helix}");
+            let with_bars = length(&text, "bars", [22.0, 21.6]);
+            assert!((with_bars - 10.0 * turn).abs() < 1e-6, "{text}: {with_bars}");
+        }
+    }
+}
+
 #[test]
 fn a_hole_in_the_part_is_told_without_a_length() {
     let found = messages(

@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Diagnostic, Severity};
 
 use super::boxes::BoxIndex;
 use super::cuts::{CutIndex, PathCuts, StandingBar};
-use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, join_stretches};
+use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, joined_length};
 use super::loose::MAX_WEAK_BRIDGE;
 use crate::approx;
 use crate::element::diagnostic_point;
@@ -192,12 +192,4 @@ fn total_loss(elements: &BTreeMap<u32, Vec<Stretch>>) -> Option<(f64, u32)> {
     let lengths = elements.iter().map(|(element, stretches)| (joined_length(stretches), *element));
     let (_, element) = lengths.reduce(|most, next| if next.0 > most.0 + JOIN_GAP { next } else { most })?;
     Some((joined_length(elements.values().flatten()), element))
-}
-
-/// Returns the total length in mm of stretches that may overlap.
-fn joined_length<'s>(stretches: impl IntoIterator<Item = &'s Stretch>) -> f64 {
-    join_stretches(stretches.into_iter().copied().collect(), JOIN_GAP)
-        .iter()
-        .map(|(from, to)| to - from)
-        .sum()
 }

@@ -229,12 +229,12 @@ impl<'s> PartCheck<'s> {
 
     /// Returns PB213 for the cuts into the part.
     fn gouge_findings(&self) -> impl Iterator<Item = (usize, Diagnostic)> {
-        let gouges = gouges(self.part, &self.judged);
+        let gouges = gouges(self.part, self.cuts, &self.judged);
         gouges.into_iter().map(|((path, element), gouge)| {
             let path_cuts = self.cuts.paths[path];
             let cut = &path_cuts.elements[element as usize];
             let mut problem = gouge_problem(&gouge, path_cuts.radius, cut.circle.is_some());
-            let centre = cut.circle.or_else(|| (gouge.length == 0.0).then_some(gouge.at));
+            let centre = cut.circle.or_else(|| (gouge.length() == 0.0).then_some(gouge.at));
             let is_rim =
                 |centre: Xy| self.is_rim_circle(centre, (gouge.at - centre).norm() + path_cuts.radius);
             if cut.supported.is_none() && centre.is_some_and(is_rim) {
@@ -340,7 +340,8 @@ fn near_paths(part: &Part, ring: usize, cuts: &CutIndex<'_>, judged: &Classified
 }
 
 fn gouge_problem(gouge: &Gouge, radius: f64, is_circle: bool) -> Diagnostic {
-    let problem = if gouge.length == 0.0 {
+    let length = gouge.length();
+    let problem = if length == 0.0 {
         Diagnostic::new(&messages::GOUGE_BY_HOLE).with("tool", 2.0 * radius)
     } else {
         let message = if gouge.depth >= 2.0 * radius {
@@ -350,7 +351,7 @@ fn gouge_problem(gouge: &Gouge, radius: f64, is_circle: bool) -> Diagnostic {
         } else {
             &messages::GOUGE
         };
-        Diagnostic::new(message).with("length", gouge.length)
+        Diagnostic::new(message).with("length", length)
     };
     let mut problem = problem.with("depth", gouge.depth).with("point", diagnostic_point(gouge.at));
     if (1000.0 * gouge.depth).round() <= MAX_WARNING_DEPTH {

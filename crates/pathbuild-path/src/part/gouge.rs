@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rstar::Envelope as _;
 
 use super::cuts::{CutIndex, IndexedCut, THROUGH_HEIGHT};
-use super::intervals::{JOIN_GAP, Stretch};
+use super::intervals::{JOIN_GAP, Stretch, joined_length, stretch_of_section};
 use super::prepared::{CutterPassage, PreparedPart, Side};
 use super::{Part, placed_part};
 use crate::geometry::{Curve, Placement, Xy};
@@ -47,8 +47,10 @@ pub(super) struct Gouge {
     pub(super) at: Xy,
     /// The depth at that place, in mm.
     pub(super) depth: f64,
-    /// The length in mm, along the path of the cutter, on which it goes into the part.
-    pub(super) length: f64,
+    /// The first cut or, with support bars, the whole segment.
+    curve: Curve,
+    /// The stretches along that curve on which the cutter goes into the part. Those of a helix and of passes at several heights lie on each other.
+    entered: Vec<Stretch>,
 }
 
 /// Determines the side of the part on which each cut lies, and where the cut goes into the part. `numbers` are the numbers of the cuts to examine, in
@@ -113,17 +115,23 @@ impl<'c> ClassifiedCuts<'c> {
 }
 
 /// Returns the cuts into a part, one for each path and element.
-pub(super) fn gouges(part: &PreparedPart<'_>, judged: &ClassifiedCuts<'_>) -> BTreeMap<(usize, u32), Gouge> {
+pub(super) fn gouges(
+    part: &PreparedPart<'_>,
+    index: &CutIndex<'_>,
+    judged: &ClassifiedCuts<'_>,
+) -> BTreeMap<(usize, u32), Gouge> {
     let mut found: BTreeMap<(usize, u32), Gouge> = BTreeMap::new();
     for SpoilingSection { cut, curve, entered } in &judged.spoiling {
         for stretch in entered {
             let (at, depth) = part.deepest(curve, *stretch, cut.radius);
-            let new = Gouge { at, depth, length: 0.0 };
-            let gouge = found.entry(cut.number()).or_insert(new);
+            let gouge = found.entry(cut.number()).or_insert_with(|| {
+                let segment = cut.element(index).supported;
+                Gouge { at, depth, curve: segment.unwrap_or(cut.cut.way.curve), entered: Vec::new() }
+            });
             if gouge.is_exceeded_by(at, depth) {
                 (gouge.at, gouge.depth) = (at, depth);
             }
-            gouge.length += stretch.1 - stretch.0;
+            gouge.entered.push(stretch_of_section(&gouge.curve, &curve.section(stretch.0, stretch.1)));
         }
     }
     found
@@ -176,6 +184,11 @@ pub(super) fn level_for_cuts(raised: f64, thickness: f64, height: f64) -> f64 {
 pub(super) const MIN_CUT_DEPTH: f64 = 0.01;
 
 impl Gouge {
+    /// Returns the length in mm on which the cutter goes into the part, as seen from above.
+    pub(super) fn length(&self) -> f64 {
+        joined_length(&self.entered)
+    }
+
     /// Whether another place is deeper. Of places with the same depth, the leftmost wins, so that the order of the cuts does not matter.
     fn is_exceeded_by(&self, at: Xy, depth: f64) -> bool {
         let is_left = || (at.x, at.y) < (self.at.x, self.at.y);

@@ -90,6 +90,12 @@ pub(crate) fn join_stretches(mut stretches: Vec<Stretch>, gap: f64) -> Vec<Stret
     stretches
 }
 
+/// Returns the total length in mm of stretches that may overlap.
+pub(crate) fn joined_length<'s>(stretches: impl IntoIterator<Item = &'s Stretch>) -> f64 {
+    let joined = join_stretches(stretches.into_iter().copied().collect(), JOIN_GAP);
+    joined.iter().map(|(from, to)| to - from).sum()
+}
+
 /// Returns the gaps between joined stretches within a range.
 pub(crate) fn gaps_between(stretches: &[Stretch], (start, end): Stretch) -> Vec<Stretch> {
     let mut at = start;
@@ -165,13 +171,27 @@ pub(crate) fn offset_curve(curve: &Curve, distance: f64) -> Option<Curve> {
 
 /// Returns the position, in mm along an arc, of its point in a direction from the centre; `None` if the arc has no point in this direction.
 fn along_arc(arc: &Arc, out: Vector2<f64>) -> Option<f64> {
-    if !arc.spans(out) {
-        return None;
-    }
+    arc.spans(out).then(|| along_circle(arc, out))
+}
+
+/// Returns the position, in mm from the start of an arc, of the point of its circle in a direction from the centre.
+fn along_circle(arc: &Arc, out: Vector2<f64>) -> f64 {
     let from = arc.start - arc.centre;
     let angle = libm::atan2(from.perp(&out), from.dot(&out));
     let ahead = if arc.clockwise { -angle } else { angle };
-    Some(arc.radius * if ahead < 0.0 { ahead + std::f64::consts::TAU } else { ahead })
+    arc.radius * if ahead < 0.0 { ahead + std::f64::consts::TAU } else { ahead }
+}
+
+/// Returns the stretch that a section of the same line or circle covers, in mm from the start of a curve. It may lie beyond the ends of the curve.
+pub(crate) fn stretch_of_section(curve: &Curve, section: &Curve) -> Stretch {
+    let (middle, half) = (section.middle(), section.length() / 2.0);
+    let along = match curve {
+        Curve::Line(Line { start, end }) => {
+            (end - start).try_normalize(0.0).map_or(0.0, |direction| direction.dot(&(middle - start)))
+        }
+        Curve::Arc(arc) => along_circle(arc, middle - arc.centre),
+    };
+    (along - half, along + half)
 }
 
 fn cross_circle(along: &Curve, centre: Xy, radius: f64, cuts: &mut BoundaryCandidates) {

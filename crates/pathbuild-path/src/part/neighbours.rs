@@ -117,7 +117,7 @@ impl<'c> PlacedCuts<'c> {
             let prepared = PreparedPart::new(&part);
             let near = cuts.near(prepared.extent()).filter(|cut| cuts.cuts[*cut].path == 1);
             let judged = classify_cuts(&prepared, &cuts, near, tolerance);
-            gouged.extend(gouges(&prepared, &judged).into_iter().map(|((_, element), gouge)| {
+            gouged.extend(gouges(&prepared, &cuts, &judged).into_iter().map(|((_, element), gouge)| {
                 NeighbourGouge { part: number, element, at: gouge.at, depth: gouge.depth }
             }));
         }
