@@ -618,8 +618,22 @@ fn the_old_program_of_a_path_that_is_no_target_is_named() {
     for command in ["", "--check", "--remove-stale"] {
         assert_eq!(findings(&place, command), (1, 2), "{command}");
     }
+    // So is that of a path with errors.
+    let place = place.file("components/1234.dxf", drawing.replace("I1 B4", "B4"));
+    for command in ["", "--check", "--remove-stale"] {
+        let run = place.run(&format!("emit --out-dir all {command} --format concise"));
+        let told =
+            "1234_Milling.gcode: warning[PB520] 1234_Milling.gcode was written earlier, but its path 1234.1P";
+        assert_eq!(run.stderr.matches(told).count(), 1, "{command}: {run}");
+        assert!(place.path().join("all/1234_Milling.gcode").exists(), "{run}");
+    }
+    let place = place.file("components/1234.dxf", drawing);
     assert_eq!(place.run("emit 1234.1P --out-dir all").status, Some(0));
     assert_eq!(findings(&place, "--check"), (0, 0));
+    // A missing option is no error: it was given when the program was written.
+    let place = Place::of(&LIBRARY.replace("sweep-height = 20\n", "").replace("O2 MPlate", "O2 S20 MPlate"));
+    assert_eq!(place.run("emit 1234.1P --out-dir all --sweep-height 20").status, Some(0));
+    assert_eq!(findings(&place, ""), (0, 0));
 }
 
 /// A drawing in a search directory is found by its name, so its program is not stale although the drawing is not in the library.

@@ -687,6 +687,28 @@ fn a_post_whose_directory_is_exchanged_begins_anew() {
     assert!(place.read("library/projects/8001_Milling.nc").starts_with("(anna)"));
 }
 
+/// The program of a path that is no target is compared again when its drawing or a drawing that it embeds changes.
+#[test]
+fn the_old_program_of_a_path_that_is_no_target_is_compared_after_each_change() {
+    let place = library().file("library/projects/7001.dxf", dxf("7001.1P", 5, &["1001.1P"]));
+    assert_eq!(place.run("emit 7001.1P").status, Some(0));
+    let watch = Watch::begin(&place, "watch --emit --format concise");
+    let expect = |drawing: &str, bytes: Vec<u8>, told: Option<&str>| {
+        watch.write(drawing, bytes);
+        let said = watch.until(".dxf: changed");
+        let findings = said.iter().filter(|line| line.contains("[PB520]"));
+        let findings: Vec<bool> = findings.map(|line| told.is_some_and(|told| line.contains(told))).collect();
+        assert_eq!(findings, vec![true; usize::from(told.is_some())], "{said:#?}");
+    };
+    let (project, component) = ("library/projects/7001.dxf", "library/parts/1001.dxf");
+    expect(project, dxf("7001.1P", 5, &["1002.1P", "1001.1P"]), Some("7001_Milling.gcode is out of date"));
+    expect(project, dxf("7001.1P", 5, &["1001.1P"]), None);
+    expect(component, dxf("1001.1P", 4, &[]), Some("its path 7001.1P has errors now"));
+    expect("library/parts/1002.dxf", dxf("1002.1P", 5, &["1001.1P"]), None);
+    expect(component, dxf("1001.1P", 5, &[]), None);
+    expect(component, dxf("1001.1P", 4, &[]), Some("its path 7001.1P has errors now"));
+}
+
 /// A program that cannot be written is reported once, retried after each change, and counted once it succeeds.
 #[test]
 fn a_program_that_could_not_be_written_is_written_later() {

@@ -178,6 +178,13 @@ messages! {
         help_en: "do not mill with it: write it again with emit {path}, or delete it",
         help_de: "nicht damit fräsen: es mit emit {path} neu schreiben oder löschen",
     }
+    /// A program of a path that is not selected and has errors now.
+    STALE_BROKEN: StaleOutput {
+        en: "{name} was written earlier, but its path {path} has errors now",
+        de: "{name} wurde früher geschrieben, aber sein Pfad {path} hat jetzt Fehler",
+        help_en: "do not mill with it: fix the errors, which check {path} shows, and write it again with emit {path}, or delete it",
+        help_de: "nicht damit fräsen: die Fehler beheben, die check {path} zeigt, und es mit emit {path} neu schreiben oder löschen",
+    }
     /// A program of a drawing that is excluded by an ignore file or by its hidden name.
     STALE_OF_IGNORED: StaleOutput {
         en: "{name} was written from {drawing}, which is ignored (.ignore, .gitignore, hidden name), so `emit` does not keep it up to date",

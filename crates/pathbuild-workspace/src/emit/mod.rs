@@ -236,7 +236,7 @@ impl Emitter<'_> {
         };
         let StaleOutcome { older, removed, mut outdated, unselected } =
             earlier.find_and_settle(self.request.removes_stale, &mut diagnostics);
-        let unselected = report_unselected(session, &unselected);
+        let unselected = report_unselected(session, &unselected, &mut HashMap::new());
         let errors = unselected.iter().filter(|finding| workspace.has_error([*finding]));
         outdated.extend(errors.filter_map(|finding| finding.file.clone()));
         diagnostics.extend(unselected);

@@ -15,7 +15,7 @@ use super::outcome::{ProgramOutcome, Task};
 use super::plan::{Job, JobBuilder, Plan, clashes, leave_out_clashes, warn_of_numbers};
 use super::select::TargetPatterns;
 use super::settle::build_and_settle;
-use super::stale_programs::{EarlierPrograms, StaleProgram, report_unselected};
+use super::stale_programs::{EarlierPrograms, StaleProgram, UnselectedMoves, report_unselected};
 use crate::memo::{Memo, read_drawings};
 use crate::post_processor::PostProcessor;
 use crate::session::{Session, compare_paths};
@@ -30,6 +30,8 @@ pub struct WrittenPrograms {
     clashing: HashSet<Target>,
     /// The paths that two drawings define. They get no program.
     second_definitions: BTreeSet<SecondDefinition>,
+    /// The moves of paths that are no targets but have programs on disk. A path is forgotten when its drawing is checked again.
+    unselected_moves: UnselectedMoves,
 }
 
 /// The drawings that a session covers.
@@ -56,6 +58,7 @@ impl WrittenPrograms {
         drawings: &[SourceFile],
         targets: &[Target],
     ) -> (Result<Vec<ProgramOutcome>, String>, Vec<SourceFile>) {
+        self.unselected_moves.retain(|target, _| !drawings.contains(&target.file(session.db())));
         let plans = session
             .with_stable_files(|session| self.plan_and_build(session, post_processor, drawings, targets));
         let (plans, refusal) = match plans {
@@ -215,7 +218,7 @@ impl WrittenPrograms {
     ) -> Vec<Diagnostic> {
         let mut problems = Vec::new();
         let unselected = self.find_common_problems(session, post_processor, scope, &mut problems);
-        problems.extend(report_unselected(session, &unselected));
+        problems.extend(report_unselected(session, &unselected, &mut self.unselected_moves));
         problems
     }
 

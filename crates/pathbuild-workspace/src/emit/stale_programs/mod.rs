@@ -11,11 +11,11 @@ mod older;
 mod reason;
 mod search;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, Names, join};
-use pathbuild_db::{Database, Db, Target, program};
+use pathbuild_db::{Database, Db, Target, check_target, program};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::files;
 use pathbuild_gcode::native;
@@ -124,6 +124,7 @@ impl<'a> EarlierPrograms<'a> {
             Reason::Copied
             | Reason::CurrentCopy { .. }
             | Reason::Unselected { .. }
+            | Reason::Broken { .. }
             | Reason::Elsewhere { .. }
             | Reason::Ignored { .. }
             | Reason::OfOthers
@@ -186,21 +187,29 @@ impl<'a> EarlierPrograms<'a> {
     }
 }
 
-/// Returns warnings about programs of paths that the run did not select, if these paths have other moves now. To find out, builds these paths, but no
-/// other paths that were not selected.
-pub(super) fn report_unselected(session: &mut Session<'_>, programs: &[StaleProgram]) -> Vec<Diagnostic> {
-    if programs.is_empty() {
-        return Vec::new();
-    }
+/// Hashes of the moves that paths which the run did not select have now; `None` for a path with errors.
+pub(super) type UnselectedMoves = HashMap<Target, Option<Box<str>>>;
+
+/// Returns warnings about programs of paths that the run did not select, if these paths have other moves now, or errors. To find out, builds those of
+/// these paths that are not in `known`, and adds them; builds no other paths that were not selected.
+pub(super) fn report_unselected(
+    session: &mut Session<'_>,
+    programs: &[StaleProgram],
+    known: &mut UnselectedMoves,
+) -> Vec<Diagnostic> {
+    let mut seen = HashSet::new();
+    let targets = programs.iter().filter_map(StaleProgram::unselected_target);
+    let is_open = |target: &Target| !known.contains_key(target) && seen.insert(*target);
+    let targets: Vec<Target> = targets.filter(is_open).collect();
     let provenances = Provenances::new(&session.workspace().settings, None);
-    let is_stale = |db: &Database, earlier: &StaleProgram| {
-        let Reason::Unselected { target, moves, .. } = &earlier.reason else { return false };
-        program(db, *target).as_ref().is_some_and(|now| provenances.of(&[&**now]).moves != *moves)
+    let moves = |db: &Database, target: &Target| match program(db, *target) {
+        Some(program) => Some(Some(provenances.of(&[&**program]).moves)),
+        None => check_target(db, *target).any(Diagnostic::is_error).then_some(None),
     };
-    let size = session.programs_per_batch(programs.len());
-    let compared = session.in_batches(programs, size, |session, batch| session.map_guarded(batch, is_stale));
-    let stale = programs.iter().zip(compared).filter(|(_, is_stale)| matches!(is_stale, Ok(true)));
-    stale.map(|(earlier, _)| earlier.diagnostic()).collect()
+    let size = session.programs_per_batch(targets.len());
+    let built = session.in_batches(&targets, size, |session, batch| session.map_guarded(batch, moves));
+    known.extend(targets.into_iter().zip(built).filter_map(|(target, moves)| Some((target, moves.ok()??))));
+    programs.iter().filter_map(|program| program.finding_if_unselected(known)).collect()
 }
 
 /// Whether the adjusted program on disk, which is the one that is milled, is stale: it was adjusted from an earlier state of the job's program or

@@ -6,6 +6,7 @@ use pathbuild_db::system::or_current_directory;
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 
+use super::UnselectedMoves;
 use crate::session::OutputName;
 
 /// A program on disk that must not be run on the machine.
@@ -26,6 +27,8 @@ pub(super) enum Reason {
     CurrentCopy { path: String },
     /// The run does not write the program of `path`. The program is stale only if its moves differ from those that the target has now.
     Unselected { path: String, target: Target, moves: Box<str> },
+    /// The run does not write the program of `path`, which has errors now.
+    Broken { path: String },
     /// The program's drawing cannot be read, so it is unknown whether its path still yields the program.
     Unread { drawing: String },
     /// The program lies beside its drawing, but programs are written into `directory` now.
@@ -53,6 +56,24 @@ pub(super) enum Reason {
 }
 
 impl StaleProgram {
+    /// Returns the target whose program this is, if the run did not select it.
+    pub(super) fn unselected_target(&self) -> Option<Target> {
+        if let Reason::Unselected { target, .. } = self.reason { Some(target) } else { None }
+    }
+
+    /// Returns the finding about a program of a path that the run did not select; `None` if it is current, or if the moves of the path are unknown.
+    pub(super) fn finding_if_unselected(&self, known: &UnselectedMoves) -> Option<Diagnostic> {
+        let Reason::Unselected { path, target, moves } = &self.reason else { return None };
+        match known.get(target)? {
+            Some(now) if now == moves => None,
+            Some(_) => Some(self.diagnostic()),
+            None => {
+                let reason = Reason::Broken { path: path.clone() };
+                Some(Self { path: self.path.clone(), reason }.diagnostic())
+            }
+        }
+    }
+
     pub(super) fn diagnostic(&self) -> Diagnostic {
         let name = |path: &Utf8Path| path.file_name().unwrap_or_default().to_owned();
         let problem = match &self.reason {
@@ -63,6 +84,9 @@ impl StaleProgram {
             }
             Reason::Unselected { path, .. } => {
                 Diagnostic::new(&messages::STALE_UNSELECTED).quoting("path", path.as_str())
+            }
+            Reason::Broken { path } => {
+                Diagnostic::new(&messages::STALE_BROKEN).quoting("path", path.as_str())
             }
             Reason::Unread { drawing } => {
                 Diagnostic::new(&messages::OUTPUT_OF_UNREAD).quoting("drawing", drawing.as_str())
