@@ -137,6 +137,32 @@ fn embedded_paths_are_followed_level_by_level() {
     assert_eq!((&text["kind"], &text["was"], &text["now"]), (&"text".into(), &"B1".into(), &"B0.5".into()));
 }
 
+/// A path that is embedded with several sets of values has the same reasons for each of them, unless a value differs.
+#[test]
+fn the_reasons_of_an_embedded_path_are_listed_once_for_all_values() {
+    let all = |feed: &str, last: &str| {
+        let project = format!(
+            "layer 8001.1P\nstart 0,0 \"T5 O2 I9 MPlate B1 F200\"\nsubpath 0,0 40,0 \">1001.1P :A1\"\n\
+             subpath 40,0 80,0 \">1001.1P :A2\"\nsubpath 80,0 120,0 \">1002.1P\"\nsubpath 120,0 160,0 \">1001.1P :A{last}\"\nend 160,0\n"
+        );
+        [
+            ("1001.1P", part("1001.1P", &format!("B=A F{feed} :A0~2"), LINE)),
+            ("1002.1P", part("1002.1P", "B1 F200", "subpath 0,0 40,0 \">1001.1P :A1.5\"")),
+            ("8001.1P", dxf(&project)),
+        ]
+    };
+    let text = "start marker: text F200 became F120";
+    let run = two(&all("200", "0.5"), &all("120", "0.5")).run("diff old new --lang en");
+    let (listed, again) = (format!("      {text}"), "      embedded path 1001.1P changed, as above");
+    let of_project = |run: &Run| explanations(run).split_off(explanations(run).len() - 5);
+    let expected = ["    embedded path 1001.1P changed", &listed, "    embedded path 1002.1P changed", again];
+    assert!(explanations(&run).ends_with(&expected.map(str::to_owned)), "{run}");
+    // Another value is a reason of its own.
+    let run = two(&all("200", "0.5"), &all("120", "0.8")).run("diff old new --lang en");
+    let other = ["    embedded path 1001.1P changed", "      variable A: 0.5 became 0.8", &listed];
+    assert_eq!(of_project(&run)[2..], other.map(str::to_owned), "{run}");
+}
+
 #[test]
 fn variables_and_settings_are_named() {
     let leaf = || part("1001.1P", "B=A F200 :A0~2", LINE);

@@ -61,6 +61,14 @@ impl Reason {
         }
     }
 
+    /// Returns the sentence of the reason when it is listed for the first time.
+    fn first_sentence(&self) -> Sentence {
+        match self {
+            Self::Embedded { path, .. } => Sentence::new(&texts::EMBEDDED).quoting("path", path),
+            _ => self.sentence(),
+        }
+    }
+
     /// Returns the nested reasons: the changes of an embedded path. Empty for other kinds.
     pub fn reasons(&self) -> &[Self] {
         match self {
@@ -97,6 +105,7 @@ pub(super) fn reasons(old: Side<'_>, new: Side<'_>) -> Vec<Reason> {
         new: new.db,
         is_read_otherwise: changed_settings.keys().any(|name| READING_KEYS.contains(name)),
         known: HashMap::new(),
+        listed: HashSet::new(),
         used_options: BTreeSet::new(),
         has_same_file: false,
         has_other_order: false,
@@ -152,6 +161,8 @@ struct Explainer<'o, 'n> {
     is_read_otherwise: bool,
     /// Result for each pair of paths compared so far: whether the two differ.
     known: HashMap<(Instance<'o>, Instance<'n>), bool>,
+    /// The names of embedded paths with the reasons that were listed for them, without nested ones: other values often have the same reasons.
+    listed: HashSet<(String, Vec<Sentence>)>,
     /// The options that provide a value for any of the paths.
     used_options: BTreeSet<&'static str>,
     /// Whether two drawings with the same bytes were read differently.
@@ -189,6 +200,7 @@ impl<'o, 'n> Explainer<'o, 'n> {
         self.has_other_order |= changes.is_reordered;
         changes.changes.into_iter().map(Reason::Drawn).collect()
     }
+
     fn embedded_reasons(&mut self, Versions { old, new }: Versions<'o, 'n>) -> Vec<Reason> {
         let mut were = children(self.old, old);
         let mut reasons = Vec::new();
@@ -202,20 +214,30 @@ impl<'o, 'n> Explainer<'o, 'n> {
                 .position(|was| was.is_same(child))
                 .or_else(|| were.iter().position(has_same_name));
             let Some(was) = place.map(|place| were.remove(place)) else { continue };
-            reasons.extend(self.child_reason(&was, child));
+            let Some((path, below)) = self.child_reasons(&was, child) else { continue };
+            let is_listed_here =
+                |reason: &Reason| matches!(reason, Reason::Embedded { path: other, .. } if *other == path);
+            if !below.is_empty() || !reasons.iter().any(is_listed_here) {
+                reasons.push(Reason::Embedded { path, reasons: below });
+            }
         }
         reasons
     }
 
-    fn child_reason(&mut self, old: &Child<'o>, new: &Child<'n>) -> Option<Reason> {
+    /// Returns the name of an embedded path, and the reasons that are not listed yet; `None` if it has not changed.
+    fn child_reasons(&mut self, old: &Child<'o>, new: &Child<'n>) -> Option<(String, Vec<Reason>)> {
         let path = new.name.as_str().to_owned();
         let key = (old.instance, new.instance);
         if let Some(is_changed) = self.known.get(&key) {
-            return is_changed.then(|| Reason::Embedded { path, reasons: Vec::new() });
+            return is_changed.then(|| (path, Vec::new()));
         }
         let reasons = self.path_reasons(Versions { old: old.instance, new: new.instance }, false);
         self.known.insert(key, !reasons.is_empty());
-        (!reasons.is_empty()).then_some(Reason::Embedded { path, reasons })
+        if reasons.is_empty() {
+            return None;
+        }
+        let is_new = self.listed.insert((path.clone(), reasons.iter().map(Reason::first_sentence).collect()));
+        Some((path, if is_new { reasons } else { Vec::new() }))
     }
 
     fn is_same_file(&self, old: SourceFile, new: SourceFile) -> bool {
