@@ -48,6 +48,8 @@ pub struct PathTool {
     pub cutting_length: Option<f64>,
     /// Whether the tool is a slot cutter, which cuts slots that the outlines of parts do not show.
     pub is_slot_cutter: bool,
+    /// Radius in mm of the corners of a bull nose or ball end mill; 0 for other tools.
+    pub corner_radius: f64,
 }
 
 /// Function that finds the tool of a path by the path's name and its O in mm.

@@ -2,16 +2,15 @@
 
 use pathbuild_path::{
     Bars, Curve, Cut, CutElement, EmbeddedPlace, Helix, Item, Line, MAX_WEAK_BRIDGE, PartCut, PartSweep,
-    Path, PathCuts, PlacedSubpath, Placement, Role, SegmentKind, Shape, StandingBar, TipMove, WalkedPath, Xy,
-    approx,
+    Path, PathCuts, PathTool, PlacedSubpath, Placement, Role, SegmentKind, Shape, StandingBar, TipMove,
+    WalkedPath, Xy, approx,
 };
 
 use crate::chain::last_pass;
 use crate::mill::{BarPlan, Section, axis_circle, last_turns};
 
-/// Returns the cuts of a path without those of embedded paths, in the coordinates of its drawing. `is_slot` states whether a slot cutter mills the
-/// path.
-pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible: bool) -> PathCuts {
+/// Returns the cuts of a path without those of embedded paths, in the coordinates of its drawing. `tool` is the configured tool of the path.
+pub fn part_cuts(path: &Path, walked: &WalkedPath, tool: Option<&PathTool>, is_compatible: bool) -> PathCuts {
     let drawn = path.drawn.elements.len();
     let (elements, cuts) = (Vec::with_capacity(drawn), Vec::with_capacity(drawn));
     let mut collector = CutCollector { path, numbers: vec![None; drawn], elements, cuts };
@@ -55,7 +54,8 @@ pub fn part_cuts(path: &Path, walked: &WalkedPath, is_slot: bool, is_compatible:
         name: path.name.clone(),
         radius: path.tool / 2.0,
         thickness: path.thickness,
-        is_slot,
+        is_slot: tool.is_some_and(|tool| tool.is_slot_cutter),
+        corner_radius: tool.map_or(0.0, |tool| tool.corner_radius),
         elements: collector.elements,
         cuts: collector.cuts,
         sweeps,

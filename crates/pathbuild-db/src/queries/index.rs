@@ -493,8 +493,7 @@ pub(super) fn cuts_of(db: &dyn Db, path: &Path, walked: &WalkedPath) -> Option<P
     let settings = Settings::get(db);
     let is_compatible = settings.reading(db).compatible;
     let tool = settings.language(db).tools.of(path.name.as_str(), path.tool);
-    let is_slot = tool.is_some_and(|tool| tool.is_slot_cutter);
-    catch_bugs(|| part_cuts(path, walked, is_slot, is_compatible)).ok()
+    catch_bugs(|| part_cuts(path, walked, tool.as_ref(), is_compatible)).ok()
 }
 
 /// Turns errors about parts into warnings in compatible mode.

@@ -31,6 +31,25 @@ fn a_plate_without_bars_is_loose_unless_something_else_holds_it() {
     assert_eq!(held.codes(&[("1234.1P.dxf", &drawing)]), [""; 0]);
 }
 
+/// With B-0.2, a corner radius of 0.3 mm narrows the cut by 0.017 mm at the lower face, and one of 0.4 mm by 0.054 mm.
+#[test]
+fn a_round_tip_leaves_a_foot() {
+    let feet = |corner_radius: f64, drawing: &str| {
+        let test = PartTest { corner_radius, ..PartTest::default() };
+        let found = test.diagnostics(&[("1234.1P.dxf", drawing)]);
+        assert!(found.iter().all(|found| found.text(Lang::En).starts_with("the round tip")), "{found:?}");
+        found.iter().map(|found| (number(found, "thickness") * 1000.0).round()).collect::<Vec<_>>()
+    };
+    for corner_radius in [0.0, 0.2, 0.3] {
+        assert_eq!(feet(corner_radius, &plate("bars")), [0.0; 0], "{corner_radius}");
+    }
+    // The holes and the four sides.
+    assert_eq!(feet(0.4, &plate("bars")), [54.0; 6]);
+    assert_eq!(feet(1.0, &plate("bars")), [400.0; 6]);
+    assert_eq!(feet(1.0, &plate("bars").replace("B-0.2", "B0")), [1000.0; 6]);
+    assert_eq!(feet(0.5, &plate("bars").replace("B-0.2", "B-0.5")), [0.0; 0]);
+}
+
 /// A ring in an opening encloses waste, which needs no support bars, unless the opening belongs to a part of another path.
 #[test]
 fn a_ring_in_an_opening_needs_no_bars() {

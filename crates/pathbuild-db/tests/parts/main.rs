@@ -29,13 +29,21 @@ struct PartTest<'t> {
     /// Regular expression of the key `part`; `None` if the key is not set.
     pattern: Option<&'t str>,
     tolerance: f64,
+    /// Radius in mm of the corners of all cutters.
+    corner_radius: f64,
     is_held_otherwise: bool,
     is_compatible: bool,
 }
 
 impl Default for PartTest<'_> {
     fn default() -> Self {
-        Self { pattern: Some("Part"), tolerance: 0.02, is_held_otherwise: false, is_compatible: false }
+        Self {
+            pattern: Some("Part"),
+            tolerance: 0.02,
+            corner_radius: 0.0,
+            is_held_otherwise: false,
+            is_compatible: false,
+        }
     }
 }
 
@@ -68,7 +76,8 @@ impl PartTest<'_> {
     }
 
     fn database(&self, files: &[(&str, &str)]) -> Database {
-        let tool = |path: &str, diameter: f64| {
+        let corner_radius = self.corner_radius;
+        let tool = move |path: &str, diameter: f64| {
             let is_slot_cutter = path.ends_with('S') && (diameter - 2.0).abs() < 1e-9;
             Some(PathTool {
                 name: "mill".into(),
@@ -76,6 +85,7 @@ impl PartTest<'_> {
                 chip_load: None,
                 cutting_length: None,
                 is_slot_cutter,
+                corner_radius,
             })
         };
         let system = Arc::new(MemorySystem::default());

@@ -50,6 +50,13 @@ messages! {
         help_en: "draw the path at a distance of half of O from the outline; to leave an allowance on purpose, include it in the outline",
         help_de: "den Pfad im Abstand von O/2 neben den Umriss zeichnen; soll ein Aufmaß bleiben, das Teil damit zeichnen",
     }
+    /// Material left at the lower edge of a part by a bull nose or ball end mill.
+    ROUND_TIP: LeftoverAtPart {
+        en: "the round tip of the cutter leaves up to {thickness} mm of material at the lower edge of the part, from {from} to {to}, over {length} mm (places: {count}): the cut ends at Z{height}",
+        de: "die runde Stirn des Fräsers lässt an der Unterkante des Teils, von {from} bis {to}, auf {length} mm, bis zu {thickness} mm Material stehen (Stellen: {count}): der Schnitt endet bei Z{height}",
+        help_en: "set B to {bottom} or below, so that the cutter goes through the plate with its full diameter, or use a cutter with a flat tip",
+        help_de: "B auf {bottom} oder darunter setzen, damit der Fräser mit vollem Durchmesser durch die Platte geht, oder einen Fräser mit flacher Stirn nehmen",
+    }
     /// A cut along the outline of a part that does not go through the material.
     NOT_CUT_THROUGH: LeftoverAtPart {
         en: "the cut along the outline of the part, from {from} to {to}, over {length} mm, does not go through: it ends at Z{height} (places: {count})",

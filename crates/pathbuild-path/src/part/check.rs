@@ -274,7 +274,7 @@ impl<'s> PartCheck<'s> {
         }
         let mut found: Vec<(usize, Diagnostic)> = Vec::new();
         for ((path, element, _), stretches) in of_elements {
-            let problem = leftover_problem(&stretches);
+            let problem = leftover_problem(&stretches, self.cuts.paths[path].corner_radius);
             found.extend(problem.map(|problem| (path, self.cuts.paths[path].at_element(element, problem))));
         }
         found.extend(unreachable.iter().map(|UnreachableOutline { at, length, path, element }| {
@@ -361,11 +361,15 @@ fn gouge_problem(gouge: &Gouge, radius: f64, is_circle: bool) -> Diagnostic {
 }
 
 /// Returns PB215 for the material left beside an element, reported at the longest of these stretches. `None` if there are no stretches.
-fn leftover_problem(stretches: &[&Leftover]) -> Option<Diagnostic> {
+fn leftover_problem(stretches: &[&Leftover], corner_radius: f64) -> Option<Diagnostic> {
     let longest =
         stretches.iter().reduce(|best, next| if best.is_exceeded_by(next) { next } else { best })?;
     let problem = match longest.beside {
         Beside::ThroughCut => Diagnostic::new(&messages::LEFTOVER).with("thickness", longest.thickness),
+        Beside::RoundTip(height) => Diagnostic::new(&messages::ROUND_TIP)
+            .with("thickness", longest.thickness)
+            .with("height", height)
+            .with("bottom", -corner_radius),
         Beside::ShallowCut(height) => Diagnostic::new(&messages::NOT_CUT_THROUGH).with("height", height),
         Beside::Sweep => Diagnostic::new(&messages::SWEEP_ALONG_OUTLINE),
     };
@@ -419,6 +423,7 @@ mod tests {
             radius: 1.0,
             thickness: 2.0,
             is_slot: false,
+            corner_radius: 0.0,
             elements: (0..4).map(element).collect(),
             cuts: (0..).zip(ways).map(cut).collect(),
             sweeps: Vec::new(),

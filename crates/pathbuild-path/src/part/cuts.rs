@@ -22,6 +22,8 @@ pub struct PathCuts {
     pub thickness: f64,
     /// Whether the path is milled with a slot cutter.
     pub is_slot: bool,
+    /// Corner radius of the cutter in mm; 0 for a flat tip.
+    pub corner_radius: f64,
     /// The elements of the path that cut, then those of its sweeps.
     pub elements: Vec<CutElement>,
     /// The moves in the material, as if each element were milled in a single pass.

@@ -46,6 +46,8 @@ pub(super) struct Leftover {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Beside {
     ThroughCut,
+    /// A through cut whose full width reaches the outline only above the plate's lower face, with its lowest height in mm.
+    RoundTip(f64),
     /// A cut that does not go through the plate, with its lowest height in mm.
     ShallowCut(f64),
     Sweep,
@@ -302,9 +304,20 @@ impl<'s> LeftoverSearch<'s> {
                 continue;
             }
             let way = supported.unwrap_or(through);
-            add_stretches_within(curve.curve, &way, cut.radius + margin, &mut found);
+            add_stretches_within(curve.curve, &way, self.lower_radius(cut) + margin, &mut found);
         }
         join_stretches(found, JOIN_GAP)
+    }
+
+    /// Returns half the width in mm of a cut at the plate's lower face. It is less than that of the cutter if the round corners of the tip end there.
+    fn lower_radius(&self, cut: &IndexedCut<'_>) -> f64 {
+        let corner = self.cuts.paths[cut.path].corner_radius;
+        let above = corner + cut.element(self.cuts).lowest.min(0.0);
+        if above <= 0.0 {
+            cut.radius
+        } else {
+            cut.radius - corner + libm::sqrt(corner * corner - above * above)
+        }
     }
 
     /// Returns the stretches of a curve near a cut beside the part: within O of a cut that goes through the plate, or reached by a cut that does not.
@@ -502,6 +515,7 @@ impl<'s> LeftoverSearch<'s> {
         let sample = |number| place(from + length * (f64::from(number) + 0.5) / f64::from(SAMPLES));
         let thickness = (0..SAMPLES).map(sample).map(|at| self.distance(at)).fold(0.0, f64::max);
         let is_through = nearest.through().is_some();
+        let foot = nearest.radius - self.lower_radius(nearest);
         Some(Leftover {
             nest: self.part.part.nest(ring),
             path: nearest.path,
@@ -510,10 +524,12 @@ impl<'s> LeftoverSearch<'s> {
             to: place(to),
             length,
             thickness,
-            beside: if is_through {
-                Beside::ThroughCut
-            } else {
+            beside: if !is_through {
                 Beside::ShallowCut(nearest.cut.way.lowest())
+            } else if foot > 0.0 && thickness - foot <= self.tolerance {
+                Beside::RoundTip(nearest.element(self.cuts).lowest)
+            } else {
+                Beside::ThroughCut
             },
             material: LeftMaterial {
                 outline: self.part.ring_section(ring, (from, to)),
@@ -561,9 +577,9 @@ impl<'s> LeftoverSearch<'s> {
         }
     }
 
-    /// Returns the distance in mm from a point of an outline to the edge of the nearest cut of any depth, even above a bar.
+    /// Returns the distance in mm, at the plate's lower face, from a point of an outline to the edge of the nearest cut of any depth, even above a bar.
     fn distance(&self, at: Xy) -> f64 {
-        let distance = |cut: &IndexedCut<'_>| cut.cut.way.curve.distance_to(at) - cut.radius;
+        let distance = |cut: &IndexedCut<'_>| cut.cut.way.curve.distance_to(at) - self.lower_radius(cut);
         let near = self.cuts.near(square(at, 0.0)).map(|number| &self.cuts.cuts[number]);
         let near = near.filter(|cut| self.contours[cut.path]).map(|cut| (distance(cut), cut.radius));
         // A cut whose box is near may be farther away than one whose box is not.

@@ -597,6 +597,7 @@ fn a_slot_cutter_stays_at_its_depth() {
         chip_load: None,
         cutting_length: None,
         is_slot_cutter,
+        corner_radius: 0.0,
     };
     let doubts = |start: &str, second: &str, tool: Option<PathTool>| {
         let tools = PathTools::new(move |_, _| tool.clone());

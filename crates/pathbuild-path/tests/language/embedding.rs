@@ -132,7 +132,14 @@ fn the_tool_is_that_of_the_embedding_path() {
             let is_inner = path == "1111.1P";
             let name = if is_inner { of_inner } else { "mill" };
             let (name, is_named) = (name.into(), is_named && is_inner);
-            Some(PathTool { name, is_named, chip_load: None, cutting_length: None, is_slot_cutter: false })
+            Some(PathTool {
+                name,
+                is_named,
+                chip_load: None,
+                cutting_length: None,
+                is_slot_cutter: false,
+                corner_radius: 0.0,
+            })
         });
         let outer = project("T5 O3 I1 B0 Mx", &format!(">1111.1P O{inner_tool}"));
         let inner = path(&format!("T5 O{inner_tool} I1 B0 Mx"), "mill 0,0 20,0\nend 20,0");
@@ -167,6 +174,7 @@ fn a_project_may_have_its_own_cutter_of_the_same_shape() {
                 chip_load: None,
                 cutting_length: None,
                 is_slot_cutter,
+                corner_radius: 0.0,
             })
         });
         let outer = project("T5 O3 I1 B0 Mx", ">1111.1P O3");

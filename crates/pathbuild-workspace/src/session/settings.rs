@@ -50,6 +50,7 @@ fn path_tools(context: &Workspace) -> PathTools {
         chip_load: tool.chip_load(),
         cutting_length: tool.cutting_length(),
         is_slot_cutter: tool.shape == types::CutterShape::Slot,
+        corner_radius: tool.cutter().corner_radius.unwrap_or_default(),
     };
     let tools: Vec<PathTool> = context.settings.tables.tools.value.iter().map(tool).collect();
     if tools.is_empty() {
