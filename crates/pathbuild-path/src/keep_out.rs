@@ -1,5 +1,8 @@
 //! Clamps: their outlines and heights, and the search for those that the tool hits. (book: language/keep-outs)
 
+use std::iter;
+
+use either::Either;
 use pathbuild_diagnostic::Diagnostic;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, Envelope as _, RTree};
@@ -211,20 +214,21 @@ impl OutlinePiece {
 }
 
 /// Returns the monotone pieces of a curve: arcs are split at their highest and lowest points.
-fn monotone(curve: &Curve) -> Vec<Curve> {
-    let Curve::Arc(arc) = curve else { return vec![*curve] };
+fn monotone(curve: &Curve) -> impl Iterator<Item = Curve> {
+    let Curve::Arc(arc) = curve else { return Either::Left(iter::once(*curve)) };
     let out = arc.start - arc.centre;
     let start = libm::atan2(out.y, out.x).to_degrees();
+    // The angle from the start to a point of the circle; 0 for a point that is not on the arc.
     let ahead = |angle: f64| {
         let ahead = if arc.clockwise { start - angle } else { angle - start };
-        ahead - 360.0 * (ahead / 360.0).floor()
+        let ahead = ahead - 360.0 * (ahead / 360.0).floor();
+        if ahead < arc.degrees { ahead } else { 0.0 }
     };
-    let mut cuts = vec![0.0];
-    cuts.extend([90.0, 270.0].map(ahead).into_iter().filter(|angle| 0.0 < *angle && *angle < arc.degrees));
-    cuts.push(arc.degrees);
-    cuts.sort_by(f64::total_cmp);
+    let (highest, lowest) = (ahead(90.0), ahead(270.0));
+    let ends = [0.0, highest.min(lowest), highest.max(lowest), arc.degrees];
     let along = |degrees: f64| degrees.to_radians() * arc.radius;
-    cuts.windows(2).map(|cut| curve.section(along(cut[0]), along(cut[1]))).collect()
+    let pieces = [0, 1, 2].into_iter().filter(move |piece| ends[*piece] < ends[piece + 1]);
+    Either::Right(pieces.map(move |piece| curve.section(along(ends[piece]), along(ends[piece + 1]))))
 }
 
 /// Returns the bounding box of a curve, or of the whole circle for an arc, widened by `margin`.

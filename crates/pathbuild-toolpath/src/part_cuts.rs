@@ -154,7 +154,7 @@ fn bars(path: &Path) -> Vec<StandingBar> {
                 };
                 let of_segment = SegmentBars { bars, bottom: cut.bottom, curve, circle: None };
                 halves.extend([curve.start(), curve.end()]);
-                all.extend(of_segment.places(path.tool));
+                of_segment.add_places(path.tool, &mut all);
             }
             SegmentKind::Helix(number) => {
                 let helix = &path.helices[*number as usize];
@@ -162,7 +162,7 @@ fn bars(path: &Path) -> Vec<StandingBar> {
                 let curve = drawn_circle(path, helix);
                 halves.extend([curve.start(), curve.end()]);
                 let circle = Some(helix.centre);
-                all.extend(SegmentBars { bars, bottom: *bottom, curve, circle }.places(path.tool));
+                SegmentBars { bars, bottom: *bottom, curve, circle }.add_places(path.tool, &mut all);
             }
             SegmentKind::Hole(_) | SegmentKind::Sweep { .. } | SegmentKind::Subpath(_) => {}
         }
@@ -194,10 +194,8 @@ struct BarPlace {
 }
 
 impl SegmentBars<'_> {
-    fn places(&self, tool: f64) -> Vec<BarPlace> {
+    fn add_places(&self, tool: f64, all: &mut Vec<BarPlace>) {
         let length = self.curve.length();
-        let plan = BarPlan::new(self.bars, self.bottom, tool, length);
-        let spans = plan.map_or_else(|| vec![(0.0, length)], |plan| plan.bars().collect());
         let place = |(from, to)| BarPlace {
             curve: self.curve,
             from,
@@ -207,7 +205,10 @@ impl SegmentBars<'_> {
             length: self.bars.length,
             circle: self.circle,
         };
-        spans.into_iter().map(place).collect()
+        match BarPlan::new(self.bars, self.bottom, tool, length) {
+            Some(plan) => all.extend(plan.bars().map(place)),
+            None => all.push(place((0.0, length))),
+        }
     }
 }
 

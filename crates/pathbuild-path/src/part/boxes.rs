@@ -41,7 +41,7 @@ impl BoxIndex {
     }
 
     /// Returns the numbers of the boxes that intersect `extent`, in ascending order, so that no result depends on the shape of the tree.
-    pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> impl DoubleEndedIterator<Item = usize> {
+    pub(crate) fn near(&self, extent: AABB<[f64; 2]>) -> impl Iterator<Item = usize> {
         match self {
             Self::Few(boxes) => Either::Left(boxes.near(extent)),
             Self::Many(tree) => {
@@ -61,12 +61,13 @@ impl GroupedBoxes {
         Self { groups: boxes.chunks(GROUP_SIZE).map(merged).collect(), boxes }
     }
 
-    fn near(&self, extent: AABB<[f64; 2]>) -> impl DoubleEndedIterator<Item = usize> {
-        let groups = self.boxes.chunks(GROUP_SIZE).zip(&self.groups).enumerate();
-        let near = groups.filter(move |(_, (_, around))| around.intersects(&extent));
-        near.flat_map(move |(group, (boxes, _))| {
-            let near = boxes.iter().enumerate().filter(move |(_, own)| own.intersects(&extent));
-            near.map(move |(number, _)| GROUP_SIZE * group + number)
+    fn near(&self, extent: AABB<[f64; 2]>) -> impl Iterator<Item = usize> {
+        let mut is_group_near = false;
+        (0..self.boxes.len()).filter(move |number| {
+            if number.is_multiple_of(GROUP_SIZE) {
+                is_group_near = self.groups[number / GROUP_SIZE].intersects(&extent);
+            }
+            is_group_near && self.boxes[*number].intersects(&extent)
         })
     }
 }

@@ -133,7 +133,9 @@ impl<'s> PartCheck<'s> {
     fn new(part: &'s PreparedPart<'s>, cuts: &'s CutIndex<'s>, settings: &'s PartSettings) -> Self {
         let judged = classify_cuts(part, cuts, cuts.near(part.extent()), settings.tolerance);
         let rings = 0..part.part.rings.len();
-        let near: Vec<NearPaths> = rings.map(|ring| near_paths(part.part, ring, cuts, &judged)).collect();
+        let may_cut: Vec<bool> = cuts.paths.iter().map(|path| part.part.may_belong_to(&path.name)).collect();
+        let near = |ring: usize| near_paths(part.part, ring, &may_cut, cuts, &judged);
+        let near: Vec<NearPaths> = rings.map(near).collect();
         let is_owner = |path: usize| near.iter().any(|near| near.paths[path]);
         let owners: Vec<bool> = (0..cuts.paths.len()).map(is_owner).collect();
         let contours = owners.iter().zip(&cuts.contours).map(|(own, contour)| *own && *contour).collect();
@@ -319,8 +321,14 @@ struct NearPaths {
     is_cut: bool,
 }
 
-fn near_paths(part: &Part, ring: usize, cuts: &CutIndex<'_>, judged: &ClassifiedCuts<'_>) -> NearPaths {
-    let may_cut: Vec<bool> = cuts.paths.iter().map(|path| part.may_belong_to(&path.name)).collect();
+/// `may_cut`: for each path, whether the part may belong to it.
+fn near_paths(
+    part: &Part,
+    ring: usize,
+    may_cut: &[bool],
+    cuts: &CutIndex<'_>,
+    judged: &ClassifiedCuts<'_>,
+) -> NearPaths {
     let mut near = NearPaths { paths: vec![false; may_cut.len()], is_cut: false };
     for curve in &part.rings[ring].curves {
         for number in cuts.near(widened_box(curve, 0.0)) {

@@ -42,6 +42,8 @@ pub(super) struct BrokenOutline {
 /// The outlines of a layer, sorted into those that can be compared with cuts and those that cannot.
 pub(super) struct SortedOutlines {
     pub(super) rings: Vec<NumberedCurves>,
+    /// For each ring, the rings around it, from the outermost.
+    pub(super) around: Vec<Vec<usize>>,
     pub(super) broken: Vec<BrokenOutline>,
     /// Open chains that are not attached to a ring: outlines with a large gap, or lines that belong to no outline.
     pub(super) open: Vec<NumberedCurves>,
@@ -55,12 +57,13 @@ impl SortedOutlines {
     pub(super) fn new(graph: &Graph) -> Self {
         let mut rings = graph.rings();
         rings.sort_by_key(|ring| ring[0].0);
-        let nesting = nesting(&rings.iter().map(curves_of).collect::<Vec<_>>());
-        let is_outermost: Vec<bool> = nesting.iter().map(Vec::is_empty).collect();
+        let curves: Vec<Vec<Curve>> = rings.iter().map(curves_of).collect();
+        let mut around = nesting(&curves);
+        let is_outermost: Vec<bool> = around.iter().map(Vec::is_empty).collect();
         let mut broken = Vec::new();
         let mut is_left_out = vec![false; rings.len()];
         for (number, ring) in rings.iter().enumerate() {
-            let Some(crossing) = self_crossing(&curves_of(ring)) else { continue };
+            let Some(crossing) = self_crossing(&curves[number]) else { continue };
             is_left_out[number] = is_outermost[number];
             broken.push(BrokenOutline::crossing_ring(&messages::OUTLINE_CROSSES_ITSELF, ring, &crossing));
         }
@@ -73,8 +76,8 @@ impl SortedOutlines {
                 ));
             }
         }
-        let outermost = rings.iter().zip(&is_outermost).filter(|(_, is_outermost)| **is_outermost);
-        let rims = OutermostRings::new(outermost.map(|(ring, _)| curves_of(ring)).collect());
+        let outermost = curves.into_iter().zip(&is_outermost).filter(|(_, is_outermost)| **is_outermost);
+        let rims = OutermostRings::new(outermost.map(|(ring, _)| ring).collect());
         let open_chains = graph.open_chains();
         let hanging = if open_chains.is_empty() { Vec::new() } else { graph.hanging_chains() };
         let mut curves_of_halves = BTreeSet::new();
@@ -99,17 +102,20 @@ impl SortedOutlines {
         let hanging: BTreeSet<usize> = hanging.iter().flatten().map(|(number, _)| *number).collect();
         open.retain(|chain| !chain.iter().any(|(number, _)| hanging.contains(number)));
         broken.extend(overshooting);
-        let mut is_kept = is_left_out.into_iter().map(|is_left_out| !is_left_out);
-        rings.retain(|_| is_kept.next().unwrap_or(true));
+        if is_left_out.contains(&true) {
+            let mut is_kept = is_left_out.into_iter().map(|is_left_out| !is_left_out);
+            rings.retain(|_| is_kept.next().unwrap_or(true));
+            around = nesting(&rings.iter().map(curves_of).collect::<Vec<_>>());
+        }
         let boxes = BoxIndex::new(broken.iter().map(|broken| broken.border.extent()));
         let overlong = broken.iter().filter_map(|broken| broken.overlong).collect();
-        Self { rings, broken, open, boxes, overlong }
+        Self { rings, around, broken, open, boxes, overlong }
     }
 
     /// Whether a broken outline encloses a ring, which is then not the outer edge of a part.
-    pub(super) fn is_enclosed(&self, ring: &[Curve]) -> bool {
-        let mut near = self.boxes.near(square(ring[0].start(), 0.0));
-        near.any(|number| self.broken[number].border.encloses(ring))
+    pub(super) fn is_enclosed(&self, ring: &NumberedCurves) -> bool {
+        let mut near = self.boxes.near(square(ring[0].1.start(), 0.0));
+        near.any(|number| self.broken[number].border.encloses(&curves_of(ring)))
     }
 
     /// Whether these are the ends of a chain that crosses itself: they are too long, and there is no gap.

@@ -103,6 +103,9 @@ impl<'n> NearLayer<'n> {
                 first.is_some_and(|first| language.may_begin_with(first))
             })
             .collect();
+        if names.is_empty() {
+            return None;
+        }
         let similar: Vec<String> = names.iter().flat_map(|name| similar_names(name)).collect();
         let letters: String = language.patterns_beside_paths().map(LayerPattern::letters).collect();
         let longer: Vec<String> = names.iter().flat_map(|name| with_another_letter(name, &letters)).collect();

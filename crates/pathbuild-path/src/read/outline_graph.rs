@@ -32,12 +32,13 @@ impl Graph {
         let ends: Vec<Xy> = curves.iter().flat_map(|curve| [curve.start(), curve.end()]).collect();
         let boxes = BoxIndex::new(ends.iter().map(|at| square(*at, JOIN_DISTANCE)));
         let mut tails = vec![usize::MAX; ends.len()];
+        let mut open = Vec::new();
         for first in 0..ends.len() {
             if tails[first] != usize::MAX {
                 continue;
             }
             tails[first] = first;
-            let mut open = vec![first];
+            open.push(first);
             while let Some(end) = open.pop() {
                 for other in boxes.near(square(ends[end], 0.0)) {
                     if tails[other] == usize::MAX && (ends[other] - ends[end]).norm() <= JOIN_DISTANCE {
@@ -60,17 +61,23 @@ impl Graph {
 
     /// Drops curves that are drawn twice. Curves are equal if their nodes and their midpoints are equal.
     fn drop_duplicates(&mut self) {
-        let mut known: BTreeMap<(usize, usize), Vec<Xy>> = BTreeMap::new();
-        self.numbers.retain(|number| {
+        let nodes = |number: &usize| {
             let (one, other) = (self.tails[2 * number], self.tails[2 * number + 1]);
-            let at = self.curves[*number].middle();
-            let middles = known.entry((one.min(other), one.max(other))).or_default();
-            let is_new = middles.iter().all(|middle| (middle - at).norm() > JOIN_DISTANCE);
-            if is_new {
-                middles.push(at);
+            (one.min(other), one.max(other))
+        };
+        let mut all = std::mem::take(&mut self.numbers);
+        all.sort_by_key(nodes);
+        for parallel in all.chunk_by(|one, other| nodes(one) == nodes(other)) {
+            let first = self.numbers.len();
+            for number in parallel {
+                let at = self.curves[*number].middle();
+                let differs = |known: &usize| (self.curves[*known].middle() - at).norm() > JOIN_DISTANCE;
+                if self.numbers[first..].iter().all(differs) {
+                    self.numbers.push(*number);
+                }
             }
-            is_new
-        });
+        }
+        self.numbers.sort_unstable();
     }
 
     /// Returns the point where a half-edge begins.
@@ -177,12 +184,12 @@ impl Graph {
     /// Returns the faces that these curves bound, as half-edges; a face lies on the left of its half-edges.
     fn faces_of(&self, curves: &(impl Iterator<Item = usize> + Clone)) -> Vec<Vec<usize>> {
         let half_edges = || curves.clone().flat_map(|curve| [2 * curve, 2 * curve + 1]);
-        let mut outgoing: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for half_edge in half_edges() {
-            outgoing.entry(self.tails[half_edge]).or_default().push(half_edge);
-        }
+        let node = |half_edge: &usize| self.tails[*half_edge];
+        let mut outgoing: Vec<usize> = half_edges().collect();
+        outgoing.sort_by_key(node);
         // The order round a node matters only if three or more half-edges begin there.
-        for edges in outgoing.values_mut().filter(|edges| edges.len() > 2) {
+        let at_nodes = outgoing.chunk_by_mut(|one, other| node(one) == node(other));
+        for edges in at_nodes.filter(|edges| edges.len() > 2) {
             let shortest =
                 edges.iter().map(|edge| self.curves[edge / 2].length()).fold(10.0 * JOIN_DISTANCE, f64::min);
             let angle = |half_edge: usize| {
@@ -194,7 +201,9 @@ impl Graph {
         }
         let next = |half_edge: usize| {
             let back = half_edge ^ 1;
-            let edges = &outgoing[&self.tails[back]];
+            let first = outgoing.partition_point(|edge| node(edge) < node(&back));
+            let end = outgoing.partition_point(|edge| node(edge) <= node(&back));
+            let edges = &outgoing[first..end];
             let place = edges.iter().position(|edge| *edge == back).unwrap_or_default();
             edges[(place + edges.len() - 1) % edges.len()]
         };

@@ -16,7 +16,7 @@ use crate::read::broken_outlines::{SortedOutlines, ends_of_chain, gap_problem};
 use crate::read::entities::{AnyText, anchor_of, at_entity, curve, xy};
 use crate::read::likely_parameters::may_be_stray_text;
 use crate::read::outline_graph::Graph;
-use crate::read::rings::{JOIN_DISTANCE, curves_of, nesting};
+use crate::read::rings::{JOIN_DISTANCE, curves_of};
 
 /// Finds the parts of a drawing. At least the layers with parts must have been read.
 pub fn parts(drawing: &Drawing, language: &Language) -> DrawnParts {
@@ -161,9 +161,7 @@ impl<'d> OutlineLayers<'d> {
         outlines: &SortedOutlines,
         found: &mut DrawnParts,
     ) {
-        let rings = &outlines.rings;
-        let bare: Vec<Vec<Curve>> = rings.iter().map(curves_of).collect();
-        let nesting = nesting(&bare);
+        let SortedOutlines { rings, around, .. } = outlines;
         let place = |ring: usize| {
             let (number, curve) = &rings[ring][0];
             let point = curve.start();
@@ -175,26 +173,23 @@ impl<'d> OutlineLayers<'d> {
             )
             .place
         };
-        let is_rim = |ring: &usize| nesting[*ring].is_empty() && !outlines.is_enclosed(&bare[*ring]);
-        for outer in (0..bare.len()).filter(is_rim) {
-            let mut part = Part {
-                layer: place(outer).layer.unwrap_or_default().into(),
-                paths: paths.cloned(),
-                rings: vec![PartRing { curves: bare[outer].clone(), around: Vec::new() }],
-            };
-            let mut places: Vec<Place> = vec![place(outer)];
-            let mut numbers: BTreeMap<usize, usize> = BTreeMap::new();
+        let is_rim = |ring: &usize| around[*ring].is_empty() && !outlines.is_enclosed(&rings[*ring]);
+        for outer in (0..rings.len()).filter(is_rim) {
             let openings: Vec<usize> =
-                (0..bare.len()).filter(|ring| nesting[*ring].first() == Some(&outer)).collect();
-            numbers.extend(openings.iter().copied().zip(1..));
-            for opening in openings {
-                let curves = bare[opening].iter().rev().map(|curve| curve.reversed()).collect();
+                (0..rings.len()).filter(|ring| around[*ring].first() == Some(&outer)).collect();
+            let number = |ring: &usize| Some(openings.binary_search(ring).ok()? + 1);
+            let opening = |opening: &usize| PartRing {
+                curves: rings[*opening].iter().rev().map(|(_, curve)| curve.reversed()).collect(),
                 // Where openings cross each other, the outer one may be in another part.
-                let around = nesting[opening].iter().filter_map(|ring| numbers.get(ring).copied());
-                part.rings.push(PartRing { curves, around: around.collect() });
-                places.push(place(opening));
-            }
-            found.parts.push(part);
+                around: around[*opening].iter().filter_map(number).collect(),
+            };
+            let rim = PartRing { curves: curves_of(&rings[outer]), around: Vec::new() };
+            let places: Vec<Place> = [outer].iter().chain(&openings).copied().map(place).collect();
+            found.parts.push(Part {
+                layer: places[0].layer.as_deref().unwrap_or_default().into(),
+                paths: paths.cloned(),
+                rings: [rim].into_iter().chain(openings.iter().map(opening)).collect(),
+            });
             found.places.push(places);
         }
     }

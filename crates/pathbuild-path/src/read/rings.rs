@@ -80,9 +80,9 @@ pub(super) fn self_crossing(curves: &[Curve]) -> Option<Crossing> {
     let boxes = BoxIndex::new(curves.iter().map(|curve| widened_box(curve, 0.0)));
     let mut compared = 0;
     (0..curves.len()).find_map(|first| {
-        let near = boxes.near(widened_box(&curves[first], JOIN_DISTANCE)).rev();
-        let mut later = near.take_while(|second| *second > first);
-        later.find_map(|second| {
+        let near = boxes.near(widened_box(&curves[first], JOIN_DISTANCE));
+        let later: Vec<usize> = near.filter(|second| *second > first).collect();
+        later.into_iter().rev().find_map(|second| {
             compared += 1;
             if compared > MAX_COMPARED_PAIRS {
                 return None;
