@@ -185,7 +185,7 @@ impl Diagnostic {
         }
     }
 
-    /// Sets the line and the handle of the element, which the source map contains.
+    /// Sets the line at which the element begins in the file, and its handle. Both come from the source map.
     pub fn locate(&mut self, line: u32, handle: Option<Handle>) {
         self.place.line = Some(line);
         self.place.handle = handle;

@@ -42,7 +42,7 @@ pub fn refusal(directory: &Utf8Path) -> Option<&'static Text> {
     }
 }
 
-/// Reads a regular file that belongs to this user; returns `None` if there is no such file.
+/// Reads a regular file that belongs to this user; returns `None` if nothing exists at this path.
 ///
 /// # Errors
 /// If the file cannot be read, is not a regular file of this user, or is larger than `limit` bytes.

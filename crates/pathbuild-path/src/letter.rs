@@ -123,7 +123,7 @@ impl Letters {
 /// Letters that apply to a whole chain and are given by its first segment.
 pub(crate) const CHAIN_LETTERS: Letters = Letters::of(&[Letter::I, Letter::W]);
 
-/// The class of an element with respect to parameters: a row of the table.
+/// The class of an element, which determines its permitted letters: a row of the table in the book.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "glossary in book: reference/glossary")]
 pub enum ElementClass {

@@ -85,7 +85,7 @@ pub(super) struct Scatter {
 }
 
 impl Scatter {
-    /// Computes the distribution of one or more points.
+    /// Computes the mean and the second moments of one or more points.
     pub(super) fn new(points: &[Xy]) -> Self {
         let count = points.len() as f64;
         let sum = points.iter().fold(Vector2::zeros(), |sum, point| sum + point.coords);

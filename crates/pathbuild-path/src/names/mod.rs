@@ -16,7 +16,7 @@ use pattern::{DefaultPattern, Groups, Pattern};
 
 pub use pattern::{LayerPattern, PatternError, name_regex};
 
-/// A path name in the spelling of its layer, with points. Comparison ignores case. Short names are stored inline, since every stage copies them.
+/// A path name, written as on its layer, but with `.` in place of `_`. Comparison ignores case. Short names are stored inline, since every stage copies them.
 #[derive(Clone)]
 pub struct PathName(SmolStr);
 

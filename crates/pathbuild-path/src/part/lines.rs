@@ -11,7 +11,7 @@ use super::prepared::PreparedPart;
 use super::{DrawnParts, Part};
 use crate::geometry::{Curve, Xy};
 
-/// Number of places on a ring at which cuts are looked for.
+/// Number of sample points on an outline at which the check looks for cuts.
 const PLACES: u32 = 32;
 
 impl DrawnParts {

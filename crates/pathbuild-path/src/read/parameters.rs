@@ -241,7 +241,7 @@ impl PathCheck<'_> {
         } else {
             return;
         };
-        // Z of a Z-probe defaults to F of the path.
+        // F and Z of the path are used by its Z-probes, if it has any.
         let of_probes =
             [Letter::F, Letter::Z].into_iter().filter(|_| only_embeds && self.raw.probes.is_empty());
         let unused = letters.iter().copied().chain(of_probes).filter_map(|letter| {

@@ -21,7 +21,7 @@ pub(super) fn comes_before(path: &Path, ends: &Ends, a: usize, b: usize) -> bool
     if near(length, other) { a < b } else { length < other }
 }
 
-/// Returns the order and preference of a segment.
+/// Returns the key by which segments that meet at a point are ordered first: the number from the drawing (N), then the preference for its kind.
 fn rank(path: &Path, segment: usize) -> (f64, u8) {
     let segment = &path.segments[segment];
     (segment.order, segment.preference())

@@ -1,4 +1,4 @@
-//! Executes control texts: runs both phases, and collects the lines that they produce. The caller sets the variables.
+//! Executes control texts: replaces variables, then statements, and collects the resulting lines. The caller sets the variables.
 
 use std::ops::Range;
 

@@ -98,7 +98,7 @@ const ONLY_RADIUS: Text =
 const ONLY_FALSE: Text =
     Text { en: "false: lathes are not supported", de: "false: Drehmaschinen werden nicht unterstützt" };
 
-/// Declares the elements that contain values. Each has its default, the function that reads its value, and its meaning for the book.
+/// Declares the elements that contain values. Each has its default, the function that reads its value, and its description in the book.
 macro_rules! element_options {
     ($($element:literal = $default:literal, $set:expr, $en:literal, $de:literal;)*) => {
         pub(super) static OPTIONS: &[ElementOption] = &[$(ElementOption {

@@ -13,7 +13,7 @@ use super::{DescribedValue, Description, Quantity, Target};
 pub struct Entry {
     /// Name of the entry, for example `$110` or `axes/x/max_travel_mm`.
     pub name: String,
-    /// The text of the value.
+    /// The value as written in the description.
     pub value: String,
     /// Line of the entry, counted from 1, if it is known.
     pub line: Option<u32>,

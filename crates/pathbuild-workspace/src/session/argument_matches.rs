@@ -320,7 +320,7 @@ impl Session<'_> {
         (drawings, problems)
     }
 
-    /// Whether a result of [`library`](Self::library) has drawings, and none of its directories is missing or could not be listed.
+    /// Whether a result of [`library`](Self::library) has drawings and is complete: all of its directories exist and were listed.
     pub(crate) fn is_whole_library(
         &self,
         (drawings, problems): &(Vec<Utf8PathBuf>, Vec<Diagnostic>),

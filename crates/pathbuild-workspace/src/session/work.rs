@@ -72,7 +72,7 @@ impl Session<'_> {
         names.map(|name| self.db.target(file, name.as_str(), role.clone())).collect()
     }
 
-    /// Whether the inputs of targets are traced.
+    /// Whether the session records which files each result depends on, so that results can be cached.
     pub fn is_traced(&self) -> bool {
         self.is_traced
     }
@@ -226,7 +226,7 @@ impl Checker<'_> {
         self.db
     }
 
-    /// Whether the inputs of targets are traced.
+    /// Whether the session records which files each result depends on, so that results can be cached.
     pub fn is_traced(&self) -> bool {
         self.is_traced
     }
