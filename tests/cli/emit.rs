@@ -230,11 +230,21 @@ fn measured_values_of_other_probes_are_kept_unless_forced() {
     let place = Place::of(LIBRARY).file("projects/8002_Z.txt", &values);
     assert_snapshot!(place.run("emit 8002.1P"));
     assert_eq!(written(&place), ["projects/8002_Z.txt"], "nothing of that path is written");
+    // A comparison gives the same advice, also from the cache.
+    let values_compared = |place: &Place| {
+        let run = place.run("emit 8002.1P --check --format concise");
+        ["PB605", "PB528"].map(|code| run.stderr.contains(&format!("8002_Z.txt: error[{code}]")))
+    };
+    for _ in 0..2 {
+        assert_eq!(values_compared(&place), [true, false]);
+    }
     assert_eq!(place.read("projects/8002_Z.txt"), values);
     assert_eq!(place.run("emit 8002.1P --force").status, Some(0));
     assert!(!place.read("projects/8002_Z.txt").contains("5.125"));
+    assert_eq!(values_compared(&place), [false, false]);
     // If nothing was measured, no values are lost.
     let place = Place::of(LIBRARY).file("projects/8002_Z.txt", &nothing_measured);
+    assert_eq!(values_compared(&place), [false, true]);
     assert_eq!(place.run("emit 8002.1P").status, Some(0));
     assert_ne!(place.read("projects/8002_Z.txt"), nothing_measured);
 }

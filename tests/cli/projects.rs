@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{Place, Run, runs};
+use crate::support::{Place, Run, dxf, project, runs};
 use insta::assert_snapshot;
 
 /// A library of components, a project, a fixture project with names as variables, a variable project, and a project with a missing component.
@@ -52,6 +52,43 @@ start 0,50 "T5 MPlate"
 subpath 0,50 40,50 ">1234.1P"
 end 40,50
 "#;
+
+/// The groove of one component cuts into the part of another on the same sheet, and through one of its support bars. The sheet's own check says so
+/// once, however many projects embed the sheet.
+#[test]
+fn cuts_between_the_components_of_a_nested_sheet_are_reported_once() {
+    let folder = project().join("docs/drawings/part");
+    let groove = "layer 1129.1P\nstart 0,0 \"O2 T2 M20x2 I0.5 F150 B-0.2\"\nmill 0,0 0,-20\nend 0,-20\n";
+    let sheet = "layer 7122.1P\nstart 0,0 \"O2 T2 M20x2 S10\"\nsubpath 0,0 40,0 \">1121.1P\"\n\
+                 sweep 40,0 13,32\nsubpath 13,32 13,12 \">1129.1P\"\nend 13,12\n";
+    // The end of the sheet is 17.692 mm from its start. The sheet is turned.
+    let around = |name: &str| {
+        format!(
+            "layer {name}\nstart 0,0 \"O2 T2 M20x2 S10\"\nsubpath 0,0 17.692,0 \">7122.1P\"\nend 17.692,0\n"
+        )
+    };
+    let place = Place::new()
+        .file("pathbuild.toml", fs::read(folder.join("pathbuild.toml")).unwrap())
+        .file("1121.1P.dxf", fs::read(folder.join("1121.1P.dxf")).unwrap())
+        .file("1129.1P.dxf", dxf(groove))
+        .file("7122.1P.dxf", dxf(sheet))
+        .file("8122.1P.dxf", dxf(&around("8122.1P")))
+        .file("8123.1P.dxf", dxf(&around("8123.1P")));
+    let findings = |paths: &str| {
+        let run = place.run(&format!("check {paths} --format concise --no-cache"));
+        let found = ["PB214", "PB218"].map(|code| run.stderr.matches(&format!("[{code}]")).count());
+        assert!(
+            run.stderr.lines().all(|line| line.starts_with("7122.1P.dxf") || line.contains("drawing")),
+            "{run}"
+        );
+        found
+    };
+    let alone = findings("7122.1P");
+    assert_eq!(alone, [1, 1]);
+    for paths in ["8122.1P", "8122.1P 8123.1P", "."] {
+        assert_eq!(findings(paths), alone, "{paths}");
+    }
+}
 
 #[test]
 fn graph_lists_every_embedding_with_its_values() {

@@ -2,15 +2,15 @@
 //! threads.
 //! (book: reference/diagnostics)
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt;
 use std::hash::Hash as Hashed;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::FileKind;
-use pathbuild_diagnostic::messages::outputs;
-use pathbuild_diagnostic::{Code, Diagnostic};
+use pathbuild_diagnostic::messages::{outputs, part};
+use pathbuild_diagnostic::{Code, Diagnostic, Message};
 
 use crate::check::CheckedFile;
 use crate::config::types::{FileSeverities, Level, Pattern, level_in};
@@ -120,11 +120,32 @@ impl Workspace {
 
 /// Returns, for each finding, whether it differs from all earlier ones in more than its trace and notes. Equal findings need not be adjacent, even
 /// if they are sorted: others that differ only in their arguments may lie between them.
+///
+/// The check of a sheet within another sheet finds the same cuts into parts as that of the sheet alone, at other places of the program. Such findings
+/// about an element are kept only if they have the trace of the first one.
 fn first_occurrences<'d>(findings: impl Iterator<Item = &'d Diagnostic>) -> std::vec::IntoIter<bool> {
-    let mut met = HashSet::new();
-    let is_first: Vec<bool> = findings.map(|found| met.insert(identity(found))).collect();
+    let (mut met, mut traces) = (HashSet::new(), HashMap::new());
+    let is_first: Vec<bool> = findings
+        .map(|found| {
+            let is_placed = PLACED_IN_PROGRAM.contains(&found.message);
+            let element = (found.message, &found.file, &found.path, &found.place, found.quoted("other"));
+            let has_first_trace =
+                !is_placed || *traces.entry(element).or_insert(&found.trace) == &found.trace;
+            has_first_trace && met.insert(identity(found))
+        })
+        .collect();
     is_first.into_iter()
 }
+
+/// Messages about the paths of a program, with arguments that depend on their places in it.
+const PLACED_IN_PROGRAM: [&Message; 6] = [
+    &part::GOUGED_NEIGHBOUR,
+    &part::SEVERED_NEIGHBOUR,
+    &part::NEIGHBOURS_BAR_CUT_AWAY,
+    &part::DISPLACED_PATH,
+    &part::RAISED_PATH,
+    &part::CUT_IN_LOOSE_WASTE,
+];
 
 /// Returns the parts of a finding that distinguish it from others. The arguments of a finding about paths nested too deeply are left out: these paths
 /// may be reached from several projects, each with different arguments.

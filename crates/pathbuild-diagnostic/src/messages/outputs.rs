@@ -253,8 +253,8 @@ messages! {
     STALE_ADJUSTED: StaleOutput {
         en: "{name} was made from an older version of {clean}",
         de: "{name} wurde aus einer älteren Fassung von {clean} erzeugt",
-        help_en: "do not mill with it: run `adjust` again with the current probe values; emit --remove-stale removes it",
-        help_de: "nicht damit fräsen: adjust mit den aktuellen Messwerten noch einmal aufrufen; emit --remove-stale entfernt die Datei",
+        help_en: "do not mill with it: run `adjust` again with the current probe values, after emit if {clean} is out of date; emit --remove-stale removes it",
+        help_de: "nicht damit fräsen: adjust mit den aktuellen Messwerten noch einmal aufrufen, vorher emit, falls {clean} veraltet ist; emit --remove-stale entfernt die Datei",
     }
     /// An adjusted program that was edited afterwards, or that lacks the measured heights in its header.
     STALE_EDITED: StaleOutput {

@@ -41,7 +41,7 @@ use plan::{
 pub use program_scenes::{SceneReport, SheetOutcome, ShownText, sheet_of};
 pub use select::TargetPatterns;
 use select::TargetSelection;
-use settle::build_and_settle;
+use settle::{build_and_settle, loss_of_values};
 pub use sheet::sheet_bytes;
 pub(crate) use stale_programs::program_of_other_path;
 use stale_programs::{EarlierPrograms, StaleOutcome, has_stale_adjusted_program, report_unselected};
@@ -283,7 +283,8 @@ fn complete_inputs(answer: &mut Answer<Plan>, task: Task) {
     }
 }
 
-/// Adds PB528 for each file that a comparison found missing or different, unless an error about this file is reported already.
+/// Adds PB528 for each file that a comparison found missing or different, unless an error about this file is reported already. If `emit` would refuse
+/// to replace the file, adds its error instead.
 fn report_not_current(workspace: &Workspace, outcomes: &[ProgramOutcome], diagnostics: &mut Vec<Diagnostic>) {
     let mut by_file: HashMap<&Utf8Path, Vec<&Diagnostic>> = HashMap::new();
     for diagnostic in &*diagnostics {
@@ -295,8 +296,9 @@ fn report_not_current(workspace: &Workspace, outcomes: &[ProgramOutcome], diagno
         let known = finding.file.as_deref().and_then(|file| by_file.get(file));
         known.is_some_and(|known| workspace.has_error(known.iter().copied()))
     };
-    let findings = outcomes.iter().flat_map(ProgramOutcome::not_current);
-    let new: Vec<Diagnostic> = findings.filter(|finding| !is_known(finding)).collect();
+    let refusal = |finding: &Diagnostic| loss_of_values(&*workspace.system, finding.file.as_ref()?);
+    let findings = outcomes.iter().flat_map(ProgramOutcome::not_current).filter(|finding| !is_known(finding));
+    let new: Vec<Diagnostic> = findings.map(|finding| refusal(&finding).unwrap_or(finding)).collect();
     diagnostics.extend(new);
 }
 

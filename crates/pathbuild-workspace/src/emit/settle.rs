@@ -20,7 +20,7 @@ use super::outcome::{ProgramOutcome, State, Task, is_of_other_version, write_err
 use super::plan::Job;
 use crate::memo::hash_output;
 use crate::post_processor::PostProcessor;
-use crate::session::{OutputKind, Session, without_positions, without_values};
+use crate::session::{OutputKind, OutputName, Session, without_positions, without_values};
 
 /// Builds and settles the jobs that are not cached. If one file of a job cannot be generated, none of its files is written. Files are written on a
 /// separate thread, so that the other cores do not wait for the disk.
@@ -150,9 +150,9 @@ fn write<'a>(
     limit: u64,
     outcome: &mut ProgramOutcome,
 ) -> Result<(), Box<Diagnostic>> {
-    let mut values =
-        outputs.clone().map(|(output, _)| output).filter(|output| output.kind == OutputKind::Values);
-    if !force && let Some(problem) = values.find_map(|output| loss_of_values(system, output)) {
+    let values = outputs.clone().map(|(output, _)| output).filter(|output| output.kind == OutputKind::Values);
+    let mut replaced = values.filter(|output| !has_same_probes(system, output));
+    if !force && let Some(problem) = replaced.find_map(|output| loss_of_values(system, &output.path)) {
         return Err(Box::new(problem));
     }
     for (output, hash) in outputs {
@@ -187,13 +187,13 @@ fn is_edited(system: &dyn System, output: &Output, limit: u64) -> bool {
     is_own && system.read(&output.path, limit).is_ok_and(has_other_moves)
 }
 
-/// Returns PB605 if the file on disk contains measured values for probes other than those in the generated file, or lines that may contain some.
-fn loss_of_values(system: &dyn System, output: &Output) -> Option<Diagnostic> {
-    let present =
-        text_on_disk(system, &output.path).filter(|present| !is_for_probes(present, &output.text))?;
-    let message = adjust::loss_of_values(Source { file: &output.path, bytes: present.as_bytes() })?;
-    let name = output.path.file_name().unwrap_or_default();
-    Some(Diagnostic::new(message).quoting("name", name).in_file(&output.path))
+/// Returns PB605 if a file on disk, which is for probes other than those of the drawing, contains measured values, or lines that may contain some.
+pub(super) fn loss_of_values(system: &dyn System, file: &Utf8Path) -> Option<Diagnostic> {
+    OutputName::parse(file.as_str()).filter(|name| name.kind == OutputKind::Values)?;
+    let present = text_on_disk(system, file)?;
+    let message = adjust::loss_of_values(Source { file, bytes: present.as_bytes() })?;
+    let name = file.file_name().unwrap_or_default();
+    Some(Diagnostic::new(message).quoting("name", name).in_file(file))
 }
 
 /// Whether the file of measured values exists and is for the same probes as the generated one.
