@@ -53,6 +53,12 @@ fn library(from: &str, to: &str) -> Place {
     Place::of(&LIBRARY.replace(from, to))
 }
 
+/// Returns the drawing 1234.dxf of the library with another B.
+fn changed_component() -> Vec<u8> {
+    let changed = library("1234.1P\nstart 0,0 \"T5 O2 I1 B4", "1234.1P\nstart 0,0 \"T5 O2 I1 B3");
+    fs::read(changed.path().join("components/1234.dxf")).unwrap()
+}
+
 /// Returns the names and contents of all files in a place, except for the cache.
 fn files(place: &Place) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
@@ -276,18 +282,25 @@ fn moves_are_compared_with_a_program_whoever_wrote_it() {
     );
 }
 
-/// Words that set units, distances, plane, offsets, tool length or feed mode belong to the moves, even where all positions are as before.
-#[test]
-fn a_program_whose_modes_differ_has_other_moves() {
+/// Returns the program of 1234.1P, and a function that returns the exit status of comparing its moves with those of another text.
+fn comparison_of_moves() -> (String, impl Fn(String) -> Option<i32>) {
     let place = Place::of(LIBRARY);
     assert_eq!(place.run("emit 1234.1P").status, Some(0));
     let name = "components/1234_Milling.gcode";
     let ours = place.read(name);
-    let is_current = |text: String| {
-        assert_ne!(text, ours);
+    let written = ours.clone();
+    let compare = move |text: String| {
+        assert_ne!(text, written);
         fs::write(place.path().join(name), text).unwrap();
         place.run("emit --check --moves 1234.1P").status
     };
+    (ours, compare)
+}
+
+/// Words that set units, distances, plane, offsets, tool length or feed mode belong to the moves, even where all positions are as before.
+#[test]
+fn a_program_whose_modes_differ_has_other_moves() {
+    let (ours, is_current) = comparison_of_moves();
     let heads = [
         ("G21", "G20"),
         ("G90", "G91"),
@@ -313,15 +326,7 @@ fn a_program_whose_modes_differ_has_other_moves() {
 /// The way to the first cut counts from the first move, as do lines that say nothing of a position.
 #[test]
 fn a_program_that_begins_otherwise_has_other_moves() {
-    let place = Place::of(LIBRARY);
-    assert_eq!(place.run("emit 1234.1P").status, Some(0));
-    let name = "components/1234_Milling.gcode";
-    let ours = place.read(name);
-    let is_current = |text: String| {
-        assert_ne!(text, ours);
-        fs::write(place.path().join(name), text).unwrap();
-        place.run("emit --check --moves 1234.1P").status
-    };
+    let (ours, is_current) = comparison_of_moves();
     let lines = [
         "G92 Z5",
         "G92 Z0",
@@ -762,9 +767,7 @@ fn the_former_program_of_a_drawing_that_was_moved_is_stale_once_the_path_is_chan
     fs::rename(from, to).unwrap();
     let unchanged = place.run("emit");
     assert!(unchanged.status == Some(0) && !unchanged.stderr.contains("PB520"), "{unchanged}");
-    let changed = library("1234.1P\nstart 0,0 \"T5 O2 I1 B4", "1234.1P\nstart 0,0 \"T5 O2 I1 B3");
-    let component = fs::read(changed.path().join("components/1234.dxf")).unwrap();
-    let place = place.file("components/1234.dxf", component);
+    let place = place.file("components/1234.dxf", changed_component());
     assert_snapshot!(runs(&place, ["emit -q --format concise --remove-stale", "emit --check -q --lang de"]));
     assert!(place.path().join("projects/8001 a b_Milling.gcode").exists());
     // Beside a drawing of the same name it may be that drawing's program.
@@ -777,8 +780,6 @@ fn the_former_program_of_a_drawing_that_was_moved_is_stale_once_the_path_is_chan
 fn programs_in_a_former_output_directory_are_stale_once_the_path_is_changed() {
     let place = Place::of(LIBRARY);
     let configuration = place.read("pathbuild.toml");
-    let changed = library("1234.1P\nstart 0,0 \"T5 O2 I1 B4", "1234.1P\nstart 0,0 \"T5 O2 I1 B3");
-    let component = fs::read(changed.path().join("components/1234.dxf")).unwrap();
     let unchanged = fs::read(place.path().join("components/1234.dxf")).unwrap();
     for (former, now, reported) in [
         ("nc", Some("gcode"), true),
@@ -802,7 +803,7 @@ fn programs_in_a_former_output_directory_are_stale_once_the_path_is_changed() {
         let place = place.file("pathbuild.toml", with(now));
         let same = place.run("emit");
         assert!(same.status == Some(0) && !same.stderr.contains("PB520"), "{former} {now:?}: {same}");
-        let place = place.file("components/1234.dxf", &component);
+        let place = place.file("components/1234.dxf", changed_component());
         let other = place.run("emit --remove-stale");
         assert_eq!(
             other.stderr.contains("is an older program of its path"),
