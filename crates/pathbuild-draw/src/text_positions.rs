@@ -140,10 +140,16 @@ impl TextSize {
     }
 }
 
-/// Returns the number of characters without the blanks at the end, unless there are only blanks.
+/// Returns the number of visible characters: without the blanks at the end, unless there are only blanks, and with each `%%` code as it is displayed.
 fn visible_length(row: &str) -> usize {
     let visible = row.trim_end();
-    if visible.is_empty() { row } else { visible }.chars().count()
+    let row = if visible.is_empty() { row } else { visible };
+    let hidden = |code: &[u8]| match code {
+        [b'%', b'%', b'c' | b'C' | b'd' | b'D' | b'p' | b'P'] => 2,
+        [b'%', b'%', b'u' | b'U' | b'o' | b'O'] => 3,
+        _ => 0,
+    };
+    row.chars().count() - row.as_bytes().windows(3).map(hidden).sum::<usize>()
 }
 
 /// A test of whether a text circle with this centre and radius suits the target element on this layer.

@@ -224,8 +224,8 @@ pub struct Text {
     pub backwards: bool,
     /// Whether the text is mirrored in y, so that it is upside down (71 bit 4).
     pub upside_down: bool,
-    /// Whether blanks at the ends count for the size, as they do for PathDxf2GCode.
-    pub counts_blanks: bool,
+    /// Whether blanks at the ends and all letters of `%%` codes count for the size, as they do for PathDxf2GCode.
+    pub counts_invisible: bool,
 }
 
 /// A text of several lines.
@@ -249,8 +249,8 @@ pub struct MText {
     pub paragraphs: HorizontalAlign,
     /// Formatting that makes the places of the letters unknown, if there is any.
     pub obstacle: Option<LayoutObstacle>,
-    /// Whether blanks at the ends of rows count for the size, as they do for PathDxf2GCode.
-    pub counts_blanks: bool,
+    /// Whether blanks at the ends of rows and all letters of `%%` codes count for the size, as they do for PathDxf2GCode.
+    pub counts_invisible: bool,
 }
 
 /// Formatting of an MTEXT that moves letters by an unknown distance.

@@ -464,27 +464,53 @@ fn next_piece(text: &str, from: usize) -> Option<LetterValue> {
 
 /// Replaces `%%c`, `%%d` and `%%p` by `_D`, `_G` and `_+`, and drops `%%u` and `%%o`, which underline and overline.
 pub(crate) fn without_percent_codes(text: &str) -> Cow<'_, str> {
+    replace_percent_codes(text, |code| code.letters)
+}
+
+/// Replaces `%%c`, `%%d` and `%%p` by the characters that CAD programs show, and drops `%%u` and `%%o`.
+pub(crate) fn as_seen(text: &str) -> Cow<'_, str> {
+    replace_percent_codes(text, |code| code.seen)
+}
+
+/// The meaning of a code such as `%%c`.
+struct PercentCode {
+    /// The code's replacement in parameters.
+    letters: &'static str,
+    /// What a CAD program shows.
+    seen: &'static str,
+}
+
+impl PercentCode {
+    /// Returns the code with this character after `%%`; `None` if there is none.
+    fn new(character: char) -> Option<Self> {
+        Some(match character {
+            'c' | 'C' => Self { letters: "_D", seen: "\u{2300}" },
+            'd' | 'D' => Self { letters: "_G", seen: "\u{b0}" },
+            'p' | 'P' => Self { letters: "_+", seen: "\u{b1}" },
+            'u' | 'U' | 'o' | 'O' => Self { letters: "", seen: "" },
+            _ => return None,
+        })
+    }
+}
+
+fn replace_percent_codes(text: &str, replacement: impl Fn(PercentCode) -> &'static str) -> Cow<'_, str> {
     if !text.contains('%') {
         return Cow::Borrowed(text);
     }
     let mut replaced = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(at) = rest.find("%%") {
-        let code = rest[at + 2..].chars().next();
-        let replacement = match code {
-            Some('c' | 'C') => "_D",
-            Some('d' | 'D') => "_G",
-            Some('p' | 'P') => "_+",
-            Some('u' | 'U' | 'o' | 'O') => "",
-            _ => {
+        match rest[at + 2..].chars().next().and_then(PercentCode::new) {
+            Some(code) => {
+                replaced.push_str(&rest[..at]);
+                replaced.push_str(replacement(code));
+                rest = &rest[at + 3..];
+            }
+            None => {
                 replaced.push_str(&rest[..=at]);
                 rest = &rest[at + 1..];
-                continue;
             }
-        };
-        replaced.push_str(&rest[..at]);
-        replaced.push_str(replacement);
-        rest = &rest[at + 3..];
+        }
     }
     replaced.push_str(rest);
     Cow::Owned(replaced)

@@ -33,7 +33,7 @@ pub(crate) fn text<'a>(
         vertical: if horizontal == MIDDLE_CODE { VerticalAlign::Middle } else { vertical_align(vertical) },
         backwards: generation & 2 != 0,
         upside_down: generation & 4 != 0,
-        counts_blanks: options.compatible,
+        counts_invisible: options.compatible,
     };
     from_object_coordinates(Geometry::Text(text), fields)
 }
@@ -72,7 +72,7 @@ pub(crate) fn mtext<'a>(
         vertical,
         paragraphs: seen(paragraphs),
         obstacle,
-        counts_blanks: options.compatible,
+        counts_invisible: options.compatible,
     }))
 }
 

@@ -52,7 +52,7 @@ fn formatting_and_blanks_have_no_effect_on_the_place_of_a_text() {
         panic!("{drawing:?}")
     };
     assert_eq!((mtext.height, mtext.paragraphs, mtext.obstacle), (1.0, HorizontalAlign::Left, None));
-    assert!(mtext.counts_blanks && text.counts_blanks);
+    assert!(mtext.counts_invisible && text.counts_invisible);
 }
 
 #[test]

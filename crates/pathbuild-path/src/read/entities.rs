@@ -1,6 +1,7 @@
 //! The entities of a drawing as this crate sees them: points in the plane, and texts with the circles that determine their elements.
 //! (book: language/parameter-texts)
 
+use std::borrow::Cow;
 use std::mem::take;
 
 use nalgebra::Vector2;
@@ -10,6 +11,7 @@ use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, LayoutObstacle, MText, P
 use crate::approx::above;
 use crate::element::{Source, diagnostic_point};
 use crate::geometry::{Arc, Curve, Line, Xy, direction};
+use crate::text::as_seen;
 
 /// A text of the drawing, with the entity that draws it.
 #[derive(Clone, Copy)]
@@ -98,7 +100,8 @@ impl TextCircle {
     /// Returns the circle of a single-line text.
     pub fn of_text(text: &Text) -> Self {
         let letter = LETTER_WIDTH * text.height;
-        let (row, indent) = visible_row(&text.string, counts_blanks(&text.string, text.counts_blanks));
+        let string = seen(&text.string, text.counts_invisible);
+        let (row, indent) = visible_row(&string, counts_blanks(&string, text.counts_invisible));
         let length = row.chars().count();
         let mut offset = offset(text.horizontal, text.vertical, letter * length as f64, text.height);
         offset.x += letter * indent as f64 / 2.0;
@@ -120,11 +123,12 @@ impl TextCircle {
     pub fn of_mtext(text: &MText) -> Self {
         let letter = LETTER_WIDTH * text.height;
         let room = text.width.map_or(f64::INFINITY, |width| width / letter);
-        let counts_blanks = counts_blanks(&text.plain, text.counts_blanks);
+        let plain = seen(&text.plain, text.counts_invisible);
+        let counts_blanks = counts_blanks(&plain, text.counts_invisible);
         // Only the part with letters counts: the rows from the first to the last with letters, and the columns from `indent` to `longest`.
         let (mut rows, mut first, mut last) = (0, None, 0);
         let (mut indent, mut longest) = (usize::MAX, 0);
-        for line in text.plain.split('\n') {
+        for line in plain.split('\n') {
             let (line, mut blanks) = visible_row(line, counts_blanks);
             for length in (Rows { words: line.split(' '), room, next: None }) {
                 rows += 1;
@@ -192,6 +196,11 @@ impl TextCircle {
         let to_ends = (curve.start() - self.centre).norm().min((curve.end() - self.centre).norm());
         beside.map_or(to_ends, |distance| distance.min(to_ends))
     }
+}
+
+/// Returns the characters of a text that count for its size: in compatible mode all, otherwise those that CAD programs show.
+fn seen(text: &str, is_compatible: bool) -> Cow<'_, str> {
+    if is_compatible { Cow::Borrowed(text) } else { as_seen(text) }
 }
 
 /// Whether blanks at the ends of rows count for the size of a text. In a text of nothing but blanks they do, so that it has a size.

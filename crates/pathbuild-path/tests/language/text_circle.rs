@@ -16,7 +16,7 @@ fn text() -> Text {
         vertical: VerticalAlign::Baseline,
         backwards: false,
         upside_down: false,
-        counts_blanks: false,
+        counts_invisible: false,
     }
 }
 
@@ -32,7 +32,7 @@ fn mtext() -> MText {
         vertical: VerticalAlign::Top,
         paragraphs: HorizontalAlign::Left,
         obstacle: None,
-        counts_blanks: false,
+        counts_invisible: false,
     }
 }
 
@@ -135,8 +135,8 @@ fn paragraphs_are_aligned_within_the_width() {
 
 #[test]
 fn blanks_at_the_ends_do_not_count() {
-    let text_of = |string: &str, counts_blanks| {
-        TextCircle::of_text(&Text { string: string.into(), counts_blanks, ..text() })
+    let text_of = |string: &str, counts_invisible| {
+        TextCircle::of_text(&Text { string: string.into(), counts_invisible, ..text() })
     };
     assert_eq!(text_of("0123456789 \u{a0}\t ", false), text_of("0123456789", false));
     // A character is 1.2 mm wide.
@@ -151,8 +151,8 @@ fn blanks_at_the_ends_do_not_count() {
 
 #[test]
 fn blanks_and_empty_rows_at_the_ends_of_an_mtext_do_not_count() {
-    let circle = |plain: &str, counts_blanks| {
-        TextCircle::of_mtext(&MText { plain: plain.into(), counts_blanks, ..mtext() })
+    let circle = |plain: &str, counts_invisible| {
+        TextCircle::of_mtext(&MText { plain: plain.into(), counts_invisible, ..mtext() })
     };
     assert_eq!(circle("012  \n0 ", false), circle("012\n0", false));
     assert_eq!(circle("012\n\n \n", false), circle("012", false));
@@ -168,13 +168,19 @@ fn blanks_and_empty_rows_at_the_ends_of_an_mtext_do_not_count() {
     assert_eq!(TextCircle::of_mtext(&narrow), circle("B4.5 F50", false));
 }
 
-/// `%%d` is displayed as one character but counts as three.
+/// `%%d` is displayed as one character, and `%%u` underlines; PathDxf2GCode counts both as three characters.
 #[test]
-fn lengths_are_those_of_the_raw_string() {
-    let with_code = Text { string: "1234567%%d".into(), ..text() };
-    assert_eq!(offset(TextCircle::of_text(&with_code)), (6.0, 1.0));
-    let with_code = MText { plain: "1234567%%d\n012".into(), ..mtext() };
-    assert_eq!(offset(TextCircle::of_mtext(&with_code)), (6.0, -2.0));
+fn a_percent_code_counts_as_displayed() {
+    let text_of = |string: &str, counts_invisible| {
+        TextCircle::of_text(&Text { string: string.into(), counts_invisible, ..text() })
+    };
+    assert_eq!(text_of("%%u1234567%%d%%U", false), text_of("12345678", false));
+    assert_eq!(text_of("1234567%%d", true), text_of("0123456789", true));
+    let mtext_of = |plain: &str, counts_invisible| {
+        TextCircle::of_mtext(&MText { plain: plain.into(), counts_invisible, ..mtext() })
+    };
+    assert_eq!(mtext_of("%%u1234567%%d%%u\n012", false), mtext_of("12345678\n012", false));
+    assert_eq!(mtext_of("1234567%%d\n012", true), mtext_of("0123456789\n012", true));
 }
 
 /// The length is in characters, not in bytes.
