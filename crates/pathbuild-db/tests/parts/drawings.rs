@@ -891,7 +891,9 @@ fn outlines_around_openings_are_lines_on_the_part_unless_they_are_cut() {
     let chamfer = "polyline 1.5,1.5 40.5,1.5 40.5,25.5 1.5,25.5 closed\n";
     let pasted = "polyline 1.015,1 41.015,1 41.015,26 1.015,26 closed\n";
     let pocket = "polyline 19,5 37,5 37,19 19,19 closed\n";
-    for outlines in [chamfer, pasted, pocket, &format!("{chamfer}{pocket}")] {
+    assert_eq!(with(pasted, groove), ["PB219"]);
+    assert_eq!(with(pasted, through), ["PB213", "PB219"]);
+    for outlines in [chamfer, pocket, &format!("{chamfer}{pocket}")] {
         assert_eq!(with(outlines, groove), [""; 0], "{outlines}");
         assert_eq!(with(outlines, through), ["PB213"], "{outlines}");
         assert_eq!(

@@ -207,10 +207,52 @@ fn a_circle_across_the_rim_is_neither_opening_nor_part() {
     let with = |circle: &str| messages(&beside(&format!("{whole}\n{circle}")));
     for circle in ["circle 0,10 d 4", "circle 40,10 d 4"] {
         let found = with(circle);
-        assert!(found.len() == 1 && found[0].contains("crosses the rim of the part at ("), "{found:?}");
+        assert!(
+            found.len() == 1 && found[0].contains("crosses or overlaps the rim of the part at ("),
+            "{found:?}"
+        );
     }
     let inside = with("circle 2,10 d 4");
     assert!(inside.len() == 1 && inside[0].starts_with("PB220"), "it touches: {inside:?}");
+}
+
+/// A copy that slipped along one of its sides overlaps the outline without crossing it. It is the copy that is left out, so nothing else is reported.
+#[test]
+fn a_copy_that_overlaps_the_outline_is_doubtful() {
+    let whole = format!("line 0,1 40,1\n{SIDES}");
+    let with = |x: f64| {
+        let (left, right) = (x, x + 40.0);
+        messages(&beside(&format!("{whole}\npolyline {left},1 {right},1 {right},20 {left},20 closed")))
+    };
+    for x in [0.011, 0.3, -0.3, 20.0] {
+        let found = with(x);
+        assert!(
+            found.len() == 1 && found[0].starts_with("PB219 this outline crosses or overlaps"),
+            "{x}: {found:?}"
+        );
+    }
+    assert_eq!(with(0.009), [""; 0]);
+    let adjoining = with(40.0);
+    assert!(
+        !adjoining.iter().any(|found| found.starts_with("PB219")),
+        "another part beside it: {adjoining:?}"
+    );
+    let inside = messages(&beside(&format!("{whole}\npolyline 10,1 30,1 30,10 10,10 closed")));
+    assert!(!inside.iter().any(|found| found.starts_with("PB219")), "it touches the rim: {inside:?}");
+}
+
+/// A copy of two holes slipped. Where circles overlap, there are no inner corners.
+#[test]
+fn overlapping_openings_have_no_corners() {
+    let whole = format!("line 0,1 40,1\n{SIDES}");
+    let holes = |x: f64| format!("circle {x},10 d 5\ncircle {},10 d 5", x + 20.0);
+    let drawing = beside(&format!("{whole}\n{}\n{}", holes(10.0), holes(10.3))).replace(
+        "mill 0,0 40,0",
+        "mill 0,0 40,0\nsweep 40,0 10,10\nmill circle 10,10 d 5\nsweep 10,10 30,10\nmill circle 30,10 d 5\n\
+         sweep 30,10 40,0",
+    );
+    let found = codes(&drawing);
+    assert!(!found.contains(&"PB216".to_owned()), "{found:?}");
 }
 
 #[test]

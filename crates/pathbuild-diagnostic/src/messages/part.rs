@@ -127,12 +127,12 @@ messages! {
         help_en: "trim it there, so that its ends meet in one point; until then, neither the outline nor anything inside it is checked",
         help_de: "ihn dort stutzen, sodass sich seine Enden in einem Punkt treffen; bis dahin werden er und alles darin nicht geprüft",
     }
-    /// An outline that crosses the rim of a part.
+    /// An outline that crosses or overlaps the rim of a part.
     OUTLINE_CROSSES_RIM: DoubtfulOutline {
-        en: "this outline crosses the rim of the part at {point}, so it is neither an opening nor a part",
-        de: "dieser Umriss kreuzt bei {point} den Rand des Teils und ist deshalb weder ein Ausschnitt noch ein Teil",
-        help_en: "trim the two to one outline; if this one only indicates something, such as a counterbore, give it another layer or line type",
-        help_de: "beide zu einem Umriss stutzen; zeigt dieser nur etwas an, etwa eine Senkung, ihm einen anderen Layer oder Linientyp geben",
+        en: "this outline crosses or overlaps the rim of the part at {point}, so it is neither an opening nor a part",
+        de: "dieser Umriss kreuzt oder überdeckt bei {point} den Rand des Teils und ist deshalb weder ein Ausschnitt noch ein Teil",
+        help_en: "trim the two to one outline, or delete the copy if one is a copy of the other; if this one only indicates something, such as a counterbore, give it another layer or line type",
+        help_de: "beide zu einem Umriss stutzen oder, wenn einer eine Kopie des anderen ist, die Kopie löschen; zeigt dieser nur etwas an, etwa eine Senkung, ihm einen anderen Layer oder Linientyp geben",
     }
     /// A layer for parts that has no closed outline.
     NO_CLOSED_OUTLINE: DoubtfulOutline {

@@ -451,7 +451,7 @@ impl<'s> LeftoverSearch<'s> {
         };
         let scale = length / away.length();
         let mut found = Vec::new();
-        for (_, other) in self.curves_beside(curve.ring, widened_box(&away, radius)) {
+        for other in self.curves_of_ring(curve.ring, widened_box(&away, radius)) {
             add_stretches_within(&away, other, radius - self.tolerance, &mut found);
         }
         join_stretches(found.into_iter().map(|(from, to)| (from * scale, to * scale)).collect(), JOIN_GAP)
@@ -461,15 +461,14 @@ impl<'s> LeftoverSearch<'s> {
     fn reaches_whole_arc(&self, curve: &RingCurve<'_>, radius: f64) -> bool {
         let Curve::Arc(arc) = curve.curve else { return false };
         let reach = radius - self.tolerance;
-        let mut near = self.curves_beside(curve.ring, square(arc.centre, reach));
-        arc.radius >= reach && near.all(|(_, other)| other.distance_to(arc.centre) >= reach)
+        let mut near = self.curves_of_ring(curve.ring, square(arc.centre, reach));
+        arc.radius >= reach && near.all(|other| other.distance_to(arc.centre) >= reach)
     }
 
-    /// Returns the curves near a box that limit the cutter beside a ring: not those of other rings in the same nest, which are alternatives.
-    fn curves_beside(&self, ring: usize, extent: AABB<[f64; 2]>) -> impl Iterator<Item = (usize, &Curve)> {
-        let part = self.part.part;
-        let is_other = move |other: usize| other != ring && part.nest(other) == part.nest(ring);
-        self.part.curves_near(extent).filter(move |(other, _)| !is_other(*other))
+    /// Returns the curves of a ring near a box. Only they limit the cutter beside the ring: other rings either lie behind the part's material, are
+    /// alternatives in the same nest, or overlap this one, which makes no inner corner.
+    fn curves_of_ring(&self, ring: usize, extent: AABB<[f64; 2]>) -> impl Iterator<Item = &Curve> {
+        self.part.curves_near(extent).filter(move |(other, _)| *other == ring).map(|(_, curve)| curve)
     }
 
     /// Returns the stretches beside support bars, where the path is meant to cut only down to the bar.

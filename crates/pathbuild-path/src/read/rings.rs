@@ -1,5 +1,7 @@
 //! Rings of curves: their areas, which of them lie inside others, and where they cross. (book: language/part)
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
@@ -38,13 +40,12 @@ pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Vec<usize>> {
     let boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>> = RTree::bulk_load(boxes.collect());
     // Rings that cross may contain points of each other: only the larger one encloses the other.
     let areas: Vec<f64> = rings.iter().map(|ring| area(ring)).collect();
-    let is_larger = |other: usize, ring: usize| (areas[other], other) > (areas[ring], ring);
     let around: Vec<Vec<usize>> = (0..rings.len())
         .map(|ring| {
             let curve = &rings[ring][0];
             let point = curve.middle();
             let near = boxes.locate_in_envelope_intersecting(AABB::from_point([point.x, point.y]));
-            let others = near.map(|near| near.data).filter(|other| is_larger(*other, ring));
+            let others = near.map(|near| near.data).filter(|other| is_larger(*other, ring, &areas));
             let mut around: Vec<usize> = others.filter(|other| outlines[*other].contains(point)).collect();
             around.sort_unstable();
             around
@@ -57,6 +58,15 @@ pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Vec<usize>> {
     };
     around.iter().map(sorted).collect()
 }
+
+/// Whether a ring is larger than another one. Of two copies, the one that is drawn first counts as larger.
+fn is_larger(ring: usize, other: usize, areas: &[f64]) -> bool {
+    let [own, others] = [ring, other].map(|ring| (areas[ring] / AREA_STEP).round());
+    own > others || own == others && ring < other
+}
+
+/// Step in mm² to which areas are rounded, so that copies have the same area.
+const AREA_STEP: f64 = 0.001;
 
 /// A place where two curves of a sequence cross, with the index of each curve and the distance in mm along it.
 pub(super) struct Crossing {
@@ -116,7 +126,7 @@ pub(super) fn crossings(curves: &[Curve]) -> Vec<Vec<f64>> {
     cuts
 }
 
-/// Returns the rings that cross the rim of a larger one, each with the crossing, which refers to the ring's own curves.
+/// Returns the rings that cross or overlap the rim of a larger one, each with a place where they do, which refers to the ring's own curves.
 pub(super) fn crossed_rings(rings: &[NumberedCurves], is_outermost: &[bool]) -> Vec<(usize, Crossing)> {
     let all: Vec<(usize, usize, Curve)> = (0..)
         .zip(rings)
@@ -126,21 +136,50 @@ pub(super) fn crossed_rings(rings: &[NumberedCurves], is_outermost: &[bool]) -> 
     let areas: Vec<f64> = rings.iter().map(|ring| area(&curves_of(ring))).collect();
     let mut compared = 0;
     let mut found = Vec::new();
+    let mut across: BTreeMap<(usize, usize), bool> = BTreeMap::new();
     for (ring, place, curve) in &all {
         for other in boxes.near(widened_box(curve, JOIN_DISTANCE)) {
             let (rim, _, rim_curve) = &all[other];
-            let is_smaller = (areas[*ring], *ring) < (areas[*rim], *rim);
-            if ring == rim || !is_outermost[*rim] || !is_smaller || compared > MAX_COMPARED_PAIRS {
+            let is_smaller = ring != rim && is_larger(*rim, *ring, &areas);
+            if !is_outermost[*rim] || !is_smaller || compared > MAX_COMPARED_PAIRS {
                 continue;
             }
             compared += 1;
-            if let (Some(along), Some(_)) = (crossing(curve, rim_curve), crossing(rim_curve, curve)) {
+            let crossed = crossing(rim_curve, curve).and_then(|_| crossing(curve, rim_curve));
+            let along = crossed.or_else(|| {
+                let overlap = overlap(curve, rim_curve)?;
+                let is_across = *across
+                    .entry((*ring, *rim))
+                    .or_insert_with(|| is_partly_inside(&rings[*ring], &rings[*rim]));
+                is_across.then_some(overlap)
+            });
+            found.extend(along.map(|along| {
                 let place = (*place, along);
-                found.push((*ring, Crossing { at: curve.at(along), first: place, second: place }));
-            }
+                (*ring, Crossing { at: curve.at(along), first: place, second: place })
+            }));
         }
     }
     found
+}
+
+/// Returns the middle of the stretch of a curve on which it lies on another one, in mm along the curve.
+fn overlap(along: &Curve, other: &Curve) -> Option<f64> {
+    let mut near: Vec<Stretch> = Vec::new();
+    add_stretches_within(along, other, JOIN_DISTANCE, &mut near);
+    let is_long = |(from, to): &Stretch| to - from > MIN_OVERLAP;
+    join_stretches(near, JOIN_DISTANCE).into_iter().find(is_long).map(|(from, to)| f64::midpoint(from, to))
+}
+
+/// Length in mm from which curves overlap, more than the length along which a curve is near one that it touches.
+const MIN_OVERLAP: f64 = 4.0 * JOIN_DISTANCE;
+
+/// Whether the middles of some of a ring's curves lie inside a rim, and those of others outside.
+fn is_partly_inside(ring: &NumberedCurves, rim: &NumberedCurves) -> bool {
+    let border = Outline::new(&curves_of(rim));
+    let middles = ring.iter().map(|(_, curve)| curve.middle());
+    let beside = middles.filter(|at| rim.iter().all(|(_, curve)| curve.distance_to(*at) > JOIN_DISTANCE));
+    let sides: BTreeSet<bool> = beside.map(|at| border.contains(at)).collect();
+    sides.len() == 2
 }
 
 /// Returns the place in mm along a curve where it crosses another one. A curve that ends on the other only touches it.
