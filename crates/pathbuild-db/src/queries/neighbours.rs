@@ -209,8 +209,8 @@ impl<'db> PlacedProgram<'db> {
             }
             for lost in taken.bars {
                 let (path, origin) = self.innermost_common_path(cutting, lost.element, owner);
-                let (_, of_element) =
-                    bars.entry((path, origin.id.0)).or_insert_with(|| (origin, BTreeMap::new()));
+                let key = (path, origin.id.0, self.is_foreign(owner, cutting));
+                let (_, of_element) = bars.entry(key).or_insert_with(|| (origin, BTreeMap::new()));
                 let worst = of_element.entry(lost.bar).or_insert_with(|| lost.clone());
                 if worst.is_exceeded_by(&lost) {
                     *worst = lost;
@@ -220,8 +220,10 @@ impl<'db> PlacedProgram<'db> {
         let gouges = gouges.into_iter().map(|((_, path, _), (gouge, cutting, origin))| {
             self.at(path, origin, self.gouge_problem(owned, cutting, &gouge))
         });
-        let bars = bars.into_iter().filter_map(|((path, _), (origin, bars))| {
-            Some(self.at(path, origin, LostBar::problem(bars.values(), owned.cuts, true)?))
+        let bars = bars.into_iter().filter_map(|((path, _, is_foreign), (origin, bars))| {
+            let message =
+                if is_foreign { &messages::NEIGHBOURS_BAR_CUT_AWAY } else { &messages::BAR_LOST_BY_TURNING };
+            Some(self.at(path, origin, LostBar::problem(bars.values(), owned.cuts, message)?))
         });
         gouges.chain(bars).collect()
     }
@@ -275,8 +277,10 @@ impl<'db> PlacedProgram<'db> {
     }
 
     fn severed_problem(&self, owner: usize, severed: &SeveredPart) -> Diagnostic {
+        let is_foreign = self.is_foreign(owner, severed.path);
+        let message = if is_foreign { &messages::SEVERED_NEIGHBOUR } else { &messages::SEVERED_BY_TURNING };
         let owner = &self.paths[owner].cuts;
-        Diagnostic::new(&messages::SEVERED_NEIGHBOUR)
+        Diagnostic::new(message)
             .quoting("other", owner.cuts.name.as_str())
             .with("place", diagnostic_point(owner.start_of(severed.part)))
     }
@@ -349,7 +353,10 @@ impl<'db> PlacedProgram<'db> {
     }
 
     fn gouge_problem(&self, owner: &PlacedCuts<'_>, cutting: usize, gouge: &NeighbourGouge) -> Diagnostic {
-        Diagnostic::new(&messages::GOUGED_NEIGHBOUR)
+        let cuts_part = !parts_of(self.db, self.paths[cutting].instance).is_empty();
+        let message =
+            if cuts_part { &messages::GOUGED_NEIGHBOUR } else { &messages::GOUGED_BY_PATH_WITHOUT_PART };
+        Diagnostic::new(message)
             .with("tool", 2.0 * self.paths[cutting].cuts.cuts.radius)
             .with("depth", gouge.depth)
             .quoting("other", owner.cuts.name.as_str())

@@ -620,7 +620,24 @@ fn neighbours_in_a_project_need_room_for_the_cutter() {
     for found in &both {
         assert_eq!(found.code().to_string(), "PB214");
         assert!((number(found, "depth") - 0.5).abs() < 1e-6, "{found:?}");
+        assert!(
+            found.help(Lang::En).is_some_and(|help| help.starts_with("place the two parts")),
+            "{found:?}"
+        );
     }
+}
+
+/// A path that cuts no part of its own may be meant for the part.
+#[test]
+fn a_path_without_a_part_may_mill_an_opening() {
+    let cut = "layer 1300.1P\nstart 0,0 \"T2 O2 I1 B0 S5 MX\"\nmill 0,0 5,0\nend 5,0\n";
+    let project = "layer 8001.1P\nstart 0,0 \"T2 O2 S5 MX\"\nsubpath 0,0 30,0 \">1234.1P\"\nsweep 30,0 10,0\n\
+                   subpath 10,0 15,0 \">1300.1P\"\nend 15,0\n";
+    let files = [("8001.1P.dxf", project), ("1234.1P.dxf", &*component()), ("1300.1P.dxf", cut)];
+    let found = PartTest::default().diagnostics(&files);
+    let gouge = found.iter().find(|found| found.code().to_string() == "PB214");
+    let help = gouge.and_then(|gouge| gouge.help(Lang::En)).unwrap_or_default();
+    assert!(help.contains("draw the opening on the layer of the part's outline"), "{found:?}");
 }
 
 /// No side of the components has a gap, and the upper edge of their bars is at 0.8. The lower component is 2 mm thick.

@@ -1,6 +1,6 @@
 //! Tests support bars of helical circles in turned embeddings: they stand where the program begins its circles, at the point with the least Y.
 
-use pathbuild_diagnostic::{Diagnostic, Point};
+use pathbuild_diagnostic::{Diagnostic, Lang, Point};
 use pathbuild_path::direction;
 
 use crate::PartTest;
@@ -62,6 +62,7 @@ fn cuts_take_away_the_bar_that_is_in_the_program() {
         let centre = at([0.0, 0.0], DISTANCE, turn);
         let lost = found(&disc(""), turn, groove(centre, 270.0));
         assert_eq!(codes(&lost), ["PB218"], "{turn}: {lost:?}");
+        assert!(!is_about_turning(&lost[0]), "a groove of another path: {lost:?}");
         let [x, y] = at(centre, 9.0, 270.0);
         let place = lost[0].arguments.iter().find(|(name, _)| *name == "point").unwrap().1.clone();
         assert_eq!(place, Point::new(x, y).into(), "{turn}");
@@ -79,7 +80,14 @@ fn a_component_takes_away_its_own_bar_where_it_is_turned() {
     for (turn, is_lost) in [(0.0, false), (90.0, true), (180.0, false), (270.0, false)] {
         let lost = found(&disc, turn, AWAY);
         assert_eq!(codes(&lost), vec!["PB218"; usize::from(is_lost)], "{turn}: {lost:?}");
+        assert!(lost.iter().all(is_about_turning), "{lost:?}");
     }
+}
+
+/// Whether a finding gives the reason that the bars of a circle do not turn.
+fn is_about_turning(found: &Diagnostic) -> bool {
+    let help = found.help(Lang::En).unwrap_or_default();
+    found.text(Lang::En).contains("embedded turned") && help.starts_with("embed the path at another angle")
 }
 
 /// A groove behind the place of the bar joins both ends of the ring, without touching the bar.
@@ -92,6 +100,7 @@ fn a_component_cuts_its_disc_loose_where_it_is_turned() {
     for (turn, is_loose) in [(0.0, false), (90.0, true), (180.0, false), (270.0, false)] {
         let loose = found(&behind(10.2), turn, AWAY);
         assert_eq!(codes(&loose), vec!["PB217"; usize::from(is_loose)], "{turn}: {loose:?}");
+        assert!(loose.iter().all(is_about_turning), "{loose:?}");
         assert_eq!(codes(&found(&behind(11.5), turn, AWAY)), [""; 0], "{turn}: material remains");
     }
 }

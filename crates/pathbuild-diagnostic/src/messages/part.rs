@@ -43,6 +43,13 @@ messages! {
         help_en: "place the two parts farther apart, so that the cutter fits between them",
         help_de: "die beiden Teile mit größerem Abstand anordnen, sodass der Fräser dazwischen Platz hat",
     }
+    /// A cut into the part of another path by a path that cuts no part of its own.
+    GOUGED_BY_PATH_WITHOUT_PART: GougedNeighbour {
+        en: "the cutter, O{tool}, goes {depth} mm into the part of path {other} at {point}; that part lies at {place} in the program",
+        de: "der Fräser, O{tool}, gerät bei {point} {depth} mm tief in das Teil von Pfad {other}, das im Programm bei {place} liegt",
+        help_en: "move this path away from the part; if it is meant to mill an opening of the part, draw the opening on the layer of the part's outline",
+        help_de: "diesen Pfad vom Teil wegrücken; soll er einen Ausschnitt des Teils fräsen, den Ausschnitt auf dem Layer des Umrisses zeichnen",
+    }
     /// Material left beside an outline.
     LEFTOVER: LeftoverAtPart {
         en: "up to {thickness} mm of material remain at the outline of the part, from {from} to {to}, over {length} mm (places: {count})",
@@ -99,6 +106,13 @@ messages! {
         help_en: "place the parts farther apart, or draw support bars on a side where material remains",
         help_de: "die Teile mit größerem Abstand anordnen oder Stützstege auf einer Seite zeichnen, an der Material stehen bleibt",
     }
+    /// A part that is loose because the support bars of helical circles do not turn with their path.
+    SEVERED_BY_TURNING: LoosePart {
+        en: "after this cut, nothing holds the part of path {other} whose outline begins at {place} in the program: the path is embedded turned, but the support bars of a circle do not turn with it",
+        de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss im Programm bei {place} beginnt: der Pfad ist gedreht eingebettet, aber die Stützstege eines Kreises drehen sich nicht mit",
+        help_en: "embed the path at another angle, or draw the ring as two arcs at a distance of half of O from the outline, whose bars turn with the path",
+        help_de: "den Pfad in einem anderen Winkel einbetten oder den Ring als zwei Bögen im Abstand von O/2 neben dem Umriss zeichnen, deren Stege sich mitdrehen",
+    }
     /// Support bars that another cut removes.
     BAR_CUT_AWAY: BarCutAway {
         en: "this cut removes {lost} of the {length} mm of the support bar at {point} of path {other} (bars: {count})",
@@ -112,6 +126,13 @@ messages! {
         de: "dieser Schnitt nimmt {lost} von {length} mm eines Stützstegs von Pfad {other} weg, der im Programm bei {point} steht (Stege: {count})",
         help_en: "place the paths farther apart, or end this cut higher than D of the bar",
         help_de: "die Pfade mit größerem Abstand anordnen oder diesen Schnitt höher als D des Stegs enden lassen",
+    }
+    /// Support bars that a cut removes because the support bars of helical circles do not turn with their path.
+    BAR_LOST_BY_TURNING: BarCutAway {
+        en: "this cut removes {lost} of the {length} mm of a support bar of path {other}, which is embedded turned: the bars of a circle do not turn with it, and that bar stands at {point} in the program (bars: {count})",
+        de: "dieser Schnitt nimmt {lost} von {length} mm eines Stützstegs von Pfad {other} weg, der gedreht eingebettet ist: die Stege eines Kreises drehen sich nicht mit, und dieser steht im Programm bei {point} (Stege: {count})",
+        help_en: "embed the path at another angle, or draw the ring as two arcs at a distance of half of O from the outline, whose bars turn with the path",
+        help_de: "den Pfad in einem anderen Winkel einbetten oder den Ring als zwei Bögen im Abstand von O/2 neben dem Umriss zeichnen, deren Stege sich mitdrehen",
     }
     /// Two ends of an outline that almost meet.
     OUTLINE_GAP: DoubtfulOutline {

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use pathbuild_diagnostic::messages::part as messages;
-use pathbuild_diagnostic::{Diagnostic, Severity};
+use pathbuild_diagnostic::{Diagnostic, Message, Severity};
 
 use super::boxes::BoxIndex;
 use super::cuts::{CutIndex, PathCuts, StandingBar};
@@ -75,18 +74,17 @@ pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
 
 impl LostBar {
     /// Returns PB218 for bars that the same element takes away from a path: a warning if all of them are too short, otherwise an error. The bar that
-    /// loses most is named. `is_placed`: whether its place is given in the program instead of in the drawing.
+    /// loses most is named.
     pub fn problem<'l>(
         bars: impl IntoIterator<Item = &'l Self>,
         path: &PathCuts,
-        is_placed: bool,
+        message: &'static Message,
     ) -> Option<Diagnostic> {
         let bars: Vec<&Self> = bars.into_iter().collect();
         let worst = bars
             .iter()
             .copied()
             .reduce(|worst, next| if worst.is_exceeded_by(next) { next } else { worst })?;
-        let message = if is_placed { &messages::NEIGHBOURS_BAR_CUT_AWAY } else { &messages::BAR_CUT_AWAY };
         let problem = Diagnostic::new(message)
             .with("lost", worst.lost)
             .with("length", worst.length)

@@ -107,7 +107,7 @@ impl PartFindings {
             of_elements.entry((bar.by, bar.element, bar.of)).or_default().push(bar);
         }
         for ((by, element, of), bars) in of_elements {
-            let problem = LostBar::problem(bars, paths[of], false);
+            let problem = LostBar::problem(bars, paths[of], &messages::BAR_CUT_AWAY);
             self.of_paths[by].extend(problem.map(|problem| paths[by].at_element(element, problem)));
         }
     }

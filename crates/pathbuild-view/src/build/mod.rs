@@ -97,10 +97,13 @@ impl Places<'_> {
 }
 
 /// Messages about parts whose points have the coordinates of the program, not those of the drawing.
-pub const IN_PROGRAM: [&Message; 5] = [
+pub const IN_PROGRAM: [&Message; 8] = [
     &part::GOUGED_NEIGHBOUR,
+    &part::GOUGED_BY_PATH_WITHOUT_PART,
     &part::SEVERED_NEIGHBOUR,
+    &part::SEVERED_BY_TURNING,
     &part::NEIGHBOURS_BAR_CUT_AWAY,
+    &part::BAR_LOST_BY_TURNING,
     &part::DISPLACED_PATH,
     &part::CUT_IN_LOOSE_WASTE,
 ];
