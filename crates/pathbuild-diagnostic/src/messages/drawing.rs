@@ -346,8 +346,8 @@ messages! {
     }
     /// A circle drawn on top of another.
     CIRCLE_TWICE: LeftoverElement {
-        en: "a circle of {diameter} mm diameter is drawn twice here: it is milled twice, and a text belongs to only one of the two",
-        de: "hier ist ein Kreis von {diameter} mm Durchmesser doppelt gezeichnet: er wird zweimal gefräst, und ein Text gehört nur zu einem der beiden",
+        en: "a circle of {diameter} mm diameter is drawn twice here: if it is larger than the cutter, it is milled twice; a text belongs to only one of the two",
+        de: "hier ist ein Kreis von {diameter} mm Durchmesser doppelt gezeichnet: ist er größer als der Fräser, wird er zweimal gefräst; ein Text gehört nur zu einem der beiden",
         help_en: "delete one of the two",
         help_de: "einen der beiden löschen",
     }

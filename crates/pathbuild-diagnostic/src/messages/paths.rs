@@ -96,6 +96,11 @@ messages! {
         en: "{element} at {point} lies on top of one that was already traversed: it is drawn twice",
         de: "{element} bei {point} liegt auf einem schon durchlaufenen Segment: es ist doppelt gezeichnet",
     }
+    /// Note: the number of segments that are drawn on top of others, if there are several.
+    COPIES: NothingContinues {
+        en: "segments drawn on top of others: {count}; delete all of these copies, which were probably pasted together",
+        de: "auf anderen gezeichnete Segmente: {count}; alle diese Kopien löschen, die wahrscheinlich zusammen eingefügt wurden",
+    }
     /// Note: a curve that was left out (PB111).
     LEFT_OUT_HERE: NothingContinues {
         en: "there is a curve at {point} that does not belong to the path ({kind})",

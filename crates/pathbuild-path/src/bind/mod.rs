@@ -14,7 +14,7 @@ use pathbuild_motion::{ChipLoad, check_cutting_length};
 use smol_str::SmolStr;
 
 use crate::approx::{above, grid_square, is_negligible};
-use crate::bind::uncut_runs::{CutDepths, SupportSegment, first_uncut, uncut_runs};
+use crate::bind::uncut_runs::{CutDepths, SupportSegment, drop_copies, first_uncut, uncut_runs};
 use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape, diagnostic_point};
 use crate::geometry::{Curve, PlaceKey};
@@ -678,6 +678,7 @@ impl Binder<'_> {
                 *lowest = lowest.min(bottom);
             }
         }
+        drop_copies(&mut segments);
         let runs = uncut_runs(&segments);
         let uncut = first_uncut(&segments, &depths).filter(|_| runs.is_empty());
         let runs = runs.iter().map(|run| (run.first.element, run.problem()));

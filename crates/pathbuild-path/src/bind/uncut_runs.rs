@@ -1,6 +1,6 @@
 //! Runs of connected support segments that are nowhere cut through. (book: language/support-bars)
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use pathbuild_diagnostic::messages::paths;
 use pathbuild_diagnostic::{Diagnostic, EntityKind};
@@ -58,6 +58,14 @@ pub(super) fn missing_gap(bars: &Bars, length: f64) -> Diagnostic {
         .with("length", length)
         .with("pitch", bars.length + bars.distance)
         .with("top", bars.top)
+}
+
+/// Drops segments that lie on others, which are errors themselves and make no run longer, unless all have gaps.
+pub(super) fn drop_copies(segments: &mut Vec<SupportSegment<'_>>) {
+    if !segments.iter().all(SupportSegment::has_gap) {
+        let mut known = BTreeSet::new();
+        segments.retain(|segment| known.insert(segment.curve.place_key()));
+    }
 }
 
 impl UncutRun<'_> {

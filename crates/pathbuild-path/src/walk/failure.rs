@@ -75,7 +75,13 @@ impl Walker<'_> {
             .with("element", self.word(segment))
             .with("point", diagnostic_point(self.ends.of(segment)[0]))
             .with("left", self.left);
-        Some(self.path.origin(&self.path.segments[segment]).at(problem))
+        Some(self.with_copies(self.path.origin(&self.path.segments[segment]).at(problem)))
+    }
+
+    /// Adds a note with the number of segments that lie on others, if there are several.
+    fn with_copies(&self, problem: Diagnostic) -> Diagnostic {
+        let count = Curves::new(self.path, 0..self.path.segments.len()).copies();
+        if count > 1 { problem.note(&messages::COPIES, vec![("count", count.into())]) } else { problem }
     }
 
     /// Returns the problem that the path ends in the middle of a line or arc that was not reached. Excluded are those that branch off at a point that
@@ -235,7 +241,7 @@ impl Walker<'_> {
         };
         let is_told = twice.is_some() || part_twice.is_some();
         let problem = self.path.end_origin.at(problem.with("left", self.left));
-        if is_told { problem } else { self.with_duplicate(problem) }
+        if is_told { self.with_copies(problem) } else { self.with_duplicate(problem) }
     }
 
     /// Returns one of the arcs that were not reached, if they form a full circle around a point that the walk passed.
@@ -289,9 +295,9 @@ impl Walker<'_> {
         } else {
             Diagnostic::new(&messages::END_NOT_REACHED)
         };
-        self.path.end_origin.at(problem
-            .with("point", diagnostic_point(stopped_at))
-            .with("end", diagnostic_point(self.path.end)))
+        self.with_copies(self.path.end_origin.at(
+            problem.with("point", diagnostic_point(stopped_at)).with("end", diagnostic_point(self.path.end)),
+        ))
     }
 
     fn traversed_segments(&self) -> impl Iterator<Item = usize> {
@@ -454,6 +460,12 @@ impl<'a> Curves<'a> {
         let first = self.known.partition_point(|(other, _)| *other < key);
         let same = self.known[first..].iter().take_while(|(other, _)| *other == key);
         same.take(2).any(|(_, other)| *other != segment)
+    }
+
+    /// Returns the number of curves that lie on others, unless both have a text.
+    fn copies(&self) -> usize {
+        let pairs = self.known.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        pairs.filter(|pair| self.is_mistake([pair[0].1, pair[1].1])).count()
     }
 
     /// Returns PB121 for milled segments that lie on each other, unless both have a text: then the user cuts the same curve twice on purpose.

@@ -629,6 +629,27 @@ fn a_subpath_that_is_drawn_twice_is_one_error() {
     }
 }
 
+/// An outline that was pasted in its place. Its sides are 20 mm long, so that neither one side nor its copy has room for a gap.
+#[test]
+fn all_copies_of_an_outline_are_counted_once() {
+    let bars = |lines: &str| lines.replace("mill", "bars");
+    let side = "mill 0,0 20,0\nmill 20,0 20,20\n";
+    let with = |copies: &str| {
+        let shapes = format!("{side}mill 20,20 0,20\nmill 0,20 0,0\n{copies}sweep 0,0 -20,0\nend -20,0");
+        noted(&path("T5 O3 I1 B0 D2 P3 U45", &bars(&shapes)))
+    };
+    let (codes, notes) = with("");
+    assert_eq!((codes, notes.len()), (vec!["PB408".to_owned()], 0));
+    let (codes, notes) = with(side);
+    assert_eq!(
+        notes.iter().filter(|note| note.starts_with("segments drawn on top of others: 2;")).count(),
+        1
+    );
+    assert!(codes.iter().any(|code| code.starts_with("PB40")), "{codes:?}");
+    let (_, notes) = with("mill 0,0 20,0\n");
+    assert!(!notes.iter().any(|note| note.contains("on top of others")), "one copy: {notes:?}");
+}
+
 /// The errors about the markers prevent the walk, which would find the lines.
 #[test]
 fn a_path_that_was_pasted_twice_is_one_finding_beside_its_markers() {
