@@ -385,7 +385,7 @@ impl<'a> SubpathChecker<'a> {
 
     /// Returns PB502 as a warning if `>` is followed by more than a name.
     pub fn warnings(&self, call: &SubpathCall) -> Vec<Diagnostic> {
-        let SubpathName::Found { name, has_more: Some(value) } = &call.subpath.name else {
+        let SubpathName::Found { name, whole_value: Some(value) } = &call.subpath.name else {
             return Vec::new();
         };
         if self.is_other_name(name, value) {
@@ -421,7 +421,7 @@ impl<'a> SubpathChecker<'a> {
                 };
                 self.at_name(call, problem.quoting("value", &**value))
             }
-            SubpathName::Found { name, has_more: Some(value) } if self.is_other_name(name, value) => {
+            SubpathName::Found { name, whole_value: Some(value) } if self.is_other_name(name, value) => {
                 let problem = Diagnostic::new(&messages::NAME_GOES_ON).quoting("value", &**value);
                 self.at_name(call, problem.quoting("name", name.as_str()))
             }
@@ -552,7 +552,7 @@ impl<'a> SubpathChecker<'a> {
             }
         }
         let differs_here = !subpath.hides(Letter::O) && !near(subpath.tool, inner.tool);
-        let is_known = !self.outer.unknown.and(inner.unknown).contains(Letter::O);
+        let is_known = !self.outer.unknown.union(inner.unknown).contains(Letter::O);
         if is_known && !differs_here {
             let is_same = near(self.outer.tool, inner.tool);
             let problem =
@@ -562,7 +562,7 @@ impl<'a> SubpathChecker<'a> {
                 |problem: Diagnostic| if self.is_compatible { problem.as_warning() } else { problem };
             problems.extend(problem.map(at).map(soften));
         }
-        let is_known = !self.outer.unknown.and(subpath.unknown).contains(Letter::T);
+        let is_known = !self.outer.unknown.union(subpath.unknown).contains(Letter::T);
         if is_known && !at_least(self.outer.thickness, subpath.thickness) {
             let problem = Diagnostic::new(&messages::T_BELOW)
                 .with("path", self.outer.thickness)
@@ -614,7 +614,7 @@ impl<'a> SubpathChecker<'a> {
     /// Returns the finding about a path that is drawn for a thinner sheet, although the drawings do not say that it lies in a sheet of its own: its
     /// rapid moves go down to its T, below the upper face of the embedding path's material. It is a warning if the embedding path names no material.
     fn other_thickness_problem(&self, call: &SubpathCall, inner: &PathSignature) -> Option<Diagnostic> {
-        let unknown = self.outer.unknown.and(call.subpath.unknown);
+        let unknown = self.outer.unknown.union(call.subpath.unknown);
         let is_known = ![Letter::T, Letter::M, Letter::H].into_iter().any(|letter| unknown.contains(letter));
         let is_thinner = is_known && !at_least(inner.thickness, self.outer.thickness);
         if !is_thinner || call.subpath.material.is_none() || self.is_own_sheet(call) {

@@ -104,7 +104,7 @@ impl Letters {
     }
 
     /// Returns the union of two sets.
-    pub(crate) const fn and(self, others: Self) -> Self {
+    pub(crate) const fn union(self, others: Self) -> Self {
         Self(self.0 | others.0)
     }
 

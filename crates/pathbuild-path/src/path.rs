@@ -237,10 +237,10 @@ pub enum SubpathName {
     Invalid {
         value: Box<str>,
     },
-    /// `has_more`: the whole value, if it contains more than the name.
+    /// `whole_value`: the whole value, if it contains more than the name.
     Found {
         name: CaseSensitiveName,
-        has_more: Option<Box<str>>,
+        whole_value: Option<Box<str>>,
     },
 }
 

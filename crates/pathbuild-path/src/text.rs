@@ -209,14 +209,14 @@ impl<'t> ParameterText<'t> {
             }
         };
         let unread = self.pieces.iter().filter(|piece| piece.letter.is_none());
-        unread.fold(Letters::default(), |all, piece| all.and(meant(piece)))
+        unread.fold(Letters::default(), |all, piece| all.union(meant(piece)))
     }
 
     /// Returns all letters that the text sets or may have been intended to set, whatever its element.
     pub(crate) fn possible_letters(self) -> Letters {
         match mistake_in_text(self, ElementClass::Unread) {
             Some(misreading) => misreading.unread,
-            None => self.letters.and(self.unread_letters()),
+            None => self.letters.union(self.unread_letters()),
         }
     }
 

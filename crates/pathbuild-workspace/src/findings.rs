@@ -47,7 +47,7 @@ impl Findings {
     }
 
     /// Returns the number of errors.
-    pub fn errors(&self) -> usize {
+    pub fn error_count(&self) -> usize {
         self.diagnostics.iter().filter(|diagnostic| diagnostic.is_error()).count()
     }
 
@@ -57,8 +57,8 @@ impl Findings {
     }
 
     /// Returns the number of warnings.
-    pub fn warnings(&self) -> usize {
-        self.diagnostics.len() - self.errors()
+    pub fn warning_count(&self) -> usize {
+        self.diagnostics.len() - self.error_count()
     }
 }
 

@@ -464,7 +464,7 @@ pub fn path_json(file: &str, row: &Row) -> Json {
 
 /// Returns a drawing with errors of its own as a JSON object, to be listed beside the objects of its paths; `None` if it has only warnings.
 pub fn drawing_json(found: &Findings) -> Option<Json> {
-    let (errors, warnings) = (found.errors(), found.warnings());
+    let (errors, warnings) = (found.error_count(), found.warning_count());
     (errors > 0).then(|| json!({ "path": null, "state": "errors", "errors": errors, "warnings": warnings }))
 }
 

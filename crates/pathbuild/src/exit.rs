@@ -18,7 +18,7 @@ pub enum ExitStatus {
 
 impl ExitStatus {
     pub(crate) fn of(findings: &Findings) -> Self {
-        if findings.errors() > 0 { Self::Errors } else { Self::Success }
+        if findings.error_count() > 0 { Self::Errors } else { Self::Success }
     }
 
     /// Returns the number that the shell receives.

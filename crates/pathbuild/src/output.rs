@@ -175,8 +175,8 @@ impl Output {
     fn summary(&self, status: u8) -> String {
         let found = self.found.borrow();
         let mut summary = json!({
-            "errors": found.errors(),
-            "warnings": found.warnings(),
+            "errors": found.error_count(),
+            "warnings": found.warning_count(),
             "exit_status": status,
         });
         if let Value::Object(object) = &mut summary {

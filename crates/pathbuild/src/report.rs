@@ -63,7 +63,7 @@ fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Durat
     if !failed.is_empty() {
         return context.fail(failed);
     }
-    let is_wrong = findings.errors() > 0 || args.error_on_warning && findings.warnings() > 0;
+    let is_wrong = findings.error_count() > 0 || args.error_on_warning && findings.warning_count() > 0;
     if is_wrong { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
@@ -112,7 +112,7 @@ fn table_by_code(context: &Context, findings: &Findings) -> String {
 /// findings accepted by waivers.
 pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) -> String {
     let counted = |number, noun| counted(number, noun, lang);
-    let errors = match findings.errors() {
+    let errors = match findings.error_count() {
         0 => lang.choose("no errors", "keine Fehler").to_owned(),
         errors => {
             let errors = counted(errors, ERROR);
@@ -122,7 +122,7 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
             }
         }
     };
-    let warnings = match findings.warnings() {
+    let warnings = match findings.warning_count() {
         0 => lang.choose("no warnings", "keine Warnungen").to_owned(),
         warnings => counted(warnings, WARNING),
     };

@@ -49,7 +49,7 @@ fn compute_placed_keep_outs(db: &dyn Db, traced: &TracedProgram) -> Vec<PlacedKe
     let mut known = FxHashSet::default();
     let mut all = Vec::new();
     for (number, occurrence) in (0_u32..).zip(&traced.trace.occurrences) {
-        let file = traced.parts[occurrence.id].file;
+        let file = traced.paths[occurrence.id].file;
         for drawn in keep_outs(db, file) {
             let placed = drawn.placed(&occurrence.placement, occurrence.raised);
             let start = placed.outline.first().map_or(placed.at, Curve::start);
@@ -194,11 +194,13 @@ impl<'t> Search<'t> {
             found
         } else {
             let sweep_height = clamp.placed.height - trace.occurrences[mover as usize].raised;
-            found.quoting("component", all.part(mover).path.name.as_str()).with("sweep_height", sweep_height)
+            found
+                .quoting("component", all.bound_path(mover).path.name.as_str())
+                .with("sweep_height", sweep_height)
         };
         match entry.probe.filter(|probe| probe.occurrence == entry.occurrence) {
             Some(ProbeOrigin { occurrence, probe }) => {
-                all.at_origin(occurrence, &all.part(occurrence).path.probes[probe].origin, found)
+                all.at_origin(occurrence, &all.bound_path(occurrence).path.probes[probe].origin, found)
             }
             None => all.at_element(entry.occurrence, entry.element, found),
         }
@@ -206,11 +208,11 @@ impl<'t> Search<'t> {
 
     /// Describes the place of a clamp in the drawing of a path, which contains the clamp itself or embeds a drawing that does.
     fn place_of(&self, clamp: &PlacedKeepOut, occurrence: u32) -> Sentence {
-        let TracedProgram { parts, trace, .. } = self.traced;
+        let TracedProgram { paths, trace, .. } = self.traced;
         let [around, owner] =
             [occurrence, clamp.occurrence].map(|occurrence| &trace.occurrences[occurrence as usize]);
         let (at, drawn) = (around.placement.unplace(clamp.placed.at), clamp.drawn.at);
-        if parts[around.id].file == parts[owner.id].file && coincide(at, drawn) {
+        if paths[around.id].file == paths[owner.id].file && coincide(at, drawn) {
             return Sentence::new(&words::CLAMP_OF_DRAWING).with("point", Point::new(drawn.x, drawn.y));
         }
         // Round, because placements of one clamp in several programs differ slightly, and findings about it are compared exactly.

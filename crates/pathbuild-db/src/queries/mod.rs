@@ -41,8 +41,8 @@ pub use lookup::{
 pub use neighbours::placed_parts;
 pub use part::uncut_rings;
 pub use programs::{
-    DrawnPath, Part, TracedProgram, drawn_path, effective_parameters, heights_of_shims, remaining_layers,
-    traced_program,
+    BoundPath, DrawnPath, TracedProgram, drawn_path, effective_parameters, heights_of_shims,
+    remaining_layers, traced_program,
 };
 pub use raw::{PathPlace, assigned_texts, combinations, path_place, raw_file};
 pub use results::{

@@ -20,7 +20,7 @@ use crate::queries::closures::closure;
 use crate::queries::embedding::{Instance, Outcome, embeds};
 use crate::queries::index::lower_to_warnings;
 use crate::queries::part::{file_parts, part_findings, parts_of, path_cuts};
-use crate::queries::programs::{self, TracedProgram, traced_program};
+use crate::queries::programs::{BoundPath, TracedProgram, traced_program};
 
 /// Returns PB214 for cuts of one embedded path into the part of another, PB218 for cuts through its support bars, and PB217 for parts that such cuts
 /// leave loose: one finding per part or bar and element, reported in the path that contains both. Also returns PB221 for paths that place a shared
@@ -406,7 +406,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     };
     let mut all = Vec::new();
     for occurrence in &traced.trace.occurrences {
-        let cutting = &traced.parts[occurrence.id];
+        let cutting = &traced.paths[occurrence.id];
         let found = file_parts(db, cutting.file);
         let findings = instance_of(db, target, cutting).and_then(|instance| part_findings(db, instance));
         let (Some(found), Some((findings, place))) = (found, findings) else { continue };
@@ -440,7 +440,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
     {
         let is_new = |part: &&Part| !all.iter().any(|known| std::ptr::eq(known.drawn, *part));
         let own: Vec<&Part> = program.own_parts().into_iter().filter(is_new).collect();
-        let thickness = traced.parts[root.id].path.thickness;
+        let thickness = traced.paths[root.id].path.thickness;
         all.extend(own.into_iter().map(|part| placed(part, project.cuts.placement, 0.0, thickness)));
         if let Some(first) = all.first_mut() {
             first.bars_lost_to_neighbours = program.lost_bars();
@@ -450,7 +450,7 @@ pub fn placed_parts(db: &dyn Db, target: Target) -> Vec<PlacedPart<'_>> {
 }
 
 /// Returns the instance of a path in a target's program.
-fn instance_of<'db>(db: &'db dyn Db, target: Target, cutting: &programs::Part) -> Option<Instance<'db>> {
+fn instance_of<'db>(db: &'db dyn Db, target: Target, cutting: &BoundPath) -> Option<Instance<'db>> {
     let mut instances = closure(db, target).reached.iter().copied();
     instances.find(|instance| {
         instance.file(db) == cutting.file
@@ -461,7 +461,7 @@ fn instance_of<'db>(db: &'db dyn Db, target: Target, cutting: &programs::Part) -
 
 /// Returns the milling moves of a program.
 fn milled_moves(traced: &TracedProgram) -> Vec<MilledMove> {
-    let bottoms: Vec<BTreeMap<u32, f64>> = traced.parts.iter().map(|part| bottoms(&part.path)).collect();
+    let bottoms: Vec<BTreeMap<u32, f64>> = traced.paths.iter().map(|bound| bottoms(&bound.path)).collect();
     let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
     let placed = milled.filter_map(|(step, movement)| {
         let origin = traced.trace.steps.get(step as usize - 1)?;

@@ -26,15 +26,15 @@ pub struct TracedProgram {
     /// The program. For emitted targets it equals that of [`program`](crate::queries::program); checked targets use the sweep height of a
     /// check.
     pub program: Program,
-    /// The origin of each step. Paths are given as indices into [`TracedProgram::parts`].
+    /// The origin of each step. Paths are given as indices into [`TracedProgram::paths`].
     pub trace: Trace<usize>,
     /// The paths in the program with their values, each once.
-    pub parts: Vec<Part>,
+    pub paths: Vec<BoundPath>,
 }
 
-/// A path of a program, with values for its variables. Not to be confused with a finished part, [`pathbuild_path::Part`].
+/// A path of a program, with values for its variables.
 #[derive(Debug)]
-pub struct Part {
+pub struct BoundPath {
     /// The drawing that defines the path.
     pub file: SourceFile,
     /// The path with all parameters bound.
@@ -95,12 +95,12 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>>
         Occurrence { id, parent, placement, raised, sweep_height }
     });
     let trace = Trace { occurrences: occurrences.collect(), steps: trace.steps, probes: trace.probes };
-    let part = |instance: Instance<'_>| {
+    let bound = |instance: Instance<'_>| {
         let path = path(db, instance).path.clone()?;
-        Some(Part { file: instance.file(db), path, bindings: instance.bindings(db).clone() })
+        Some(BoundPath { file: instance.file(db), path, bindings: instance.bindings(db).clone() })
     };
-    let parts = instances.into_iter().map(part).collect::<Option<Vec<_>>>()?;
-    Some(Arc::new(TracedProgram { program, trace, parts }))
+    let paths = instances.into_iter().map(bound).collect::<Option<Vec<_>>>()?;
+    Some(Arc::new(TracedProgram { program, trace, paths }))
 }
 
 /// Returns a path as it is drawn; `None` if the drawing has no path of that name.
@@ -225,7 +225,7 @@ impl<'t> Occurrences<'t> {
 
     /// Places a finding at an element of a path, or at the path's start.
     pub(super) fn at_element(self, occurrence: u32, element: Option<u32>, found: Diagnostic) -> Diagnostic {
-        let path = &self.part(occurrence).path;
+        let path = &self.bound_path(occurrence).path;
         let element = element.and_then(|element| path.drawn.elements.get(element as usize));
         let origin = element.map_or(path.start_origin.clone(), |element| path.drawn.origin(element));
         self.at_origin(occurrence, &origin, found)
@@ -233,26 +233,26 @@ impl<'t> Occurrences<'t> {
 
     /// Places a finding at something drawn in a path.
     pub(super) fn at_origin(self, occurrence: u32, origin: &Origin, found: Diagnostic) -> Diagnostic {
-        let part = self.part(occurrence);
-        let found = found.in_file(part.file.path(self.db)).in_path(part.path.name.as_str());
+        let bound = self.bound_path(occurrence);
+        let found = found.in_file(bound.file.path(self.db)).in_path(bound.path.name.as_str());
         Diagnostic { trace: self.embeddings_leading_to(occurrence), ..origin.at(found) }
     }
 
     /// Returns the path of an occurrence.
-    pub(super) fn part(self, occurrence: u32) -> &'t Part {
-        &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id]
+    pub(super) fn bound_path(self, occurrence: u32) -> &'t BoundPath {
+        &self.traced.paths[self.traced.trace.occurrences[occurrence as usize].id]
     }
 
     /// Returns the embeddings that lead to a path, outermost first.
     fn embeddings_leading_to(self, occurrence: u32) -> Vec<TraceStep> {
         let step = |inner: u32| {
             let StepOrigin { occurrence, element } = self.parent(inner)?;
-            let part = &self.traced.parts[self.traced.trace.occurrences[occurrence as usize].id];
-            let element = part.path.drawn.elements.get(element? as usize)?;
+            let bound = &self.traced.paths[self.traced.trace.occurrences[occurrence as usize].id];
+            let element = bound.path.drawn.elements.get(element? as usize)?;
             Some(TraceStep {
-                file: part.file.path(self.db).clone(),
-                path: part.path.name.as_str().into(),
-                point: part.path.drawn.origin(element).point,
+                file: bound.file.path(self.db).clone(),
+                path: bound.path.name.as_str().into(),
+                point: bound.path.drawn.origin(element).point,
             })
         };
         let mut steps: Vec<TraceStep> = self.path_and_embedders(occurrence).filter_map(step).collect();

@@ -149,7 +149,7 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     let measured = |(number, probe): (&u32, &ProgramProbe)| Some((*number, probe.measured?));
     let values = stated.iter().map(measured).collect::<Option<Values>>()?;
     let mut problems = Vec::new();
-    let survey = scan::ProbeSurvey::of(clean, &mut problems);
+    let survey = scan::ProbeSurvey::collect(clean, &mut problems);
     let has_all = problems.is_empty() && survey.probes.keys().all(|probe| values.contains_key(probe));
     let (max_correction, below_plate) = (f64::INFINITY, f64::INFINITY);
     let model = ZModel::default();
@@ -211,7 +211,7 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     }
     let mut problems = Vec::new();
     let table = ProbeTable::read(inputs.program);
-    let survey = scan::ProbeSurvey::of(inputs.program, &mut problems);
+    let survey = scan::ProbeSurvey::collect(inputs.program, &mut problems);
     let mut lines = values::read(inputs.values, &mut problems);
     if let Some(log) = inputs.log {
         values::fill_from_log(&mut lines, inputs.values, log, &mut problems);

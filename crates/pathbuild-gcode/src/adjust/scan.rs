@@ -146,7 +146,7 @@ pub(super) struct ProbeUse<'a> {
 
 impl<'a> ProbeSurvey<'a> {
     /// Checks all formulas and collects the probes that they use. At most one error per line is reported.
-    pub(super) fn of(program: Source<'a>, problems: &mut Vec<Diagnostic>) -> Self {
+    pub(super) fn collect(program: Source<'a>, problems: &mut Vec<Diagnostic>) -> Self {
         let mut survey = Self::default();
         for line in lines(program) {
             for spot in formula_spans(line.content()) {

@@ -121,7 +121,7 @@ impl<'a> Binder<'a> {
         } else {
             Letters::ALL
         };
-        values.unread = values.unread.and(hidden);
+        values.unread = values.unread.union(hidden);
         Self {
             raw,
             language,
@@ -220,7 +220,7 @@ impl<'a> Binder<'a> {
         path.uncertainty = Some(Box::new(PathUncertainty {
             letters: letters
                 .filter(is_unknown)
-                .fold(Letters::default(), |all, one| all.and(Letters::of(&[one]))),
+                .fold(Letters::default(), |all, one| all.union(Letters::of(&[one]))),
             is_infeed_unknown: self.unknown.infeed || self.values.is_unknown(Letter::I),
             are_cuts_known: self.are_cuts_known(),
             walk,
@@ -564,7 +564,7 @@ impl Binder<'_> {
             name: self.subpath_name(values, self.raw.drawn.text(element.text), curve),
             thickness: thickness.unwrap_or_default(),
             tool: tool.unwrap_or_default(),
-            unknown: unknown.fold(Letters::default(), |all, (letter, _)| all.and(Letters::of(&[letter]))),
+            unknown: unknown.fold(Letters::default(), |all, (letter, _)| all.union(Letters::of(&[letter]))),
             material: own_text(Letter::M).or_else(|| self.path_text(Letter::M)),
             height: scope.texts(&self.values).number_or_default(Letter::H).unwrap_or_default(),
             values: values.variables().map(value).collect(),
@@ -586,7 +586,7 @@ impl Binder<'_> {
             None => SubpathName::Invalid { value: value.into() },
             Some((name, range)) => {
                 let has_more = range.len() < value.len();
-                SubpathName::Found { name: name.into(), has_more: has_more.then(|| value.into()) }
+                SubpathName::Found { name: name.into(), whole_value: has_more.then(|| value.into()) }
             }
         }
     }

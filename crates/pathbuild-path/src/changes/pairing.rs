@@ -84,8 +84,8 @@ pub(super) fn pair<'i>(old: &'i [Item<'i>], new: &'i [Item<'i>], frame: &Frame) 
         both: Vec::with_capacity(old.len()),
         shift: frame.shift,
     };
-    pairing.pair_by_key(|item, place| Some((place, item.effect())));
-    pairing.pair_by_key(|_, place| Some(place));
+    pairing.pair_by_key(|item, placed| Some((placed, item.effect())));
+    pairing.pair_by_key(|_, placed| Some(placed));
     pairing.pair_by_rounded_place();
     if pairing.has_lasting_handles() {
         pairing.pair_by_handle();
@@ -94,8 +94,8 @@ pub(super) fn pair<'i>(old: &'i [Item<'i>], new: &'i [Item<'i>], frame: &Frame) 
         matches!(item.kind, ElementKind::Start | ElementKind::End).then_some(item.kind)
     });
     pairing.pair_by_form();
-    pairing.pair_by_key(|item, place| centre(item, place));
-    pairing.pair_by_key(|item, place| ends(item, place).map(|ends| (item.kind, ends)));
+    pairing.pair_by_key(|item, placed| centre(item, placed));
+    pairing.pair_by_key(|item, placed| ends(item, placed).map(|ends| (item.kind, ends)));
     pairing.pair_by_shared_end();
     PairedElements { both: pairing.both, removed: pairing.old, added: pairing.new }
 }
@@ -110,16 +110,16 @@ struct Pairing<'i> {
 
 impl<'i> Pairing<'i> {
     /// Pairs elements with equal keys, each old one with the first new one that is left.
-    fn pair_by_key<K: Eq + Hash>(&mut self, key: impl Fn(&'i Item<'i>, Place) -> Option<K>) {
+    fn pair_by_key<K: Eq + Hash>(&mut self, key: impl Fn(&'i Item<'i>, PlacedForm) -> Option<K>) {
         let mut known: HashMap<K, VecDeque<usize>> = HashMap::new();
         for (index, item) in self.new.iter().enumerate() {
-            if let Some(key) = key(item, Place::of(item, Vector2::zeros())) {
+            if let Some(key) = key(item, PlacedForm::new(item, Vector2::zeros())) {
                 known.entry(key).or_default().push_back(index);
             }
         }
         let shift = self.shift;
         self.pair_with(|_, old| {
-            let key = key(old, Place::of(old, shift))?;
+            let key = key(old, PlacedForm::new(old, shift))?;
             known.get_mut(&key)?.pop_front()
         });
     }
@@ -221,14 +221,14 @@ impl<'i> Pairing<'i> {
     fn pair_by_shared_end(&mut self) {
         let mut at_end: HashMap<(ElementKind, Micrometres), Vec<usize>> = HashMap::new();
         for (index, item) in self.new.iter().enumerate() {
-            for end in ends(item, Place::of(item, Vector2::zeros())).into_iter().flatten() {
+            for end in ends(item, PlacedForm::new(item, Vector2::zeros())).into_iter().flatten() {
                 at_end.entry((item.kind, end)).or_default().push(index);
             }
         }
         let mut is_taken = vec![false; self.new.len()];
         let shift = self.shift;
         self.pair_with(|new, old| {
-            let ends = ends(old, Place::of(old, shift))?;
+            let ends = ends(old, PlacedForm::new(old, shift))?;
             let candidates = ends.iter().filter_map(|end| at_end.get(&(old.kind, *end)));
             let open = candidates.flat_map(|indices| indices.iter().take(MAX_CANDIDATES));
             let open = open.filter(|index| !is_taken[**index] && new[**index].role == old.role);
@@ -262,7 +262,7 @@ struct Form {
 
 /// The kind, form and place of an element, as a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct Place {
+struct PlacedForm {
     kind: ElementKind,
     form: Form,
     first: Micrometres,
@@ -292,23 +292,23 @@ impl Outline {
     }
 }
 
-impl Place {
-    /// Returns the place of an element after a shift.
-    fn of(item: &Item<'_>, shift: Vector2<f64>) -> Self {
+impl PlacedForm {
+    /// Returns the kind, form and place of an element after a shift.
+    fn new(item: &Item<'_>, shift: Vector2<f64>) -> Self {
         let Outline { first, form } = Outline::from_shape(&item.shape);
         Self { kind: item.kind, form, first: micrometres(first.coords + shift) }
     }
 }
 
 /// Returns the centre of a circle; `None` for other elements.
-fn centre(item: &Item<'_>, place: Place) -> Option<Micrometres> {
-    (item.kind == ElementKind::Circle).then_some(place.first)
+fn centre(item: &Item<'_>, placed: PlacedForm) -> Option<Micrometres> {
+    (item.kind == ElementKind::Circle).then_some(placed.first)
 }
 
 /// Returns both ends of a line or arc, in a fixed order.
-fn ends(item: &Item<'_>, place: Place) -> Option<[Micrometres; 2]> {
+fn ends(item: &Item<'_>, placed: PlacedForm) -> Option<[Micrometres; 2]> {
     matches!(item.kind, ElementKind::Line | ElementKind::Arc).then(|| {
-        let ([x, y], [along, up]) = (place.first, place.form.points[0]);
+        let ([x, y], [along, up]) = (placed.first, placed.form.points[0]);
         let mut ends = [[x, y], [x.saturating_add(along), y.saturating_add(up)]];
         ends.sort_unstable();
         ends
@@ -318,8 +318,8 @@ fn ends(item: &Item<'_>, place: Place) -> Option<[Micrometres; 2]> {
 /// Whether two lines or arcs have an end in common after a shift of the old one, or two circles their centre.
 fn has_common_end(old: &Item<'_>, new: &Item<'_>, shift: Vector2<f64>) -> bool {
     let points = |item: &Item<'_>, shift| {
-        let place = Place::of(item, shift);
-        ends(item, place).unwrap_or([place.first; 2])
+        let placed = PlacedForm::new(item, shift);
+        ends(item, placed).unwrap_or([placed.first; 2])
     };
     let new = points(new, Vector2::zeros());
     points(old, shift).iter().any(|point| new.contains(point))

@@ -20,11 +20,11 @@ const BAR_LOSS: f64 = 0.05;
 #[derive(Clone, Debug, PartialEq)]
 pub struct LostBar {
     /// Index of the path to which the bar belongs.
-    pub of: usize,
+    pub path: usize,
     /// Number of the bar among the bars of its path.
     pub bar: usize,
     /// Index of the path that cuts the bar away.
-    pub by: usize,
+    pub cut_by: usize,
     /// The element that takes most of the bar, as an index into [`PathCuts::elements`] of the path that cuts the bar away.
     pub element: u32,
     /// The length in mm that is cut away.
@@ -43,13 +43,13 @@ pub struct LostBar {
 /// which suffices to hold the part: for example, a long bar round a corner to which a cut leads.
 pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
     let mut found = Vec::new();
-    for (of, path) in cuts.paths.iter().enumerate() {
+    for (path, own) in cuts.paths.iter().enumerate() {
         // In most drawings no cut takes anything of a bar, so nothing needs to be grouped.
         let is_untouched = |bar| BarLoss { cuts, tolerance, bar: &[bar] }.losses().is_empty();
-        if standing_bars(path).all(is_untouched) {
+        if standing_bars(own).all(is_untouched) {
             continue;
         }
-        for (bar, whole) in whole_bars(path).into_iter().enumerate() {
+        for (bar, whole) in whole_bars(own).into_iter().enumerate() {
             let losses = BarLoss { cuts, tolerance, bar: &whole }.losses();
             let sections: Vec<Curve> = whole.iter().map(|(_, middle)| *middle).collect();
             let length = sections.iter().map(Curve::length).sum();
@@ -58,14 +58,25 @@ pub(super) fn lost_bars(cuts: &CutIndex<'_>, tolerance: f64) -> Vec<LostBar> {
             if remaining >= (1.0 - BAR_LOSS) * required {
                 continue;
             }
-            found.extend(losses.into_iter().filter_map(|(by, elements)| {
+            found.extend(losses.into_iter().filter_map(|(cut_by, elements)| {
                 let (lost, element) = total_loss(&elements)?;
                 let at = middle_of(&sections);
                 let is_lost = lost > BAR_LOSS * length;
                 let is_segment = matches!(&whole[..], [(bar, _)] if bar.foot.length() <= length + JOIN_GAP);
-                let is_too_short = by == of && is_segment && length <= 2.0 * path.radius + MAX_WEAK_BRIDGE;
+                let is_too_short =
+                    cut_by == path && is_segment && length <= 2.0 * own.radius + MAX_WEAK_BRIDGE;
                 let sections = sections.clone();
-                is_lost.then_some(LostBar { of, bar, by, element, lost, length, at, sections, is_too_short })
+                is_lost.then_some(LostBar {
+                    path,
+                    bar,
+                    cut_by,
+                    element,
+                    lost,
+                    length,
+                    at,
+                    sections,
+                    is_too_short,
+                })
             }));
         }
     }

@@ -103,12 +103,12 @@ impl PartFindings {
     fn add_lost_bars(&mut self, lost: &[LostBar], paths: &[&PathCuts]) {
         let mut of_elements: BTreeMap<(usize, u32, usize), Vec<&LostBar>> = BTreeMap::new();
         for bar in lost {
-            self.lost_bars[bar.of].extend(&bar.sections);
-            of_elements.entry((bar.by, bar.element, bar.of)).or_default().push(bar);
+            self.lost_bars[bar.path].extend(&bar.sections);
+            of_elements.entry((bar.cut_by, bar.element, bar.path)).or_default().push(bar);
         }
-        for ((by, element, of), bars) in of_elements {
-            let problem = LostBar::problem(bars, paths[of], &messages::BAR_CUT_AWAY);
-            self.of_paths[by].extend(problem.map(|problem| paths[by].at_element(element, problem)));
+        for ((cut_by, element, path), bars) in of_elements {
+            let problem = LostBar::problem(bars, paths[path], &messages::BAR_CUT_AWAY);
+            self.of_paths[cut_by].extend(problem.map(|problem| paths[cut_by].at_element(element, problem)));
         }
     }
 }

@@ -242,6 +242,6 @@ impl<'c> PlacedCuts<'c> {
 /// Returns the support bars of one path that another one takes away.
 fn bars_taken(own: &PathCuts, cutting: &PathCuts, tolerance: f64) -> Vec<LostBar> {
     let paths = [own, cutting];
-    let is_taken = |lost: &LostBar| (lost.of, lost.by) == (0, 1);
+    let is_taken = |lost: &LostBar| (lost.path, lost.cut_by) == (0, 1);
     lost_bars(&CutIndex::new(&paths), tolerance).into_iter().filter(is_taken).collect()
 }

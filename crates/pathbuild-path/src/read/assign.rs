@@ -78,7 +78,7 @@ impl<'d> Texts<'d> {
                 }
                 let letters = texts.first().map(ParameterText::possible_letters);
                 path.uncertainty.stray_letters =
-                    path.uncertainty.stray_letters.and(letters.unwrap_or_default());
+                    path.uncertainty.stray_letters.union(letters.unwrap_or_default());
             }
         }
     }

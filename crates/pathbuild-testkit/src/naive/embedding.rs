@@ -108,12 +108,12 @@ impl<'m> Visit<'m> {
         let name = match &subpath.name {
             SubpathName::Missing { .. } => return self.stop(at("PB501", &[])),
             SubpathName::Invalid { value } => return self.stop(at("PB502", &[value])),
-            SubpathName::Found { name, has_more: Some(value) } if has_more_words(value, name.as_str()) => {
+            SubpathName::Found { name, whole_value: Some(value) } if has_more_words(value, name.as_str()) => {
                 return self.stop(at("PB502", &[value]));
             }
-            SubpathName::Found { name, has_more } => {
+            SubpathName::Found { name, whole_value } => {
                 // Other characters beside the name are only a warning.
-                self.found.extend(has_more.as_ref().map(|value| at("PB502", &[value])));
+                self.found.extend(whole_value.as_ref().map(|value| at("PB502", &[value])));
                 name
             }
         };

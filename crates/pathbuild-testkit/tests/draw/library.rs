@@ -79,7 +79,7 @@ fn what_is_embedded_is_there_and_agrees() {
         all.iter().flat_map(|path| path.segments.iter().map(move |segment| (path, segment)))
     {
         let SegmentKind::Subpath(subpath) = &segment.kind else { continue };
-        let SubpathName::Found { name, has_more: None, .. } = &subpath.name else { panic!("{subpath:?}") };
+        let SubpathName::Found { name, whole_value: None, .. } = &subpath.name else { panic!("{subpath:?}") };
         let embedded = all.iter().find(|path| path.name == *name).unwrap();
         assert_eq!((subpath.tool, subpath.thickness), (embedded.tool, embedded.thickness));
         assert_eq!(subpath.material, embedded.material);

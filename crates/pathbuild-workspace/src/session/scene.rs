@@ -89,10 +89,10 @@ fn prevents_program(problem: &Diagnostic) -> bool {
 /// Returns values that were chosen only for display: those of variables, of the sweep height (S), and of options that are not set.
 pub(crate) fn examples(
     db: &dyn Db,
-    TracedProgram { program, parts, .. }: &TracedProgram,
+    TracedProgram { program, paths, .. }: &TracedProgram,
     writing: &WriteSettings,
 ) -> Vec<Example> {
-    let Some(root) = parts.first() else { return Vec::new() };
+    let Some(root) = paths.first() else { return Vec::new() };
     let example = |name: String, value: Option<&str>| Example { name, value: value.map(str::to_owned) };
     let mut examples: Vec<Example> =
         root.bindings.iter().map(|(name, value)| example(name.to_string(), Some(value))).collect();
@@ -142,16 +142,16 @@ pub(crate) fn program_scene(
     writing: &WriteSettings,
     details: Option<ProgramDetails<'_>>,
 ) -> Result<Option<ScenePath>, Box<Diagnostic>> {
-    let TracedProgram { program, trace, parts } = traced;
-    // The first part is the emitted path itself.
-    let known = parts.iter().zip(0..).map(|(part, number)| {
+    let TracedProgram { program, trace, paths } = traced;
+    // The first path is the emitted path itself.
+    let known = paths.iter().zip(0..).map(|(bound, number)| {
         let is_shown = details.is_some();
-        is_shown.then(|| effective_parameters(db, part.file, &part.path.name, &part.bindings, number == 0))
+        is_shown.then(|| effective_parameters(db, bound.file, &bound.path.name, &bound.bindings, number == 0))
     });
     let known: Vec<Vec<ElementParameters>> = known.map(Option::unwrap_or_default).collect();
-    let sources = parts.iter().zip(&known).map(|(part, known)| {
-        let drawn = drawn_path(db, part.file, &part.path.name)?;
-        Some((drawn_source(db, part.file, drawn, known), &*part.path))
+    let sources = paths.iter().zip(&known).map(|(bound, known)| {
+        let drawn = drawn_path(db, bound.file, &bound.path.name)?;
+        Some((drawn_source(db, bound.file, drawn, known), &*bound.path))
     });
     let Some(sources) = sources.collect::<Option<Vec<_>>>() else { return Ok(None) };
     // Do not split moves for height correction: each line of the text must correspond to one move.

@@ -130,7 +130,11 @@ pub struct FindingCounts {
 impl FindingCounts {
     /// Counts findings.
     pub fn of(findings: &Findings) -> Self {
-        Self { errors: findings.errors(), warnings: findings.warnings(), known: findings.waived.len() }
+        Self {
+            errors: findings.error_count(),
+            warnings: findings.warning_count(),
+            known: findings.waived.len(),
+        }
     }
 }
 

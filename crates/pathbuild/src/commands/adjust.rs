@@ -355,6 +355,6 @@ impl<'a> Adjustment<'a> {
         diagnostics.extend(self.errors);
         let findings = Findings::new(diagnostics);
         self.context.show(&findings);
-        if self.has_failed || findings.errors() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
+        if self.has_failed || findings.error_count() > 0 { ExitStatus::Errors } else { ExitStatus::Success }
     }
 }

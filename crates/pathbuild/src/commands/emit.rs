@@ -77,7 +77,7 @@ fn conclude(context: &Context, args: &EmitArgs, report: EmitReport) -> ExitStatu
         let label = context.choose("not milled", "nicht gefräst");
         context.printer.status(format_args!("{label}: {}", left_out_text(&left_out)));
     }
-    if findings.errors() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }
+    if findings.error_count() > 0 || !is_current { ExitStatus::Errors } else { ExitStatus::Success }
 }
 
 /// Lists the elements on layers of paths that are not part of their programs, counted by type.

@@ -118,7 +118,7 @@ fn options(args: &VerifyArgs) -> Result<VerifyOptions, Box<Diagnostic>> {
 fn conclude(context: &Context, findings: &Findings) -> ExitStatus {
     let status = context.conclude_findings(findings);
     context.report_date();
-    let (errors, warnings) = (findings.errors(), findings.warnings());
+    let (errors, warnings) = (findings.error_count(), findings.warning_count());
     let phrase = |en: &'static str, de: &'static str| context.choose(en, de);
     let known = match findings.waived.len() {
         0 => String::new(),

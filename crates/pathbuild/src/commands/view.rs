@@ -43,7 +43,7 @@ fn report_missing_stock(context: &Context, findings: &Findings, is_program: bool
     );
     let advice = context.choose(": give --cutter and --surface", ": --cutter und --surface angeben");
     let status = context.usage(&format!("{reason}{}", if is_program { advice } else { "" }));
-    if findings.errors() > 0 { ExitStatus::Errors } else { status }
+    if findings.error_count() > 0 { ExitStatus::Errors } else { status }
 }
 
 /// The scene of the argument, ready to be shown.

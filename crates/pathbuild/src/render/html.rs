@@ -63,7 +63,7 @@ fn add_accepted(text: &mut String, findings: &Findings, view: &View) {
 }
 
 fn summary(findings: &Findings, view: &View) -> String {
-    let (errors, warnings) = (findings.errors(), findings.warnings());
+    let (errors, warnings) = (findings.error_count(), findings.warning_count());
     let (error, warning) = (view.choose("errors", "Fehler"), view.choose("warnings", "Warnungen"));
     let mut parts = vec![format!("{error}: {errors}"), format!("{warning}: {warnings}")];
     let paths: usize = findings.checked.iter().map(|file| file.paths.len()).sum();
