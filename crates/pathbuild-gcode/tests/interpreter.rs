@@ -1544,6 +1544,26 @@ fn marlin_obeys_one_command_a_line() {
 }
 
 #[test]
+fn marlin_moves_only_in_lines_whose_command_moves() {
+    let program = |line: &str| format!("G21\nG90\nG0 X0 Y0 Z5 F1000\nG1 Z-1 F100\n{line}\nG1 X9");
+    let moves = |line: &str| {
+        let found = interpret(program(line).as_bytes(), Marlin, &Options::default());
+        found.moves().into_iter().skip(2).map(|(line, to)| (line, to.to.at)).collect::<Vec<_>>()
+    };
+    let values_of_commands =
+        ["M203 X50 Y50 Z10", "M205 Z0.4 F5", "M204 Z10", "M117 X5 Y5 Z10", "M0 Z10", "M0 S5 X1"];
+    for line in values_of_commands {
+        assert_eq!(moves(line), [(6, [9.0, 0.0, -1.0])], "{line}");
+        assert_eq!(faults(Marlin, &program(line)), FINE, "{line}");
+    }
+    for line in ["M3 Z10", "G4 P100 Z10", "G90 Z10", "G21 Z10", "M8 F50"] {
+        assert_eq!(moves(line), [(6, [9.0, 0.0, -1.0])], "{line}");
+        assert_eq!(faults(Marlin, &program(line)), ["5 unused-word"], "{line}");
+    }
+    assert_eq!(moves("G0 Z10"), [(5, [0.0, 0.0, 10.0]), (6, [9.0, 0.0, 10.0])]);
+}
+
+#[test]
 fn numbers_without_a_point_are_doubtful_where_they_may_count_thousandths() {
     assert_eq!(wrong(Fanuc, "G0 X10"), ["2 doubtful-spelling"]);
     assert_eq!(wrong(Fanuc, "G0 X10.\nG0 X0\nG1 X5.0 F100"), FINE);

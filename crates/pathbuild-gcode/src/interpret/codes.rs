@@ -125,6 +125,11 @@ impl Command {
         }
     }
 
+    /// Whether the command can move the machine, or uses the coordinates of its line.
+    pub(super) fn may_move(self) -> bool {
+        matches!(self.group(), Group::Motion | Group::NonModal | Group::MachineCoordinates)
+    }
+
     /// Whether the command consumes the coordinates of the line.
     pub(super) fn takes_coordinates(self) -> bool {
         match self {

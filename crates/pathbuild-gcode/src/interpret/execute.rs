@@ -10,6 +10,7 @@ use super::codes::Command;
 use super::evaluate::{Fault, Parameters, StatedProbes};
 use super::half_circles::DoubtfulArcs;
 use super::state::{ClearedZero, Heights, Options, State};
+use super::words::ValueOwner;
 use crate::dialect::{MCodeOrder, Percent, Rules, beginning_of};
 use crate::read::{Block, OWordKind, Problems, SourcePosition, Span};
 
@@ -213,7 +214,8 @@ impl<'i> Interpreter<'i> {
         self.apply_modes(block);
         self.take_inert(block);
         let was_lifted = self.state.is_lifted;
-        let has_moved = self.execute_coordinate_command(block) || self.motion(block);
+        let may_move = self.owner_of_values(block) == ValueOwner::Move;
+        let has_moved = may_move && (self.execute_coordinate_command(block) || self.motion(block));
         if stops_last {
             self.apply_spindle_and_coolant(block);
         } else if has_moved && !(was_lifted && self.state.is_lifted) {

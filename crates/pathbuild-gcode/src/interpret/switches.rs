@@ -7,6 +7,7 @@ use pathbuild_motion::{Action, Axes, Change, Coolant, Corners, Group, Move, Tool
 use super::codes::{self, Command, FeedUnit, Motion};
 use super::execute::{Interpreter, Slot, Values, limits, whole_number};
 use super::state::{INCH, StatedLength};
+use super::words::ValueOwner;
 use crate::dialect::{DwellUnit, FeedMode, UnitChange};
 use crate::read::{Block, Span};
 
@@ -24,7 +25,8 @@ pub(super) const CALLS: &[u16] = &[970, 980, 990];
 impl Interpreter<'_> {
     pub(super) fn apply_tool_words(&mut self, block: &Block<'_>) {
         let change = self.words.m_code(&[60]);
-        let tool = self.words.values.take_slot(b'T');
+        let is_value = self.rules.one_command && change.is_none() && !self.words.m_codes.is_empty();
+        let tool = if is_value { None } else { self.words.values.take_slot(b'T') };
         let is_named = tool.is_some();
         if let Some(slot) = tool {
             match whole_number(slot.value) {
@@ -382,6 +384,9 @@ impl Interpreter<'_> {
     }
 
     pub(super) fn set_feed(&mut self, block: &Block<'_>) {
+        if self.owner_of_values(block) != ValueOwner::Move {
+            return;
+        }
         let Some(slot) = self.words.values.take_slot(b'F') else { return };
         if self.rules.layers && self.options.ignore_feed {
             return self.report(block, &say::FEED_IGNORED, slot.span, |d| d);

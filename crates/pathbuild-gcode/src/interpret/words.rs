@@ -14,6 +14,17 @@ use crate::read::{Block, Span, Target, Value, Word};
 /// Number of decimals that marks the value of an expression, which has no decimals of its own.
 const EXPRESSION_DECIMALS: u8 = u8::MAX;
 
+/// The word to which coordinates, F and other values of a block belong. On controls that obey one command per line, they belong to that command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ValueOwner {
+    /// A word that can move the machine or uses coordinates. On all other controls, the motion in effect.
+    Move,
+    /// A word that the interpreter executes, and that never moves the machine.
+    Command,
+    /// A word that the interpreter does not execute: its values are ignored.
+    NotFollowed,
+}
+
 impl Interpreter<'_> {
     /// Sorts the words of a block and evaluates them.
     pub(super) fn gather(&mut self, block: &Block<'_>) -> Result<(), ValueFault> {
@@ -28,6 +39,7 @@ impl Interpreter<'_> {
             match word.letter {
                 b'G' => self.g_word(block, word, value),
                 b'M' => self.m_word(block, word, value),
+                _ if self.owner_of_values(block) == ValueOwner::NotFollowed => {}
                 letter => {
                     let correction = match block.formula(index) {
                         Some(formula) => self.correction(block, formula, value),
@@ -81,6 +93,28 @@ impl Interpreter<'_> {
         self.rules.spelling.grammar.as_ref().map_or(0, |grammar| grammar.parameters)
     }
 
+    /// Returns the word to which the values of a block belong. A line without a command is read as a move.
+    pub(super) fn owner_of_values(&self, block: &Block<'_>) -> ValueOwner {
+        if !self.rules.one_command {
+            return ValueOwner::Move;
+        }
+        let command = self.words.commands.first().map(|(command, ..)| *command);
+        match block.words.first().map(|word| word.letter) {
+            Some(b'M') if self.words.m_codes.first().is_some_and(|(code, _)| is_followed_m(*code)) => {
+                ValueOwner::Command
+            }
+            Some(b'M') => ValueOwner::NotFollowed,
+            Some(b'G') => match command {
+                None => ValueOwner::NotFollowed,
+                Some(Command::NotFollowed(group)) if group != Group::Motion => ValueOwner::NotFollowed,
+                Some(command) if command.may_move() => ValueOwner::Move,
+                Some(_) => ValueOwner::Command,
+            },
+            Some(b'T') => ValueOwner::Command,
+            _ => ValueOwner::Move,
+        }
+    }
+
     /// Checks that the first word is a command, because the control obeys only the first word and takes the others as its values.
     fn check_command(&mut self, block: &Block<'_>) {
         let is_command = |word: &Word| matches!(word.letter, b'G' | b'M' | b'T');
@@ -88,7 +122,10 @@ impl Interpreter<'_> {
             let name = block.text_of(first.span).into_owned();
             self.report(block, &say::NO_COMMAND, first.span, |d| d.quoting("word", name));
         }
-        let mut commands = block.words.iter().filter(|word| is_command(word));
+        // T is a value of an M word, as in `M204 T500`.
+        let has_m = block.words.first().is_some_and(|word| word.letter == b'M');
+        let is_value = |word: &Word| has_m && word.letter == b'T';
+        let mut commands = block.words.iter().filter(|word| is_command(word) && !is_value(word));
         if let (Some(first), Some(second)) = (commands.next(), commands.next()) {
             let [first, name] = [first, second].map(|word| block.text_of(word.span).into_owned());
             self.report(block, &say::SECOND_COMMAND, second.span, |d| {

@@ -51,9 +51,7 @@ impl Line<'_> {
         self.block_delete();
         loop {
             self.at = plain_words(self.bytes, self.at, &mut self.out.words);
-            if self.has_message() {
-                self.message();
-            }
+            self.message();
             let Some(byte) = self.peek() else { break };
             match byte {
                 b' ' | b'\t' => self.at += 1,

@@ -8,7 +8,7 @@ use super::block::{Block, Comment, CommentStyle, LineParts, Span, end_of_line};
 use super::encoding::BYTE_ORDER_MARK;
 use super::line::{Line, plain_words};
 use super::problems::{Problems, SourcePosition};
-use super::word::plain_formula;
+use super::word::{begins_message, plain_formula};
 use crate::dialect::{LineLength, Percent, Rules};
 
 /// Maximum length of a line in bytes. No machine accepts lines of a comparable length.
@@ -186,7 +186,8 @@ impl<'t> BlockReader<'t> {
             [b'\r', b'\n', ..] => 2,
             _ => 0,
         };
-        if end == 0 || self.parts.words.is_empty() || length > self.safe_length() {
+        let has_message = begins_message(&self.parts.words, &self.rules.spelling);
+        if end == 0 || self.parts.words.is_empty() || has_message || length > self.safe_length() {
             self.parts.clear();
             return None;
         }

@@ -326,19 +326,17 @@ impl Line<'_> {
         Ok(())
     }
 
-    /// Whether the words up to here include a command after which the rest of the line is a message.
-    pub(super) fn has_message(&self) -> bool {
-        let codes = self.spelling().message_codes;
-        let [first, rest @ ..] = self.out.words.as_slice() else { return false };
-        let is_one = |value: Value| matches!(value, Value::Number(number) if codes.iter().any(|code| f64::from(*code) == number.value));
-        !codes.is_empty()
-            && first.letter == b'M'
-            && is_one(first.value)
-            && rest.iter().all(|word| matches!(word.letter, b'S' | b'P'))
-    }
-
-    /// Reads the rest of the line, up to a semicolon or a checksum, as a message, unless it begins with S or P and a number.
+    /// If the first word is a command with a message, reads what follows it and its S and P, up to a semicolon or a checksum, as the message. Parts
+    /// of the message that have been read as words are dropped.
     pub(super) fn message(&mut self) {
+        if !begins_message(&self.out.words, self.spelling()) {
+            return;
+        }
+        let values = self.out.words[1..].iter().take_while(|word| matches!(word.letter, b'S' | b'P')).count();
+        if let Some(dropped) = self.out.words.get(1 + values) {
+            self.at = dropped.span.start as usize;
+            self.out.words.truncate(1 + values);
+        }
         self.skip_blanks();
         let rest = &self.bytes[self.at..];
         let is_word = matches!(rest, [b'S' | b'P' | b's' | b'p', b'0'..=b'9' | b'.', ..]);
@@ -370,6 +368,12 @@ impl Line<'_> {
             NotationSupport::Unknown => self.unknown_character(),
         }
     }
+}
+
+/// Whether the first of these words is a command after which the rest of the line is a message.
+pub(super) fn begins_message(words: &[Word], spelling: &Spelling) -> bool {
+    let is_one = |number: Number| spelling.message_codes.iter().any(|code| f64::from(*code) == number.value);
+    matches!(words, [Word { letter: b'M', value: Value::Number(number), .. }, ..] if is_one(*number))
 }
 
 pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
