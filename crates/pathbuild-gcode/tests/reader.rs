@@ -187,6 +187,18 @@ fn marlin_numbers_lines_only_with_a_checksum() {
 }
 
 #[test]
+fn marlin_reads_a_number_up_to_a_space() {
+    assert_eq!(words(Marlin, "G0 X 1 Z  -5\n"), ["1: G0 X1 Z-5"]);
+    assert_eq!(reading_faults(Marlin, b"G0 X 1 Z  -5\n"), [""; 0]);
+    assert_eq!(
+        reading_faults(Marlin, b"G0 Z1 5\nG0 Z1 .5\nG0 Z- 5\n"),
+        ["1 invalid-word", "2 invalid-word", "3 invalid-word"]
+    );
+    assert_eq!(words(Grbl, "G0 Z1 5\n"), ["1: G0 Z15"]);
+    assert_eq!(words(Marlin, "M117 2D Contour1\nM0 5 holes\n"), ["1: M117 (2D Contour1)", "2: M0 (5 holes)"]);
+}
+
+#[test]
 fn a_slash_marks_a_line_that_a_switch_leaves_out() {
     assert_eq!(words(Rs274, "/G0 X1\n"), ["1: G0 X1"]);
     assert_eq!(reading_faults(Rs274, b"/G0 X1\n"), ["1 optional-line"]);

@@ -567,6 +567,8 @@ pub(super) static MARLIN: Rules = Rules {
         small_letters: false,
         round_comments: NotationSupport::Unknown,
         semicolon_comments: NotationSupport::Usual,
+        // Marlin's parser.h, value_float: a number ends at a blank. Its parser.cpp skips blanks between a letter and its number.
+        blanks: Blanks::EndNumbers,
         percent: Percent::Refused,
         slash: Slash::Unknown,
         // Marlin's queue.cpp, process_stream_char: what follows `;` is dropped while the line is received.
@@ -693,6 +695,8 @@ pub enum NotationSupport {
 pub enum Blanks {
     /// Blanks are ignored, even inside a number: `X1 2` is X12.
     Ignored,
+    /// A blank ends a number, but may precede it: `X1 2` is X1 and 2, `X 1` is X1.
+    EndNumbers,
     /// Blanks separate words: `M06 05` is M6 and 5.
     Separate,
 }

@@ -377,7 +377,11 @@ pub(super) fn begins_message(words: &[Word], spelling: &Spelling) -> bool {
 }
 
 pub(super) fn comment_sign(spelling: &Spelling) -> &'static str {
-    if spelling.slash_comments == NotationSupport::Usual { "//" } else { "(" }
+    match spelling {
+        spelling if spelling.slash_comments == NotationSupport::Usual => "//",
+        spelling if spelling.round_comments == NotationSupport::Unknown => ";",
+        _ => "(",
+    }
 }
 
 /// Reads `(=1.000+0.441*[#51-2.000]+...)` at `start` as the formula of the last word and returns the offset after it. Returns `None` for any other
