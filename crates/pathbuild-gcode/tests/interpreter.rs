@@ -1564,6 +1564,45 @@ fn marlin_moves_only_in_lines_whose_command_moves() {
 }
 
 #[test]
+fn common_words_of_marlin_are_accepted_with_their_values() {
+    let wrong = |line: &str| faults(Marlin, &format!("G21\nG90\n{line}"));
+    let lines = [
+        "M84 S0",
+        "M18 S0",
+        "M204 S500",
+        "M204 T500",
+        "M300 S440 P200",
+        "M280 P0 S10",
+        "M42 P3 S255",
+        "M226 P1",
+        "M117 2D Contour1",
+        "M118 E1 x",
+        "G28 X Y",
+        "G28 Z",
+        "M84 X Y Z",
+        "M106 S255",
+        "M107",
+        "M92 X80 A400",
+        "M420 S1 V",
+        "M211 S0",
+        "M500",
+        "M104 S0",
+        "M205 B5 H-1 F-2",
+        "M900 K0 K1",
+        "M73 P10 R5",
+    ];
+    for line in lines {
+        assert_eq!(wrong(line), FINE, "{line}");
+    }
+    for line in ["G29", "G30 X5 Y5", "G61 X5 F100", "M206 Z1", "M600"] {
+        assert_eq!(wrong(line), ["3 word-not-followed"], "{line}");
+    }
+    let selects = |line: &str| trace(Marlin, line).iter().any(|step| step.contains("select"));
+    assert!(selects("T2") && !selects("M204 T500") && !selects("M104 T0 S0"));
+    assert_eq!(wrong("M999"), ["3 unknown-word"]);
+}
+
+#[test]
 fn numbers_without_a_point_are_doubtful_where_they_may_count_thousandths() {
     assert_eq!(wrong(Fanuc, "G0 X10"), ["2 doubtful-spelling"]);
     assert_eq!(wrong(Fanuc, "G0 X10.\nG0 X0\nG1 X5.0 F100"), FINE);

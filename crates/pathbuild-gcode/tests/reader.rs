@@ -199,6 +199,17 @@ fn marlin_reads_a_number_up_to_a_space() {
 }
 
 #[test]
+fn marlin_takes_letters_without_a_number_as_options() {
+    assert_eq!(words(Marlin, "G28 X Y\nG28 Z\nM84 XY Z\n"), ["1: G28 X0 Y0", "2: G28 Z0", "3: M84 X0 Y0 Z0"]);
+    assert_eq!(reading_faults(Marlin, b"G28 XYZ\nM420 V\nM18 X ; off\n"), [""; 0]);
+    assert_eq!(
+        reading_faults(Marlin, b"G1 X\nM3 S\nG92 X\nM84 Xend\n"),
+        ["1 invalid-word", "2 invalid-word", "3 invalid-word", "4 invalid-word"]
+    );
+    assert_eq!(reading_faults(LinuxCnc, b"G28 X\n"), ["1 invalid-word"]);
+}
+
+#[test]
 fn a_slash_marks_a_line_that_a_switch_leaves_out() {
     assert_eq!(words(Rs274, "/G0 X1\n"), ["1: G0 X1"]);
     assert_eq!(reading_faults(Rs274, b"/G0 X1\n"), ["1 optional-line"]);

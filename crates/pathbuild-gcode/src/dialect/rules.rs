@@ -284,6 +284,7 @@ const BASE_SPELLING: Spelling = Spelling {
     real_time_bytes: false,
     active_comments: &[],
     message_codes: &[],
+    flags: false,
 };
 
 const BASE: Rules = Rules {
@@ -577,6 +578,7 @@ pub(super) static MARLIN: Rules = Rules {
         // Marlin's queue.cpp: "No Checksum with line number", unless the file is on the SD card.
         checksums: true,
         message_codes: &[0, 1, 117, 118],
+        flags: true,
         ..BASE_SPELLING
     },
     // G0_G1 stores F as mm/s, and position shifts are in mm.
@@ -677,6 +679,8 @@ pub struct Spelling {
     pub active_comments: &'static [&'static str],
     /// M codes after which the rest of the line, except for S and P, is a message for the operator.
     pub message_codes: &'static [u16],
+    /// Whether letters after G28 and M words may have no number, as in `G28 X Y` and `M84 Z`.
+    pub flags: bool,
 }
 
 /// Degree to which a dialect supports a notation.

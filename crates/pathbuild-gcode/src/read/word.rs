@@ -26,6 +26,10 @@ impl Line<'_> {
             Some(byte) if number::begins(byte) && !self.begins_signed_expression(byte) => {
                 Value::Number(self.number()?)
             }
+            _ if self.is_flag(letter) => {
+                self.at = start + 1;
+                Value::Number(Number { value: 0.0, decimals: 0 })
+            }
             Some(b'#' | b'[' | b'+' | b'-' | b'a'..=b'z' | b'A'..=b'Z') => {
                 self.value_of_word(start, letter)?
             }
@@ -37,6 +41,17 @@ impl Line<'_> {
         }
         self.out.words.push(Word { letter, value, span });
         Ok(())
+    }
+
+    /// Whether a letter may have no number here: after G28 it names an axis, and after an M word it is an option. S needs its number: after M3, it is
+    /// the speed.
+    fn is_flag(&self, letter: u8) -> bool {
+        let Some(Word { letter: command, value: Value::Number(number), .. }) = self.out.words.first() else {
+            return false;
+        };
+        let takes_flags = *command == b'M' && letter != b'S' || *command == b'G' && number.value == 28.0;
+        let is_text = self.peek().is_some_and(|byte| byte.is_ascii_lowercase());
+        self.spelling().flags && takes_flags && !is_text
     }
 
     fn blank_after_letter(&mut self, start: usize) {
