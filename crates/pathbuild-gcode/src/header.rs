@@ -623,7 +623,7 @@ fn fusion_tool(comment: &str) -> Option<Statement> {
     let kind = parts.find(|part| !part.starts_with("ZMIN=")).unwrap_or_default().to_ascii_lowercase();
     // V-bits also have CR=0, so only the name of the tool's type shows that the tool is flat.
     let tip = match &*kind {
-        "flat end mill" if radius == 0.0 && !is_tapered => Tip::Flat,
+        "flat end mill" | "face mill" if radius == 0.0 && !is_tapered => Tip::Flat,
         "bullnose end mill" | "bull nose end mill" if !is_tapered => Tip::BullNose(radius),
         "ball end mill" if !is_tapered && is_half(radius, diameter) => Tip::BullNose(radius),
         _ => Tip::Unknown,
