@@ -5,7 +5,7 @@ mod common;
 use common::{changes, fault_text, faults, faults_with, spelled_out, trace, trace_with};
 use pathbuild_diagnostic::{Lang, Severity};
 use pathbuild_gcode::dialect::Dialect::{
-    self, Fanuc, Grbl, Haas, LinuxCnc, Mach3, Marlin, Native, Rs274, Xpertmill,
+    self, Estlcam, Fanuc, Grbl, Haas, LinuxCnc, Mach3, Marlin, Native, Rs274, Xpertmill,
 };
 use pathbuild_gcode::dialect::is_active_comment;
 use pathbuild_gcode::interpret::{Heights, MachineOffsets, Options, interpret};
@@ -1600,6 +1600,19 @@ fn common_words_of_marlin_are_accepted_with_their_values() {
     let selects = |line: &str| trace(Marlin, line).iter().any(|step| step.contains("select"));
     assert!(selects("T2") && !selects("M204 T500") && !selects("M104 T0 S0"));
     assert_eq!(wrong("M999"), ["3 unknown-word"]);
+}
+
+#[test]
+fn moves_of_an_unknown_cycle_are_not_made_up() {
+    let estlcam = "G90\nG21\nG0 Z5\nG0 X0 Y0\nG83 X5 Y5 Z-5 R2 Q1 F100\nX10\nG0 X20\nM30";
+    assert_eq!(faults(Estlcam, estlcam), ["5 unknown-word"]);
+    let moves = |dialect, program: &str| {
+        let found = interpret(program.as_bytes(), dialect, &Options::default());
+        found.moves().into_iter().map(|(line, to)| (line, to.to.at)).collect::<Vec<_>>()
+    };
+    assert_eq!(moves(Estlcam, estlcam)[2..], [(7, [20.0, 5.0, 5.0])]);
+    let fanuc = "G90 G21 G94\nG0 X0. Y0. Z5.\nG84 X5. Y5. Z-5. R2. F100.\nG0 X20.";
+    assert_eq!(moves(Fanuc, fanuc)[1..], [(4, [20.0, 5.0, 5.0])], "a cycle that is not followed");
 }
 
 #[test]

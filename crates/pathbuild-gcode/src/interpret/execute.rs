@@ -6,7 +6,7 @@ use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
 use pathbuild_motion::{Action, Axes, Change, Group, Move, Pace, Step};
 
 use super::codes;
-use super::codes::Command;
+use super::codes::{Command, Motion};
 use super::evaluate::{Fault, Parameters, StatedProbes};
 use super::half_circles::DoubtfulArcs;
 use super::state::{ClearedZero, Heights, Options, State};
@@ -276,6 +276,11 @@ impl BlockWords {
 
     pub(super) fn command_of_group(&self, group: Group) -> Option<(Command, u16, Span)> {
         self.commands.iter().find(|(command, ..)| command.group() == group).copied()
+    }
+
+    /// Whether the block has a cycle that the dialect does not know, which has been reported.
+    pub(super) fn has_unknown_cycle(&self) -> bool {
+        self.commands.iter().any(|(command, ..)| *command == Command::Motion(Motion::Unfollowed))
     }
 
     pub(super) fn m_code(&self, codes: &[u16]) -> Option<(u16, Span)> {

@@ -130,7 +130,8 @@ impl Interpreter<'_> {
             let [inch, mm] = self.rules.unit_words.map(|code| codes::name('G', code));
             self.report(block, &say::UNITS_NOT_STATED, span, |d| d.quoting("inch", inch).quoting("mm", mm));
         }
-        if !motion_is_stated && motion != Motion::None && self.rules.motion_is_stated {
+        let is_followed = !matches!(motion, Motion::None | Motion::Unfollowed);
+        if !motion_is_stated && is_followed && self.rules.motion_is_stated {
             let word = codes::name('G', self.state.motion_code);
             self.report(block, &say::MOTION_NOT_STATED, span, |d| d.quoting("word", word));
         }
@@ -231,9 +232,12 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Updates the position after an unsupported motion, as far as the block's words state it.
+    /// Updates the position after an unsupported motion, as far as the block's words state it. A cycle returns to a height above its Z.
     fn update_after_unsupported_motion(&mut self) {
-        let coordinates = self.words.values.take_coordinates();
+        let mut coordinates = self.words.values.take_coordinates();
+        if codes::is_cycle(self.state.motion_code) {
+            coordinates[2] = None;
+        }
         self.state.position = self.target(coordinates);
         self.mark_all_used();
     }

@@ -170,7 +170,7 @@ impl Interpreter<'_> {
         }
         // The number of a layer is a T without the letter.
         let has_letter = block.slice(slot.span).first().is_some_and(u8::is_ascii_alphabetic);
-        if has_letter && !self.rules.words.letters.contains(letter) {
+        if has_letter && !self.rules.words.letters.contains(letter) && !self.words.has_unknown_cycle() {
             return self.report_unknown(
                 block,
                 &say::LETTER_NOT_KNOWN,
@@ -228,6 +228,9 @@ impl Interpreter<'_> {
             self.words.commands.push((Command::Motion(Motion::Unfollowed), code, word.span));
             self.report(block, &say::UNKNOWN_CYCLE, word.span, |d| d.quoting("word", name));
         } else {
+            if codes::is_cycle(code) {
+                self.words.commands.push((Command::Motion(Motion::Unfollowed), code, word.span));
+            }
             self.report_unknown(block, &say::CODE_NOT_KNOWN, word.span, codes::name('G', code));
         }
     }
