@@ -143,6 +143,20 @@ fn moves_of_a_line_that_is_ignored_do_not_count_as_checked() {
     assert!(hidden.stderr.contains("[PB523]"), "{hidden}");
 }
 
+/// `O0000` is the default number of Mastercam.
+#[test]
+fn a_wrong_program_number_leaves_the_moves_known() {
+    let verify = |words: &str| {
+        let program = SOUND.replace("G21 G90", &format!("{words}\nG21 G90"));
+        let place = Place::new().file("a.nc", program);
+        place.run("verify a.nc --dialect fanuc --cutter 6 --surface 0 --require rapids")
+    };
+    let numbered = verify("O0000");
+    assert!(numbered.stderr.contains("[PB725]") && !numbered.stderr.contains("[PB523]"), "{numbered}");
+    let hidden = verify("O1\nG4 P-1");
+    assert!(hidden.stderr.contains("[PB725]") && hidden.stderr.contains("[PB523]"), "{hidden}");
+}
+
 /// A program that moves by distances from beginning to end may begin anywhere.
 #[test]
 fn moves_from_a_place_that_is_never_stated_do_not_count_as_checked() {

@@ -271,7 +271,10 @@ impl Program {
 
     /// Whether all lines were read, the dialect knows all words that may move the tool, and the reader interprets them.
     pub fn are_moves_known(&self) -> bool {
-        let hides_moves = |problem: &Diagnostic| problem.is_error() && HIDING_MOVES.contains(&problem.code());
+        let hides_moves = |problem: &Diagnostic| {
+            let is_number_of_program = problem.message.key == gcode::PROGRAM_NUMBER.key;
+            problem.is_error() && HIDING_MOVES.contains(&problem.code()) && !is_number_of_program
+        };
         !self.read.problems.iter().any(hides_moves)
             && self.words_left_out().all(|word| word.doubt != Doubt::Dangerous)
     }

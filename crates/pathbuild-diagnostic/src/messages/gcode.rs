@@ -427,6 +427,13 @@ messages! {
         help_en: "the value must be {limits}",
         help_de: "erlaubt: {limits}",
     }
+    /// A program number that is 0, negative or not whole. The moves of the program do not depend on it.
+    PROGRAM_NUMBER: ValueOutOfRange {
+        en: "the program number O cannot be {value}",
+        de: "die Programmnummer O kann nicht {value} sein",
+        help_en: "write a whole number, 1 or more, as in `O1000`",
+        help_de: "eine ganze Zahl ab 1 schreiben, etwa `O1000`",
+    }
     /// A word that nothing in its line uses.
     UNUSED: UnusedWord {
         en: "nothing on this line uses {word}",

@@ -451,7 +451,6 @@ pub(super) mod limits {
         NUMBER_OF_LAYER: "the number of a layer", "die Nummer eines Layers";
         OFFSETS: "0 to 9", "0 bis 9";
         POSITIVE: "more than 0", "größer als 0";
-        POSITIVE_COUNT: "a whole number, 1 or more", "eine ganze Zahl ab 1";
         REFERENCES: "2, 3 or 4", "2, 3 oder 4";
         SECONDS: "0 seconds or more", "0 Sekunden oder mehr";
         SYSTEMS: "the number of a coordinate system", "die Nummer eines Koordinatensystems";

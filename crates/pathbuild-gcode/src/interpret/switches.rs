@@ -170,7 +170,7 @@ impl Interpreter<'_> {
     pub(super) fn program_number(&mut self, block: &Block<'_>) {
         let Some(slot) = self.words.values.take_slot(b'O') else { return };
         let Some(number) = whole_number(slot.value).filter(|number| *number > 0) else {
-            return self.report_out_of_range(block, "O", slot, &limits::POSITIVE_COUNT);
+            return self.report(block, &say::PROGRAM_NUMBER, slot.span, |d| d.with("value", slot.value));
         };
         if self.begins_subprogram {
             return;
