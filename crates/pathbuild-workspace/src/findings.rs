@@ -138,8 +138,9 @@ fn first_occurrences<'d>(findings: impl Iterator<Item = &'d Diagnostic>) -> std:
 }
 
 /// Messages about the paths of a program, with arguments that depend on their places in it.
-const PLACED_IN_PROGRAM: [&Message; 6] = [
+const PLACED_IN_PROGRAM: [&Message; 7] = [
     &part::GOUGED_NEIGHBOUR,
+    &part::GOUGED_BY_PATH_WITHOUT_PART,
     &part::SEVERED_NEIGHBOUR,
     &part::NEIGHBOURS_BAR_CUT_AWAY,
     &part::DISPLACED_PATH,
