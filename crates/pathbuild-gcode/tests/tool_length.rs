@@ -80,6 +80,10 @@ fn a_selected_tool_is_inserted_before_it_cuts() {
     assert_eq!(found("T1 M6\ncut\nT2\ncut\nT3 M6\ncut"), [5]);
     assert_eq!(found("T1 M6\ncut\nT2\ncut\nT3\nM6\ncut"), [5]);
     assert_eq!(found("T1 M6\nT1\ncut"), NOTHING);
+    assert_eq!(found("T1 M6\ncut\nT2 M6\nT1\ncut\ncut"), NOTHING, "prepared for the next run");
+    assert_eq!(found("T1 M6\ncut\nT2 M6\ncut\nT1\ncut"), [8], "a forgotten M6");
+    assert_eq!(found("T1 M6\ncut\nT2 M6\nT3\ncut"), [6], "not the tool of the first operation");
+    assert_eq!(found("T1 M6\ncut\nT2 M6\nT1\ncut\nT3 M6\ncut"), [6], "in the middle");
     // Without any M6, the operator changes the tool at a stop.
     assert_eq!(found("T1\ncut\nM0\nT2\ncut"), NOTHING);
     assert_eq!(found("T1\ncut\nT2\ncut"), [5]);

@@ -18,6 +18,7 @@ use crate::read::Problems;
 
 /// Rule that finds cuts with a wrong tool length: pass every step of a program, then call [`finish`](Self::finish).
 #[derive(Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, not states")]
 pub struct LengthRules<'c> {
     stock: Option<&'c Stock>,
     tools: ToolState,
@@ -40,6 +41,10 @@ pub struct LengthRules<'c> {
     wrong_rapid: Problems,
     /// Whether M6 has inserted a tool.
     has_changed: bool,
+    /// The tool that the first M6 inserted.
+    first_inserted: Option<u32>,
+    /// Whether the program has cut since the last M6.
+    has_cut_since_change: bool,
     waiting: Option<WaitingTool>,
     /// The line of the last T word.
     selected_line: u32,
@@ -65,6 +70,9 @@ struct WaitingTool {
     number: u32,
     /// Whether the program has cut since the T word.
     has_cut: bool,
+    /// Whether T may prepare the changer for the next run: it names the tool of the first operation, and follows M6 before any cut. A forgotten M6 would
+    /// follow the cuts of the tool before.
+    may_be_for_next_run: bool,
 }
 
 impl<'c> LengthRules<'c> {
@@ -83,6 +91,8 @@ impl<'c> LengthRules<'c> {
             is_rapid_checked: false,
             wrong_rapid: Problems::default(),
             has_changed: false,
+            first_inserted: None,
+            has_cut_since_change: false,
             waiting: None,
             selected_line: 0,
             unchanged: Problems::default(),
@@ -97,7 +107,10 @@ impl<'c> LengthRules<'c> {
             Action::SelectTool(number) => self.check_selected_tool(step.line, *number),
             Action::ChangeTool(number) => {
                 self.begin_length();
-                self.has_changed = true;
+                if !std::mem::replace(&mut self.has_changed, true) {
+                    self.first_inserted = *number;
+                }
+                self.has_cut_since_change = false;
                 self.leave_waiting(*number);
             }
             Action::Change(Change::ToolLength(length)) => {
@@ -127,6 +140,7 @@ impl<'c> LengthRules<'c> {
     fn check_move(&mut self, line: u32, movement: &Move) {
         if is_cut_in_stock(line, movement, self.stock) {
             self.waiting.iter_mut().for_each(|waiting| waiting.has_cut = true);
+            self.has_cut_since_change = true;
             self.check_stop();
         }
         if !self.is_cut_checked {
@@ -149,7 +163,8 @@ impl<'c> LengthRules<'c> {
         self.selected_line = line;
         self.leave_waiting(Some(number));
         let is_new = self.has_changed && self.tools.inserted() != Some(number);
-        self.waiting = is_new.then_some(WaitingTool { line, number, has_cut: false });
+        let may_be_for_next_run = self.first_inserted == Some(number) && !self.has_cut_since_change;
+        self.waiting = is_new.then_some(WaitingTool { line, number, has_cut: false, may_be_for_next_run });
     }
 
     /// Reports the waiting tool if another one takes its place after cuts that were probably meant for it.
@@ -229,6 +244,7 @@ impl<'c> LengthRules<'c> {
 
     /// Returns all problems, ordered by line.
     pub fn finish(mut self) -> Vec<Diagnostic> {
+        self.waiting = self.waiting.filter(|waiting| !waiting.may_be_for_next_run);
         self.leave_waiting(None);
         self.begin_length();
         if !self.has_changed {
