@@ -237,6 +237,10 @@ fn what_was_not_checked_is_never_accepted() {
     assert_refused(&place, "check 9*", "PB503");
     assert_refused(&place, "check 9001.1P", "PB503");
     assert_refused(&place, "verify programs", "PB518");
+    let place = place.file("a.nc", PROGRAM).file("empty.nc", "").file("letter.nc", "hello world\n");
+    assert_refused(&place, "verify a.nc --require clamps", "PB523");
+    assert_refused(&place, "verify empty.nc", "PB701");
+    assert_refused(&place, "verify letter.nc", "PB701");
     let place = place.file("pathbuild.toml", format!("{configuration}[limits]\nentities = 1\n"));
     assert_eq!(place.run("check --update-baseline").status, Some(1));
     assert_eq!(place.read("pathbuild-baseline.txt"), baseline);

@@ -86,12 +86,17 @@ impl Baseline {
         self.entries.is_empty()
     }
 
-    /// Whether a baseline may accept a finding. Errors because of which something was not checked are never accepted: unreadable files, an invalid
-    /// configuration, empty searches, exceeded limits, and errors that name no file, such as those about the arguments.
+    /// Whether a baseline may accept a finding. Errors because of which something was not checked are never accepted: unreadable files, programs
+    /// without G-code, an invalid configuration, empty searches, exceeded limits, required checks that were not made, and errors that name no file,
+    /// such as those about the arguments.
     pub fn may_accept(finding: &Diagnostic) -> bool {
         let is_unchecked = match finding.code() {
             Code::UnreadableFile => true,
-            Code::InvalidConfiguration | Code::NothingFound | Code::LimitReached => finding.is_error(),
+            Code::InvalidConfiguration
+            | Code::NothingFound
+            | Code::LimitReached
+            | Code::UnmadeCheck
+            | Code::NotGCode => finding.is_error(),
             _ => finding.is_error() && finding.file.is_none(),
         };
         !is_unchecked
