@@ -455,6 +455,21 @@ fn the_height_is_stated_after_a_tool_change_by_hand() {
     assert_eq!(after("M0\nT2\nG53 G0 Z0\nG0 X5"), FINE);
 }
 
+/// A move in X, Y and Z begins at the height of the change, which may be that of the stock.
+#[test]
+fn a_move_that_also_states_z_begins_at_the_height_of_the_change() {
+    let after = |words: &str| after_cut(Grbl, words);
+    let found = ["11 start-not-raised"];
+    assert_eq!(after("M0\nT2\nG0 X5 Y5 Z20"), found);
+    assert_eq!(after("M0\nT2\nG0 X0 Y0 Z20"), found, "the operator may have moved the axes");
+    assert_eq!(after("M0\nT2\nG0 X5 Z20\nG0 Y5"), found);
+    assert_eq!(after("M0\nT2\nG0 Z20\nG0 X5 Y5 Z10"), FINE);
+    assert_eq!(after("M0\nT2\nG91 G0 Z20\nG90\nG0 X5 Y5 Z10"), FINE);
+    assert_eq!(after("M0\nG0 X5 Y5 Z20"), FINE, "a stop without a change");
+    assert_eq!(after("M0\nG0 X5 Y5 Z20\nT2"), FINE, "T for the next stop");
+    assert_eq!(after_cut(LinuxCnc, "M0\nG92 Z0\nG0 X5 Y5 Z20"), found);
+}
+
 #[test]
 fn a_stop_without_a_tool_change_leaves_the_height_known() {
     let after = |words: &str| after_cut(Grbl, words);

@@ -8,8 +8,8 @@ use pathbuild_diagnostic::{Diagnostic, Message, Note, Severity, TextFault, Value
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Interpretation, Options, code_name};
 use pathbuild_gcode::verify::{
-    BentRapidRules, CornerRules, Cutter, LengthRules, Machine, MachineRules, Rules, Stock, StockSpan,
-    Tolerance, coarse_arc_finding,
+    BentRapidRules, CornerRules, Cutter, LengthRules, Machine, MachineRules, ProgramStart, Rules, Stock,
+    StockSpan, Tolerance, coarse_arc_finding,
 };
 use pathbuild_motion::{
     Action, Axes, Change, Coolant, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, Turning,
@@ -389,7 +389,9 @@ fn broken_rules(
     }
     let mut limits = expected.machine.map(MachineRules::new);
     let mut corners = CornerRules::new(expected.part_tolerance);
+    let (mut start, mut aslant) = (ProgramStart::default(), None);
     for step in steps {
+        aslant = aslant.or(start.step(step));
         if let Some(limits) = &mut limits {
             limits.step(step);
         }
@@ -400,6 +402,7 @@ fn broken_rules(
     let mut found = limits.map(MachineRules::finish).unwrap_or_default();
     found.retain(Diagnostic::is_error);
     found.extend(rules.finish());
+    found.extend(aslant);
     found.sort_by_key(|problem| problem.place.line);
     // A beam has no height. If the dialect is unknown and the user takes responsibility for the moves, words may mean anything.
     let is_known = control.is_some() || expected.tolerance.is_some();

@@ -51,7 +51,7 @@ pub(crate) use rules::tool_to_insert;
 pub use stated_statistics::StatedStatistics;
 pub use tip_height::TipHeight;
 pub use tool_state::{LengthFit, ToolState};
-pub use words::{PostWords, WordRules, foreign_modes};
+pub use words::{PostWords, ProgramStart, WordRules, foreign_modes};
 
 use self::frames::Frames;
 use crate::dialect::Dialect;

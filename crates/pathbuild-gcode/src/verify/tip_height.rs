@@ -29,6 +29,8 @@ pub struct TipHeight {
     is_homed: bool,
     /// The tool length that the program has set last.
     length: Option<ToolLength>,
+    /// Line of the last move, if it was the first one in the plane after a stop and stated the height as well.
+    moved_aslant: Option<u32>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +60,7 @@ impl TipHeight {
             is_beside_change: false,
             is_homed: false,
             length: None,
+            moved_aslant: None,
         }
     }
 
@@ -87,11 +90,12 @@ impl TipHeight {
         None
     }
 
-    /// Returns the line of the first move in the plane since the last stop, if the program has neither stated a height nor cut since that stop.
+    /// Returns the line of the first move in the plane since the last stop, if it began at the height of that stop, and if the program has neither
+    /// stated a height in a later move nor cut since.
     pub fn moved_since_stop(&self) -> Option<u32> {
         match self.height {
             Height::Stopped { moved } => moved,
-            _ => None,
+            _ => self.moved_aslant,
         }
     }
 
@@ -136,6 +140,7 @@ impl TipHeight {
 
     fn add_move(&mut self, step: &Step, movement: &Move) -> Option<(u32, &'static Message)> {
         self.is_beside_change = false;
+        self.moved_aslant = None;
         self.is_homed = !movement.to.known.has(Axes::Z) && (self.is_homed || movement.homes_z());
         let found = match self.height {
             Height::Known => None,
@@ -167,15 +172,20 @@ impl TipHeight {
     fn leave_stop(&mut self, step: &Step, movement: &Move) -> Option<&'static Message> {
         let stated = step.stated_since_stop;
         let rises = movement.keeps_xy() && (movement.homes_z() || movement.to.z() > movement.from.z());
-        if rises || stated.has(Axes::Z) {
-            self.height = Height::Known;
+        let is_height_known = rises || stated.has(Axes::Z);
+        let stays = movement.keeps_xy() && stated.and(Axes::XY).is_empty() && !homes_in_plane(movement);
+        if stays || matches!(self.height, Height::Stopped { moved: Some(_) }) {
+            if is_height_known {
+                self.height = Height::Known;
+            }
             return None;
         }
-        if movement.keeps_xy() && stated.and(Axes::XY).is_empty() && !homes_in_plane(movement) {
-            return None;
-        }
+        // A move that also states Z begins at the unknown height, and leads through whatever is in its way there.
         if let Height::Stopped { moved } = &mut self.height {
-            moved.get_or_insert(step.line);
+            *moved = Some(step.line);
+            if is_height_known {
+                (self.height, self.moved_aslant) = (Height::Known, Some(step.line));
+            }
             return None;
         }
         self.height = Height::Known;

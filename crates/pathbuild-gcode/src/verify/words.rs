@@ -151,6 +151,30 @@ fn moves_in_plane(movement: &Move) -> bool {
     !movement.to.known.and(Axes::XY).is_empty()
 }
 
+/// Rule that finds a program whose first move in the plane also states Z, although the height before it is unknown.
+#[derive(Debug, Default)]
+pub struct ProgramStart {
+    has_moved_in_plane: bool,
+    /// Whether a move to a machine position has left X and Y unchanged, so that it is assumed to have raised the cutter.
+    has_gone_home: bool,
+}
+
+impl ProgramStart {
+    /// Processes the next step. Returns the finding about it; nothing if a move to a machine position has raised the cutter before.
+    pub fn step(&mut self, step: &Step) -> Option<Diagnostic> {
+        let Action::Move(movement) = &step.action else { return None };
+        let is_wrong = self.is_aslant(movement) && !self.has_gone_home;
+        is_wrong.then(|| Diagnostic::new(&say::START_ASLANT).at_line(step.line, None))
+    }
+
+    /// Processes the next move. Returns whether it is the first one in the plane, and goes from an unknown height to a known one.
+    fn is_aslant(&mut self, movement: &Move) -> bool {
+        self.has_gone_home |= movement.homes_z() && movement.keeps_xy();
+        let is_first = moves_in_plane(movement) && !std::mem::replace(&mut self.has_moved_in_plane, true);
+        is_first && movement.to.known.has(Axes::Z) && !movement.from.known.has(Axes::Z)
+    }
+}
+
 /// Whether a control keeps the state of a group from one program to the next. Motions, tool lengths and corners are checked elsewhere.
 fn is_retained(group: Group) -> bool {
     !matches!(
@@ -172,9 +196,7 @@ pub struct WordRules<'w> {
     /// Whether the program must agree with a drawing, or with another program.
     is_strict: bool,
     progress: ReachedPart,
-    has_moved_in_plane: bool,
-    /// Whether a move to a machine position has left X and Y unchanged, so that it is assumed to have raised the cutter.
-    has_gone_home: bool,
+    start: ProgramStart,
     /// Words before the first cut that lead to machine positions to which the post's programs do not move before their first cut. They are harmless
     /// in programs that do not cut.
     early_places: Vec<(u32, StatedWord)>,
@@ -190,8 +212,7 @@ impl<'w> WordRules<'w> {
             dialect,
             is_strict: false,
             progress: ReachedPart::Head,
-            has_moved_in_plane: false,
-            has_gone_home: false,
+            start: ProgramStart::default(),
             early_places: Vec::new(),
             found: BTreeSet::new(),
             problems: Problems::default(),
@@ -212,10 +233,7 @@ impl<'w> WordRules<'w> {
             }
         }
         if let Action::Move(movement) = &step.action {
-            if moves_in_plane(movement) {
-                self.check_first_move_in_plane(step.line, movement);
-            }
-            self.has_gone_home |= movement.homes_z() && movement.keeps_xy();
+            self.check_start(step.line, movement);
         }
         let Action::Word(word) = &step.action else { return };
         if !self.is_known(*word) {
@@ -245,14 +263,13 @@ impl<'w> WordRules<'w> {
         self.problems.add_at_line(&say::FOREIGN_WORD, line, |_| words.foreign_word(word, dialect, is_strict));
     }
 
-    /// Checks the first move in the plane. If this move also states Z, but begins at an unknown height, it is inclined. This is a problem if programs
-    /// of the post raise the cutter first. An earlier move to a machine position is assumed to raise the cutter, unless the post does not
-    /// write such moves. (Moves at unknown height are checked in [`super::rules`].)
-    fn check_first_move_in_plane(&mut self, line: u32, movement: &Move) {
-        let is_first = !std::mem::replace(&mut self.has_moved_in_plane, true);
-        let is_aslant = movement.to.known.has(Axes::Z) && !movement.from.known.has(Axes::Z);
-        let is_doubtful = is_aslant && (self.is_strict || !self.has_gone_home);
-        if is_first && is_doubtful && self.words.raises_first == Some(true) {
+    /// Checks the first move in the plane. In a comparison, it may be inclined if that of the post's programs is, and a move to a machine position
+    /// before it does not count as raising the cutter. (Moves at unknown height are checked in [`super::rules`].)
+    fn check_start(&mut self, line: u32, movement: &Move) {
+        let is_aslant = self.start.is_aslant(movement);
+        let raises_first = self.words.raises_first == Some(true);
+        let is_wrong = if self.is_strict { raises_first } else { !self.start.has_gone_home };
+        if is_aslant && is_wrong {
             let severity = if self.is_strict { Severity::Error } else { Severity::Warning };
             self.problems.add_at_line(&say::START_ASLANT, line, |d| Diagnostic { severity, ..d });
         }

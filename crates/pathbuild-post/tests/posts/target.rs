@@ -708,7 +708,7 @@ fn comments_of_control_texts_are_read_to_their_end() {
     assert!(start(r"// x\\\~0DG0 Z-5").unwrap().contains("CR"));
     let warnings = |comment: &str| {
         let text = format!(
-            "[post]\nnumber-lines = false\n[text]\nprogram-start = 'G17 G21 G90 {comment}'\n\
+            "[post]\nnumber-lines = false\n[text]\nprogram-start = 'G17 G21 G90 G00 Z{{.~ZClearance~}} {comment}'\n\
              rapid = 'G00 X{{.~X1~}} Y{{.~Y1~}} Z{{.~Z1~}}'\nline = 'G01 X{{.~X1~}} Y{{.~Y1~}} Z{{.~Z1~}} F{{.~MovingVel~}}'\n"
         );
         let steps = vec![feed(0.0, 0.0, -1.0), rapid(0.0, 0.0, 5.0)];

@@ -1,6 +1,6 @@
 //! Tests tool, tool length and spindle in the output of definitions, each with a correct definition and one with a single mistake.
 
-use pathbuild_diagnostic::Lang;
+use pathbuild_diagnostic::{Code, Diagnostic, Lang};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{Job, Operation, PostOptions};
 
@@ -38,7 +38,7 @@ fn two_tools() -> Job {
 /// Returns the findings about the output of a definition.
 fn wrong(text: &str, job: &Job) -> Vec<String> {
     let found = read(&definition(text)).unwrap().write(job, &PostOptions::default());
-    let text = |problem: &pathbuild_diagnostic::Diagnostic| match problem.notes.first() {
+    let text = |problem: &Diagnostic| match problem.notes.first() {
         Some(note) if problem.code().to_string() == "PB767" => note.text(Lang::En),
         _ => format!("{} {}", problem.code(), problem.text(Lang::En)),
     };
@@ -156,6 +156,42 @@ fn the_height_is_stated_after_a_tool_change_by_hand() {
         assert_eq!(by_hand(&format!("{stop}\n{{$set(z,NaN)}}")), FINE, "{stop}");
         let found = by_hand(stop);
         assert!(!found.is_empty() && found.iter().all(|found| found.contains(unstated)), "{stop}: {found:?}");
+    }
+}
+
+/// Returns the findings about the output of a definition whose rapid moves always state X, Y and Z.
+fn aslant(change: &str) -> Vec<String> {
+    let text = format!(
+        "[post]\ndialect = \"linuxcnc\"\nnumber-lines = false\n[text]\nprogram-start = 'G17 G21 G90 G94 G40 G49 G80'
+tool-change = \"\"\"\nM05\n{change}\nS{{#~MillingSpindleRate~}} M03\n\"\"\"
+rapid = 'G00 X{{.~X1~}} Y{{.~Y1~}} Z{{.~Z1~}}'
+line = 'G01 X{{.~X1~}} Y{{.~Y1~}} Z{{.~Z1~}} F{{#~MovingVel~}}'
+program-end = \"\"\"\nM05\nM30\n\"\"\"\n"
+    );
+    let found = match read_toml(&text).write(&two_tools(), &PostOptions::default()) {
+        Ok(output) => output.warnings,
+        Err(errors) => errors,
+    };
+    let text = |found: &Diagnostic| {
+        let text = found.notes.first().filter(|_| found.code() == Code::PostDiffers);
+        text.map_or_else(|| found.text(Lang::En), |note| note.text(Lang::En))
+    };
+    found.iter().map(|found| format!("{:?}: {}", found.severity, text(found))).collect()
+}
+
+/// A move in X, Y and Z begins at the height of the tool change, or at the unknown one before the program.
+#[test]
+fn a_move_in_x_y_and_z_needs_a_height_before_it() {
+    let change = "T{#~MachineToolNo~} M06";
+    assert_eq!(aslant(&format!("{change}\nG00 Z{{.~ZClearance~}}")), FINE);
+    let first = aslant(change);
+    assert!(first.len() == 1 && first[0].starts_with("Warning: the first move in the plane"), "{first:?}");
+    assert_eq!(aslant(&format!("G53 G00 Z0\n{change}")), FINE, "raised to a machine position");
+    for stop in ["T{#~MachineToolNo~} M00", "M00"] {
+        assert_eq!(aslant(&format!("{stop}\nG00 Z{{.~ZClearance~}}")), FINE, "{stop}");
+        let found = aslant(stop);
+        let unstated = "Error: after a stop for a tool change or a new zero, the program moves in X or Y";
+        assert!(found.len() == 1 && found[0].starts_with(unstated), "{stop}: {found:?}");
     }
 }
 
