@@ -82,7 +82,7 @@ struct ToolWords {
     has_selection: bool,
     /// Whether there are M6 words.
     has_change: bool,
-    /// Whether a word switches a tool length on: G43, except with H0.
+    /// Whether the text sets tool lengths with G43. G43 H0 counts as well: it cancels the length, so no tool may cut with it.
     has_length: bool,
     /// Whether the target is XpertMILL, where M6 selects a layer instead of a tool. The first layer applies from the beginning.
     has_layers: bool,
@@ -97,9 +97,8 @@ impl ToolWords {
         Self {
             has_selection: any(|action| matches!(action, Action::SelectTool(_) | Action::ChangeTool(_))),
             has_change,
-            has_length: any(|action| match action {
-                Action::Change(Change::ToolLength(ToolLength::OfTool(entry))) => *entry != Some(0),
-                _ => false,
+            has_length: any(|action| {
+                matches!(action, Action::Change(Change::ToolLength(ToolLength::OfTool(_))))
             }),
             has_layers: target.is_some_and(|target| target.rules().layers),
             is_changed_by_hand: target.is_some() && !has_change,

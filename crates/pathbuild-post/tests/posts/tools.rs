@@ -90,6 +90,10 @@ fn each_cut_has_the_length_of_its_tool() {
     assert_eq!(changed("H{$tool.index}", "H1"), ["the tool length in effect here is not that of T2"]);
     assert_eq!(changed("G43 H{$tool.index}", "G43"), FINE);
     assert_eq!(changed("G43 H{$tool.index}", ""), FINE);
+    // G43 H0 cancels the length that the control needs for the tool.
+    let cancelled = ["the tool length in effect here is not that of T1"];
+    assert_eq!(changed("H{$tool.index}", "H0"), cancelled);
+    assert_eq!(changed("{$clearance}\nM5\nT", "{$clearance}\nG43 H0\nM5\nT"), FINE, "before the change");
     assert_eq!(changed("{$blocks}", "G49\n{$blocks}"), ["the tool length in effect here is not that of T1"]);
 }
 
