@@ -311,6 +311,24 @@ fn the_travel_of_several_work_offsets_is_not_checked() {
     assert!(run.stderr.contains("only the machine knows where the work offsets of the program lie"), "{run}");
 }
 
+/// The moves between two positions that the program has not stated are in no box that is compared with the travel.
+#[test]
+fn the_travel_of_moves_from_an_unknown_position_is_not_checked() {
+    let run = |moves: &str| {
+        let text = format!("G17 G21 G90 G94\nG0 Z20\n{moves}\nG90\nG0 X0 Y0\nM30\n");
+        let place = Place::new().file("a.nc", text);
+        let place = place.file("pathbuild.toml", "[machine]\ntravel = [400, 300, 80]\n");
+        place.run("verify a.nc --dialect linuxcnc --require envelope --format concise")
+    };
+    let (lost, long) = (run("G91\nG0 X390"), run("G91\nG0 X5000"));
+    assert_eq!(codes_of(&lost), ["PB523"]);
+    assert!(lost.stderr.contains("from a position that it has not stated"), "{lost}");
+    assert_eq!(codes_of(&long), ["PB523", "PB748"]);
+    for lift in ["G91 G0 Z5", "G91 G28 Z0", "G53 G0 Z-1"] {
+        assert_eq!(run(lift).status, Some(0), "{lift}: {}", run(lift));
+    }
+}
+
 #[test]
 fn the_last_line_says_what_was_checked() {
     let place = Place::new()

@@ -819,6 +819,40 @@ fn each_work_offset_of_unknown_place_fits_into_the_travel() {
     assert_eq!(stated("G55\nG0 X51"), (false, vec!["7 outside-machine".to_owned()]));
 }
 
+/// Only the length of a move by a distance from an unknown position is known.
+#[test]
+fn moves_from_unknown_positions_fit_into_the_travel() {
+    let run = |travel: Travel, program: &str| {
+        let machine = Machine { travel: Some(travel), ..Machine::default() };
+        let mut rules = MachineRules::new(&machine);
+        let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n");
+        let steps = interpret(text.as_bytes(), LinuxCnc, &Options::default()).steps;
+        steps.iter().for_each(|step| rules.step(step));
+        (rules.has_unknown_axis(), rules.finish().iter().map(fault_text).collect::<Vec<_>>())
+    };
+    let size = |program: &str| run(Travel::Size([400.0, 300.0, 80.0]), program);
+    let found = |line: u32| vec![format!("{line} outside-machine")];
+    assert_eq!(size("G0 Z20\nG91\nG0 X10\nG90\nG0 X0 Y0"), (true, vec![]));
+    assert_eq!(size("G0 Z20\nG0 X0 Y0\nG91\nG0 X10"), (false, vec![]));
+    // The usual lift at the beginning, and after a move to a machine position.
+    assert_eq!(size("G91 G0 Z5\nG90\nG0 X0 Y0\nG0 Z5"), (false, vec![]));
+    assert_eq!(size("G53 G0 Z-10\nG0 X0 Y0\nG91 G0 Z5"), (false, vec![]));
+    assert_eq!(size("G28\nG0 Z5\nG0 X0 Y0"), (false, vec![]));
+    assert_eq!(size("G91 G0 Z-5\nG90\nG0 Z5\nG0 X0 Y0"), (true, vec![]), "down");
+    assert_eq!(size("G91 G1 Z5\nG90\nG0 Z5\nG0 X0 Y0"), (true, vec![]), "not a rapid move");
+    assert_eq!(size("G91 G0 X5 Z5\nG90\nG0 Z5\nG0 X0 Y0"), (true, vec![]), "not straight up");
+    assert_eq!(size("G0 Z5\nG0 X0 Y0\nG53 G0 X-10\nG91\nG0 X5"), (true, vec![]));
+    // Several moves, in one direction or the other.
+    assert_eq!(size("G91\nG0 X250\nG0 X150\nG0 X-400\nG90 G0 X0"), (true, vec![]));
+    assert_eq!(size("G91\nG0 X250\nG0 X151\nG90 G0 X0"), (true, found(4)));
+    assert_eq!(size("G91\nG0 X250\nG0 X-401\nG90 G0 X0"), (true, found(4)));
+    assert_eq!(size("G91\nG0 X250\nG90 G0 X0\nG53 G0 X-10\nG91 G0 X300"), (true, vec![]), "apart");
+    assert_eq!(size("G91 G0 Z81"), (false, found(2)));
+    let placed = |program: &str| run(Travel::Placed([(0.0, 400.0), (0.0, 300.0), (-80.0, 0.0)]), program);
+    assert_eq!(placed("G91\nG0 X400"), (true, vec![]));
+    assert_eq!(placed("G91\nG0 X401"), (true, found(3)));
+}
+
 #[test]
 fn an_axis_without_ends_goes_anywhere() {
     let free = (f64::NEG_INFINITY, f64::INFINITY);

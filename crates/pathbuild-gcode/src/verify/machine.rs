@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode as say;
-use pathbuild_motion::{Action, Axes, Frame, Move, MoveShape, NamedPosition, Step, Turning};
+use pathbuild_motion::{Action, Axes, Frame, Move, MoveShape, NamedPosition, Pace, Position, Step, Turning};
 
 use crate::dialect::Dialect;
 use crate::interpret::{Options, interpret_each};
@@ -36,6 +36,16 @@ pub enum Travel {
     Placed([(f64, f64); 3]),
     /// The length of travel in X, Y, Z, if the part may be clamped anywhere.
     Size([f64; 3]),
+}
+
+impl Travel {
+    /// Returns the length of travel of an axis in mm.
+    fn size(&self, axis: usize) -> f64 {
+        match self {
+            Self::Placed(limits) => limits[axis].1 - limits[axis].0,
+            Self::Size(sizes) => sizes[axis],
+        }
+    }
 }
 
 /// Amount in mm by which rounding to three decimals may move a coordinate of a program. `emit` compares the exact coordinates, and `verify` those of
@@ -95,9 +105,10 @@ impl<'m> MachineRules<'m> {
         self.reach.frames.len() > 1
     }
 
-    /// Whether the program moves an axis by distances (G91) without ever stating a position of this axis, so nothing is known about its travel.
+    /// Whether the program moves an axis by a distance (G91) from a position that it has not stated, so only the length of such moves is known. A
+    /// rapid move straight up does not count: it is the usual lift at the beginning of a program or after a move to a machine position.
     pub fn has_unknown_axis(&self) -> bool {
-        !self.reach.moved.without(self.reach.stated).is_empty()
+        self.reach.has_unknown_axis
     }
 
     /// Returns all problems, ordered by line.
@@ -146,10 +157,10 @@ struct Reach {
     /// The extent of positions in machine coordinates. It includes machine zero, because that is within the travel of every machine.
     machine: Extent,
     reported: [[bool; 2]; 3],
-    /// The axes whose coordinate some move has changed, apart from moves to named positions.
-    moved: Axes,
-    /// The axes of which a position was known after some move.
-    stated: Axes,
+    /// The extent of moves by distances since the position of the axis became unknown. Only its size is known.
+    relative: Extent,
+    /// Whether such a move, apart from a lift, has changed the position of an axis.
+    has_unknown_axis: bool,
 }
 
 /// Least and greatest coordinates of X, Y and Z, in mm.
@@ -163,17 +174,17 @@ fn widen(extent: &mut Option<(f64, f64)>, (low, high): (f64, f64)) -> (f64, f64)
 
 impl Reach {
     fn enter(&mut self, frame: Frame) {
-        self.is_entering |= std::mem::replace(&mut self.current, frame) != frame;
+        let is_other = std::mem::replace(&mut self.current, frame) != frame;
+        self.is_entering |= is_other;
+        if is_other {
+            self.relative = Extent::default();
+        }
     }
 
     /// Takes a move into account and returns the findings about it, without places.
     fn check(&mut self, movement: &Move, travel: &Travel) -> Vec<Diagnostic> {
         let mut found = self.check_machine_position(movement, travel);
-        if movement.named.is_none() {
-            let changes = |axis: &usize| movement.from.at[*axis] != movement.to.at[*axis];
-            self.moved = (0..3).filter(changes).map(Axes::of).fold(self.moved, Axes::with);
-            self.stated = self.stated.with(movement.to.known);
-        }
+        found.extend(self.check_relative_move(movement, travel));
         let mut movement = *movement;
         if std::mem::take(&mut self.is_entering) && movement.shape == MoveShape::Line {
             movement.from.known = Axes::NONE;
@@ -212,11 +223,29 @@ impl Reach {
             }
             let at = movement.to.at[axis];
             let whole = widen(&mut self.machine[axis], (at.min(0.0), at.max(0.0)));
-            let size = match travel {
-                Travel::Placed(limits) => limits[axis].1 - limits[axis].0,
-                Travel::Size(sizes) => sizes[axis],
-            };
-            found.extend(self.size_finding(axis, whole, size));
+            found.extend(self.size_finding(axis, whole, travel.size(axis)));
+        }
+        found
+    }
+
+    /// Checks the length of moves by distances from an unknown position. Wherever they begin, they must fit into the travel.
+    fn check_relative_move(&mut self, movement: &Move, travel: &Travel) -> Vec<Diagnostic> {
+        let named = movement.named.map_or(Axes::NONE, NamedPosition::axes);
+        let is_lift =
+            movement.pace == Pace::Rapid && movement.keeps_xy() && movement.to.z() > movement.from.z();
+        let known_ends = [movement.from, movement.to].map(|end| Position { known: Axes::ALL, ..end });
+        let extent = Move { from: known_ends[0], to: known_ends[1], ..*movement }.extent();
+        let mut found = Vec::new();
+        for (axis, range) in extent.into_iter().enumerate() {
+            let is_known = |end: &Position| end.known.has(Axes::of(axis));
+            if named.has(Axes::of(axis)) || is_known(&movement.from) || is_known(&movement.to) {
+                self.relative[axis] = None;
+                continue;
+            }
+            let Some(range) = range.filter(|(low, high)| low < high) else { continue };
+            self.has_unknown_axis |= !is_lift;
+            let whole = widen(&mut self.relative[axis], range);
+            found.extend(self.size_finding(axis, whole, travel.size(axis)));
         }
         found
     }

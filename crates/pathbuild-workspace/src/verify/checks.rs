@@ -101,7 +101,7 @@ pub enum Reason {
     NotFollowed,
     /// The program moves in coordinate systems with unknown positions relative to each other.
     SeveralZeros,
-    /// The program moves an axis, but never states a position of this axis.
+    /// The program moves an axis by a distance (G91) from a position that it has not stated.
     NoPosition,
     /// A limit of `[limits]` is exceeded.
     TooLarge,
@@ -418,8 +418,8 @@ impl Reason {
                 de: "das Programm hat Zeilen oder Wörter, die pathbuild nicht lesen oder auswerten kann; seine Bewegungen sind daher nicht bekannt",
             },
             Self::NoPosition => &Text {
-                en: "the program moves an axis without ever stating a position in G90",
-                de: "das Programm bewegt eine Achse, ohne je eine Position in G90 zu nennen",
+                en: "the program moves an axis by a distance (G91) from a position that it has not stated",
+                de: "das Programm bewegt eine Achse um eine Strecke (G91), deren Anfang es nicht genannt hat",
             },
             Self::WrongLength => &Text {
                 en: "rapid moves have the length of another tool, or none",
