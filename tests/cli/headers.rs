@@ -237,6 +237,10 @@ fn speeds_are_checked_only_if_the_spindle_starts() {
     assert_eq!(codes(&program("S12000 M3")), [""; 0]);
     assert_eq!(codes(&program("")), ["PB523"]);
     assert_eq!(codes(&program("S12000")), ["PB523", "PB745"]);
+    // The first cut has the speed that the control has kept.
+    let late = program("M3").replace("G0 Z5\nM30", "S12000\nG1 X9\nG0 Z5\nM5\nM30");
+    assert_eq!(codes(&late), ["PB523", "PB745"]);
+    assert_eq!(codes(&late.replace("M3\n", "M3 S9000\n")), [""; 0]);
     assert_eq!(codes("G17 G21 G90 G94\nG0 Z5\nG0 X0 Y0\nG38.2 Z-1 F100\nG0 Z5\nM30\n"), [""; 0], "no cut");
 }
 

@@ -89,7 +89,7 @@ pub enum Reason {
     SeveralSurfaces,
     /// The heights of the program were corrected by probes, and only a native program states by how much.
     MeasuredSurface,
-    /// The program cuts, but never starts the spindle with a speed.
+    /// The program makes a cut for which it has set no spindle speed.
     NoSpeed,
     /// The program cuts without limiting the rounding of corners.
     NoCornerLimit,
@@ -274,7 +274,9 @@ impl CheckRecord {
                 en: "higher verify-cells and verify-pieces under [limits]",
                 de: "höhere verify-cells und verify-pieces unter [limits]",
             },
-            (Reason::NoSpeed, _) => &Text { en: "M3 and S in the program", de: "M3 und S im Programm" },
+            (Reason::NoSpeed, _) => {
+                &Text { en: "M3 and S before the first cut", de: "M3 und S vor dem ersten Schnitt" }
+            }
             (Reason::NoCornerLimit, _) => {
                 &Text { en: "G64 P or G61 in the program", de: "G64 P oder G61 im Programm" }
             }
@@ -398,8 +400,8 @@ impl Reason {
             },
             Self::TooLarge => &Text { en: "the program is too large", de: "das Programm ist zu groß" },
             Self::NoSpeed => &Text {
-                en: "the program cuts before it has set a spindle speed",
-                de: "das Programm fräst, bevor es eine Drehzahl gesetzt hat",
+                en: "the program makes a cut for which it has set no spindle speed",
+                de: "das Programm fräst, ohne dafür eine Drehzahl gesetzt zu haben",
             },
             Self::NoCornerLimit => &Text {
                 en: "the program does not limit how far the control rounds corners",

@@ -12,7 +12,7 @@ use against::{ReferenceProgram, RewrittenProgram};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::gcode::{self as say, FEED_IGNORED, NO_DECIMAL_POINT};
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, Severity};
 use pathbuild_gcode::adjust::{Source, corrected_heights, first_open_formula, listed_heights};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{Header, HeaderReader};
@@ -367,6 +367,9 @@ fn new_bent_rapids(bent: impl Iterator<Item = Diagnostic>, found: &[Diagnostic])
     bent.filter(|bent| !lines.contains(&bent.place.line)).collect()
 }
 
+/// The findings about cuts for which the program has set no spindle speed.
+static CUTS_WITHOUT_SPEED: [&Message; 2] = [&say::SPINDLE_OFF, &say::SPINDLE_WITHOUT_SPEED];
+
 /// Facts about the steps seen so far: whether any of them cuts, and whether any starts the spindle with a speed.
 #[derive(Clone, Copy, Debug, Default)]
 struct SpindleStarts {
@@ -669,9 +672,10 @@ impl<'v> Examination<'v> {
             are_moves_known: self.sources.are_moves_known(),
             travel_doubt,
         };
+        let has_bare_cut = found.iter().any(|problem| CUTS_WITHOUT_SPEED.contains(&problem.message));
+        let starts_first = !speeds.has_cut || speeds.has_started && !has_bare_cut;
         // XpertMILL sets the speeds by layer, and not in the program.
-        let states_speed =
-            !speeds.has_cut || speeds.has_started || self.program.dialect == Dialect::Xpertmill;
+        let states_speed = starts_first || self.program.dialect == Dialect::Xpertmill;
         let machine = verifier.machine.as_ref();
         let rapids =
             self.sources.rapids(is_limit_reached, blind.and_then(BlindRapidRules::finish), lowest_cut, found);
