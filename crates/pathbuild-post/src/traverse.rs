@@ -34,8 +34,8 @@ pub(crate) fn check(
     let found = without_excursions(found, 2.0 * tolerance.place);
     let (mut found, mut expected) = (found.as_slice(), expected);
     let mut matched: Vec<MatchedCut> = Vec::new();
-    // End of the last cut.
-    let mut end = None;
+    // End of the last cut, and the step of the job that it belongs to.
+    let (mut end, mut step) = (None, None);
     loop {
         let (rapids, cuts) = split(expected, is_rapid);
         let traverse = ExpectedTraverse::new(rapids, clearance, 2.0 * tolerance.place);
@@ -45,11 +45,15 @@ pub(crate) fn check(
         };
         let length = traverse.length(found, next)?;
         traverse.check(&found[..length])?;
+        if step == Some(next.0) {
+            traverse.check_peck(&found[..length])?;
+        }
         let (run, rest) = split(cuts, |movement| !is_rapid(movement));
         found = &found[length..];
         let (run_moves, after) = found.split_at(matching_cut_length(found, run, tolerance)?);
         match_cuts(run_moves, run, tolerance, &mut matched);
         end = run_moves.last().map(|(_, movement)| movement.to).or(end);
+        step = run.last().map(|(step, _)| *step);
         found = after;
         expected = rest;
     }
@@ -288,6 +292,21 @@ impl<'m> ExpectedTraverse<'m> {
             is_home = !movement.to.known.has(Axes::Z) && (movement.named.is_some() || is_home);
         }
         Ok(())
+    }
+
+    /// Checks that the tool leaves the hole between two pecks: only holes have several cuts in one step of the job.
+    fn check_peck(&self, found: NumberedMoves<'_>) -> TraverseResult<()> {
+        let highest = |moves: NumberedMoves<'_>| {
+            moves.iter().map(|(_, movement)| movement.to.z()).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let (found_height, expected) = (highest(found), highest(self.expected));
+        let leaves = found.iter().any(|(_, movement)| !movement.to.known.has(Axes::Z));
+        if leaves || found_height >= expected - self.slack {
+            return Ok(());
+        }
+        let problem = Diagnostic::new(&posts::PECK_STAYS_IN_HOLE).with("found", found_height);
+        let line = found.first().map(|(line, _)| *line);
+        Err(Box::new(problem.with("expected", expected).at_line(line, None)))
     }
 
     /// Returns the error for a move between two cuts that the job does not contain and that may hit material.

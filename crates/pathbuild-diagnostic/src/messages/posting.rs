@@ -362,6 +362,11 @@ messages! {
         en: "this is {found} from {from} to {to}; between these two cuts the program makes no such move, or only a higher one",
         de: "das ist {found} von {from} nach {to}; zwischen diesen beiden Schnitten macht das Programm keine solche Bewegung oder nur eine weiter oben",
     }
+    /// Note: between two pecks, the tool rises inside the hole only.
+    PECK_STAYS_IN_HOLE: PostDiffers {
+        en: "between two pecks, the tool rises only to Z {found} and stays in the hole, as with G73; in the program it leaves the hole, up to Z {expected}, to clear the chips (G83)",
+        de: "zwischen zwei Stufen fährt das Werkzeug nur auf Z {found} und bleibt im Loch, wie bei G73; im Programm verlässt es das Loch, bis Z {expected}, damit die Späne herauskommen (G83)",
+    }
     /// An M word or an axis with an unknown meaning, because no dialect is named.
     WORD_NOT_FOLLOWED: DoubtfulPost {
         en: "the output contains {word}, whose effect is unknown without a dialect",

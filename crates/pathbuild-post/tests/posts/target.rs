@@ -232,6 +232,23 @@ fn a_control_without_cycles_gets_their_moves() {
     );
 }
 
+/// G73 breaks the chips, but does not clear them from the hole.
+#[test]
+fn the_tool_leaves_the_hole_between_two_pecks() {
+    let errors = |cycle: &str, dialect: &str| {
+        let text = format!("<PostFile>{{$mops}}</PostFile><MOP>{{$blocks}}</MOP><G83>{cycle}</G83>");
+        let options = PostOptions { dialect: Some(dialect.into()), cycles: true, ..PostOptions::default() };
+        let definition = PostDefinition::read(definition(&text).as_bytes(), Utf8Path::new("t.cbpp")).unwrap();
+        let errors = definition.write(&pecked(), &options).err().unwrap_or_default();
+        errors.iter().map(|error| error.notes[0].text(Lang::En)).collect::<Vec<_>>()
+    };
+    for dialect in ["linuxcnc", "mach3"] {
+        assert_eq!(errors("G83", dialect), [""; 0]);
+        let found = errors("G73", dialect);
+        assert!(found[0].starts_with("between two pecks, the tool rises only to Z -0.746"), "{found:?}");
+    }
+}
+
 #[test]
 fn a_definition_that_writes_the_moves_of_a_hole_itself_is_let() {
     let kind = HoleKind::Plain;
