@@ -691,6 +691,24 @@ fn ignored_feeds_are_no_error() {
     assert_eq!(place.run("import --dialect xpertmill --ignore-feed if.nc").status, Some(0));
 }
 
+/// A program may be read as another dialect than the user thinks.
+#[test]
+fn options_of_xpertmill_are_not_ignored_elsewhere() {
+    let program = "G17 G21 G90 G94 G91.1\nG0 Z5\nG0 X0 Y0\nG0 Z5\nM30\n";
+    let place = Place::new().file("a.nc", program).file("x.nc", "% // a\nG71 // mm\nG0 Z5\nG0 X0 Y0\nM30\n");
+    let run = |arguments: &str| place.run(&format!("verify {arguments} --format concise"));
+    for option in ["--absolute-arc-centres", "--unit-codes table", "--ignore-feed"] {
+        let named = run(&format!("a.nc --dialect mach3 {option}"));
+        assert!(named.status == Some(1) && named.stderr.contains("error[PB777]"), "{named}");
+        assert!(named.stderr.contains(&format!("`{option}` applies only to xpertmill")), "{named}");
+        let guessed = run(&format!("a.nc {option}"));
+        assert!(guessed.status == Some(0) && guessed.stderr.contains("warning[PB777]"), "{guessed}");
+        let own = run(&format!("x.nc --dialect xpertmill {option}"));
+        assert!(!own.stderr.contains("applies only"), "{own}");
+    }
+    assert_eq!(run("a.nc --dialect mach3 --unit-codes din").status, Some(0), "the default");
+}
+
 /// The material reaches up to the higher of `--surface` and what the program states.
 #[test]
 fn the_last_line_tells_how_high_the_material_is() {

@@ -49,6 +49,21 @@ impl ReadingOptions {
             ..Options::default()
         }
     }
+
+    /// Returns a finding for each option that has no effect in this dialect; an error if the dialect was named.
+    fn idle_options(self, dialect: Dialect) -> impl Iterator<Item = Diagnostic> {
+        let of_xpertmill = [
+            ("--unit-codes table", self.unit_codes == UnitCodes::Table),
+            ("--absolute-arc-centres", self.absolute_arc_centres),
+            ("--ignore-feed", self.ignore_feed),
+        ];
+        let idle = of_xpertmill.into_iter().filter(move |(_, is_given)| *is_given && !dialect.rules().layers);
+        idle.map(move |(option, _)| {
+            let found = Diagnostic::new(&gcode::OPTION_OF_XPERTMILL).quoting("option", option);
+            let found = found.quoting("dialect", dialect.name());
+            if self.dialect.is_some() { found.as_error() } else { found }
+        })
+    }
 }
 
 /// A program that was read from a file.
@@ -154,6 +169,7 @@ impl ProgramReader<'_> {
             None if is_weak => problems.extend(unnamed_dialect_warning(&disputes, dialect)),
             None => {}
         }
+        problems.extend(self.options.idle_options(shown));
         if text.starts_with(BYTE_ORDER_MARK) {
             problems.push(Diagnostic::new(&gcode::BYTE_ORDER_MARK).at_line(1, None));
         }

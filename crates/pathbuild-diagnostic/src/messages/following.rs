@@ -365,8 +365,8 @@ messages! {
     RADIUS_ZERO: InvalidArc {
         en: "the arc's radius is 0",
         de: "der Radius des Bogens ist 0",
-        help_en: "correct {centre}, which give the centre as seen from the start of the arc, except with G90.1 or --absolute-arc-centres",
-        help_de: "{centre} berichtigen: sie geben den Mittelpunkt vom Anfang des Bogens aus an, außer mit G90.1 oder --absolute-arc-centres",
+        help_en: "correct {centre}, which give the centre as seen from the start of the arc, except with G90.1 or, for xpertmill, --absolute-arc-centres",
+        help_de: "{centre} berichtigen: sie geben den Mittelpunkt vom Anfang des Bogens aus an, außer mit G90.1 oder, bei xpertmill, --absolute-arc-centres",
     }
     /// An arc given by its radius that is nearly a half circle, so that the centre is imprecise.
     NEAR_HALF_CIRCLE: DoubtfulArc {

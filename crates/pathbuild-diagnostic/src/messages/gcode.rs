@@ -119,6 +119,13 @@ messages! {
         help_en: "save it as ANSI or as UTF-8 without BOM (in Notepad: File, Save as, Encoding), or write the program again",
         help_de: "es als ANSI oder UTF-8 ohne BOM speichern (im Windows-Editor: Datei, Speichern unter, Codierung) oder das Programm neu schreiben",
     }
+    /// An option about the dialect of XpertMILL, for a program in another one.
+    OPTION_OF_XPERTMILL: Disagreement {
+        en: "`{option}` applies only to xpertmill, but this program is read as {dialect}",
+        de: "`{option}` gilt nur für xpertmill, dieses Programm wird aber als {dialect} gelesen",
+        help_en: "omit the option, or name the dialect with --dialect xpertmill",
+        help_de: "die Option weglassen oder den Dialekt mit --dialect xpertmill nennen",
+    }
     /// A program without any text.
     EMPTY_PROGRAM: NotGCode {
         en: "the file is empty",
