@@ -85,3 +85,42 @@ fn a_program_of_a_drawing_calls_nothing() {
     assert_eq!(run.status, Some(1), "{run}");
     assert!(run.stderr.contains("moves as in path") && run.stderr.contains("PB778"), "{run}");
 }
+
+/// The lines of a subprogram say nothing about the tool in the spindle: it may stand above the tool change that comes before its call.
+#[test]
+fn a_subprogram_is_checked_with_the_only_tool_wherever_it_stands() {
+    let body = |rapid: &str| format!("o100 sub\nG1 X40 F300\nG1 Y8\n{rapid}\nG0 Y8\no100 endsub\n");
+    let program = |rapid: &str| {
+        let change =
+            "T2 M6\nS6000 M3\nG43 H2\nG0 Z30\nG0 X0 Y0\nZ2\nG1 Z-2 F100\no100 call\nG0 Z20\nM5\nM30\n";
+        format!("(T2 D=6. CR=0. - FLAT END MILL)\nG21 G90 G94 G17\n{}{change}", body(rapid))
+    };
+    let place = Place::new().file("sound.ngc", program("G0 Y1")).file("crash.ngc", program("G0 Y30"));
+    let verify =
+        |file: &str| place.run(&format!("verify {file} --dialect linuxcnc --surface 0 --format concise"));
+    let (sound, crash) = (verify("sound.ngc"), verify("crash.ngc"));
+    assert!(sound.stderr.contains("errors: 0") && sound.stderr.contains("a cutter of 6 mm"), "{sound}");
+    assert!(crash.stderr.contains("PB740"), "{crash}");
+}
+
+/// Which of several tools cuts in a subprogram is not known, so no groove is shown with the width of another tool.
+#[test]
+fn a_page_shows_no_cutter_for_the_subprograms_of_several_tools() {
+    let change =
+        |tool: u32| format!("T{tool} M6\nS6000 M3\nG43 H{tool}\nG0 Z30\nG0 X0 Y0\nZ2\nG1 Z-2 F100\n");
+    let program = |second: &str| {
+        let tools = format!("(T2 D=6. CR=0. - FLAT END MILL)\n(T5 D={second} CR=0. - FLAT END MILL)\n");
+        let main = format!("{}M98 P2000\nG0 Z30\n{}G1 X5\nG0 Z30\nM5\nM30\n", change(2), change(5));
+        format!("%\nO1000\n{tools}G21 G90 G94 G17\n{main}O2000\nG1 X40 F300\nM99\n%\n")
+    };
+    let place = Place::new().file("other.nc", program("2.")).file("equal.nc", program("6."));
+    let tools = |name: &str| {
+        let run = place.run(&format!("view {name}.nc --dialect haas --surface 0 -o {name}.json"));
+        assert_eq!(run.status, Some(0), "{run}");
+        let scene: serde_json::Value = serde_json::from_str(&place.read(&format!("{name}.json"))).unwrap();
+        let path = &scene["paths"][0];
+        (path["tool"].clone(), path.get("tools").is_some())
+    };
+    assert_eq!(tools("other"), (serde_json::Value::Null, false));
+    assert_eq!(tools("equal").0, 6.0);
+}

@@ -82,9 +82,12 @@ pub fn program_scene(
     // The surface with which rapid moves were checked, if it is level.
     let checked_surface = rapids.filter(|values| values.is_level).map(|values| values.surface);
     let mut path = program.scene_path(workspace);
-    // If a tool states no cutter, show none: with the cutter of another tool, grooves would have a wrong width.
+    // If the cutter of a move may be unknown, show none: with the cutter of another tool, grooves would have a wrong width. A tool may state no
+    // cutter, and a subprogram may be called with any of the tools.
     let are_stated = header.tools.iter().all(|tool| tool.cutter.is_some());
-    set_cutters(&mut path, cutter, if are_stated { &cutters } else { &[] }, rapids);
+    let are_equal = cutters.windows(2).all(|pair| pair[0].diameter == pair[1].diameter);
+    let are_known = are_stated && (are_equal || !header.has_calls);
+    set_cutters(&mut path, cutter, if are_known { &cutters } else { &[] }, rapids);
     if let Some(stock) = verifier.stock(program, &header) {
         path.tools = stock.spans().iter().map(tool_span).collect();
     }

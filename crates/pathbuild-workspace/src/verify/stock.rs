@@ -256,7 +256,7 @@ impl<'s> Sources<'s> {
             let cutter = self.diameters(tool).cutter()?;
             // The header of a native program states no shape.
             let corner_radius = native.map_or(cutter.corner_radius, |tool| tool.cutter().corner_radius);
-            Some((tool.line, Cutter { corner_radius, ..cutter }))
+            Some((self.first_line(tool), Cutter { corner_radius, ..cutter }))
         };
         let mut cutters: Vec<(u32, Cutter)> = self.header.tools.iter().map(widths).collect::<Option<_>>()?;
         // In a subprogram, the tool depends on the caller.
@@ -361,8 +361,9 @@ impl<'s> Sources<'s> {
             return Vec::new();
         }
         let native = self.native_entry();
-        let entry =
-            |tool: &CuttingTool| (tool.line, if self.is_numbered() { self.entry(tool) } else { native });
+        let entry = |tool: &CuttingTool| {
+            (self.first_line(tool), if self.is_numbered() { self.entry(tool) } else { native })
+        };
         self.header.tools.iter().map(entry).collect()
     }
 
@@ -375,10 +376,16 @@ impl<'s> Sources<'s> {
         let is_mixed = self.header.has_calls && self.header.tools.len() > 1;
         let direction =
             |tool: &CuttingTool| match self.entry(tool).filter(|_| self.is_numbered() && !is_mixed) {
-                Some(entry) => (tool.line, entry.turning()),
-                None => (tool.line, common),
+                Some(entry) => (self.first_line(tool), entry.turning()),
+                None => (self.first_line(tool), common),
             };
         self.header.tools.iter().map(direction).collect()
+    }
+
+    /// Returns the line from which a tool is in use. In a program with subprograms, that is the first line: a subprogram may stand above the tool
+    /// change that comes before its call. Tools whose lines matter are alike in such a program.
+    fn first_line(&self, tool: &CuttingTool) -> u32 {
+        if self.header.has_calls { 0 } else { tool.line }
     }
 
     /// Whether T is the number of a tool: XpertMILL's layers are not tools, and native programs always contain T1.
