@@ -827,7 +827,9 @@ fn moves_from_unknown_positions_fit_into_the_travel() {
         let mut rules = MachineRules::new(&machine);
         let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n");
         let steps = interpret(text.as_bytes(), LinuxCnc, &Options::default()).steps;
-        steps.iter().for_each(|step| rules.step(step));
+        for step in &steps {
+            rules.step(step);
+        }
         (rules.has_unknown_axis(), rules.finish().iter().map(fault_text).collect::<Vec<_>>())
     };
     let size = |program: &str| run(Travel::Size([400.0, 300.0, 80.0]), program);

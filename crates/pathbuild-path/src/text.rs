@@ -500,16 +500,13 @@ fn replace_percent_codes(text: &str, replacement: impl Fn(PercentCode) -> &'stat
     let mut replaced = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(at) = rest.find("%%") {
-        match rest[at + 2..].chars().next().and_then(PercentCode::new) {
-            Some(code) => {
-                replaced.push_str(&rest[..at]);
-                replaced.push_str(replacement(code));
-                rest = &rest[at + 3..];
-            }
-            None => {
-                replaced.push_str(&rest[..=at]);
-                rest = &rest[at + 1..];
-            }
+        if let Some(code) = rest[at + 2..].chars().next().and_then(PercentCode::new) {
+            replaced.push_str(&rest[..at]);
+            replaced.push_str(replacement(code));
+            rest = &rest[at + 3..];
+        } else {
+            replaced.push_str(&rest[..=at]);
+            rest = &rest[at + 1..];
         }
     }
     replaced.push_str(rest);
