@@ -36,6 +36,9 @@ impl Walker<'_> {
         if let Some(problem) = self.last.and_then(|last| self.runs_back_on_copy(last)) {
             return problem;
         }
+        if let Some(problem) = self.stops_beside_end(self.at).filter(|_| self.is_nearest_to_end()) {
+            return self.at_end_marker(problem, self.at);
+        }
         let last = self.last.map(|segment| self.path.origin(&self.path.segments[segment]));
         let report = |problem: Diagnostic| {
             let origin = last.as_ref().unwrap_or(&self.path.start_origin);
@@ -277,27 +280,47 @@ impl Walker<'_> {
     }
 
     pub(super) fn end_not_reached(&self, stopped_at: Xy) -> Diagnostic {
-        let end = self.path.end;
         let part = self.last.and_then(|last| self.part_drawn_twice(last));
         let about_copy = |message, segment: usize| {
             let problem = Diagnostic::new(message).with("element", self.word(segment));
             problem.with("begin", diagnostic_point(self.ends.of(segment)[0]))
         };
-        let distance = (end - stopped_at).norm();
+        let end = self.path.end;
         let problem = if let Some(segment) = self.duplicate_segment() {
             about_copy(&messages::END_NOT_REACHED_TWICE, segment)
         } else if let Some(segment) = part {
             about_copy(&messages::END_NOT_REACHED_PART_TWICE, segment)
-        } else if distance <= MAX_SKIPPED_GAP && !self.is_start_of_short_last_segment(end) {
-            Diagnostic::new(&messages::STOPS_BESIDE_END).with("distance", distance)
+        } else if let Some(problem) = self.stops_beside_end(stopped_at) {
+            problem
         } else if self.is_passed(end) && !coincide(end, self.path.start) {
             Diagnostic::new(&messages::END_PASSED)
         } else {
             Diagnostic::new(&messages::END_NOT_REACHED)
         };
-        self.with_copies(self.path.end_origin.at(
-            problem.with("point", diagnostic_point(stopped_at)).with("end", diagnostic_point(self.path.end)),
-        ))
+        self.with_copies(self.at_end_marker(problem, stopped_at))
+    }
+
+    fn at_end_marker(&self, problem: Diagnostic, stopped_at: Xy) -> Diagnostic {
+        let problem = problem.with("point", diagnostic_point(stopped_at));
+        self.path.end_origin.at(problem.with("end", diagnostic_point(self.path.end)))
+    }
+
+    /// Returns the problem that only a small gap separates the path from its end marker.
+    fn stops_beside_end(&self, stopped_at: Xy) -> Option<Diagnostic> {
+        let distance = (self.path.end - stopped_at).norm();
+        let is_beside = distance <= MAX_SKIPPED_GAP && !self.is_start_of_short_last_segment(self.path.end);
+        is_beside.then(|| Diagnostic::new(&messages::STOPS_BESIDE_END).with("distance", distance))
+    }
+
+    /// Whether the path, after its first segment, stops nearer to its only end marker than to every remaining segment and every turn marker.
+    fn is_nearest_to_end(&self) -> bool {
+        let distance = (self.path.end - self.at).norm();
+        let open_end = self.nearest_end(self.at).map(|(.., other)| other);
+        let turn_marker = self.turn_marker_beside().map(|(_, other)| other);
+        let uncertainty = self.path.uncertainty.as_ref();
+        self.last.is_some()
+            && uncertainty.is_none_or(|uncertainty| uncertainty.ends.len() == 1)
+            && open_end.into_iter().chain(turn_marker).all(|other| distance < other)
     }
 
     fn traversed_segments(&self) -> impl Iterator<Item = usize> {

@@ -68,7 +68,7 @@ struct Walker<'a> {
     joined: Vec<Diagnostic>,
     /// See [`WalkedPath::open_end`].
     open_end: Option<Xy>,
-    /// PB401 for each small gap that was skipped in order to find further problems.
+    /// PB401 or PB403 for each small gap that was skipped in order to find further problems.
     gaps: Vec<Diagnostic>,
 }
 
@@ -154,16 +154,16 @@ impl<'a> Walker<'a> {
             } else if let Some(marker) = self.turn_marker() {
                 self.retrace_until(|walk| walk.next().is_some())
                     .map_err(|()| Some(self.turn_found_nothing(marker).into()))?;
-            } else if self.is_at_end() {
+            } else if self.is_at_end() || self.last.is_some() && self.joins_end() {
                 return Err(self
                     .unless_unclear(Self::unreached_problem)
                     .filter(|_| !self.has_several_ends()));
             } else {
                 let problem = self.unless_unclear(Self::nothing_continues);
-                match self.end_beyond_gap(problem.as_deref()) {
-                    Some(end) => {
+                match self.point_beyond_gap(problem.as_deref()) {
+                    Some(point) => {
                         self.gaps.extend(problem.map(|problem| *problem));
-                        self.at = end;
+                        self.at = point;
                     }
                     None => return Err(problem),
                 }
@@ -184,13 +184,16 @@ impl<'a> Walker<'a> {
         Ok(())
     }
 
-    /// Returns the end at which the walk continues after a small gap, to find independent problems.
-    fn end_beyond_gap(&self, problem: Option<&Diagnostic>) -> Option<Xy> {
-        let is_gap = problem
-            .is_some_and(|problem| [&paths::NOTHING_CONTINUES, &paths::TOO_LONG].contains(&problem.message));
-        let (_, end, distance) =
-            self.nearest_end(self.at).filter(|_| is_gap && self.gaps.len() < MAX_GAPS)?;
-        (distance <= MAX_SKIPPED_GAP).then_some(end)
+    /// Returns the point at which the walk continues after a small gap, to find independent problems: the end of a segment or the end
+    /// marker.
+    fn point_beyond_gap(&self, problem: Option<&Diagnostic>) -> Option<Xy> {
+        let message = problem.filter(|_| self.gaps.len() < MAX_GAPS)?.message;
+        if [&paths::NOTHING_CONTINUES, &paths::TOO_LONG].contains(&message) {
+            let (_, end, distance) = self.nearest_end(self.at)?;
+            (distance <= MAX_SKIPPED_GAP).then_some(end)
+        } else {
+            (message == &paths::STOPS_BESIDE_END).then_some(self.path.end)
+        }
     }
 
     /// Returns a failure, unless there is a circle without a meaning at the current point, where the walk may turn or end, or the walk passed a segment

@@ -494,3 +494,46 @@ fn a_part_that_is_drawn_twice_is_named() {
     assert_first("sweep 0,0 20,0\nmill 0,0 10,0\nend 20,0", DEAD_END);
     assert_first("mill 0,0 20,0\nmill 0,0 -10,0\nend 20,0", DEAD_END);
 }
+
+/// A path that stops beside its end marker does not break off. What is left over is told as it is at an exact end.
+#[test]
+fn an_end_marker_beside_the_end_is_named_together_with_leftovers() {
+    let told = |end: f64, tolerance: f64, leftover: &str| {
+        let language = pathbuild_path::Language { join_tolerance: tolerance, ..language() };
+        let drawn = format!("mill 0,0 20,0\nmill 20,0 30,0\n{leftover}\nend 30,{end}");
+        let compiled = compile_raw(&raw(&path(P, &drawn)), &Bindings::default(), &language);
+        compiled
+            .found
+            .iter()
+            .map(|found| format!("{} {}", found.code(), found.text(Lang::En)))
+            .collect::<Vec<_>>()
+    };
+    let beside = "PB403 the path stops at (30, 0), 0.02 mm away from its end marker at (30, 0.02)";
+    let leftovers = [
+        (
+            "mill 5,-20 8,-20",
+            "PB402 the path ends here; segments not reached: 1, including a milling segment at (5, -20)",
+        ),
+        (
+            "mill 0,0 20,0",
+            "PB402 a milling segment at (0, 0) is drawn twice, but the path runs along only one of the two; segments not reached: 1",
+        ),
+        (
+            "circle 20,0.01 d 3",
+            "PB402 segments not reached: 1; a drilled hole at (20, 0.01) is 0.01 mm away from (20, 0), where a milling segment ends",
+        ),
+    ];
+    for (leftover, problem) in leftovers {
+        assert_eq!(told(0.02, 0.0, leftover), [beside, problem]);
+        assert_eq!(told(0.0, 0.0, leftover), [problem]);
+        let joined = told(0.02, 0.05, leftover);
+        assert!(joined.len() == 2 && joined[0] == problem && joined[1].starts_with("PB115 "), "{joined:?}");
+    }
+    let breaks_off = "PB401 the path breaks off here; segments not reached: 1";
+    assert!(told(1.0, 0.0, leftovers[0].0)[0].starts_with("PB403 "));
+    assert_eq!(told(1.01, 0.0, leftovers[0].0), [breaks_off]);
+    // The next segment is nearer than the end marker, or begins there.
+    for end in [0.2, 0.5] {
+        assert_eq!(told(end, 0.0, "mill 30,0.2 30,9")[0], breaks_off);
+    }
+}
