@@ -46,11 +46,12 @@ impl Walker<'_> {
             problem.place.point = Some(diagnostic_point(self.at));
             problem
         };
-        let is_dead_end = self.passed_branch().is_some() && self.duplicate_segment().is_none();
+        let has_passed_branch = self.passed_branch().is_some();
+        let is_dead_end = has_passed_branch && self.duplicate_segment().is_none();
         let split = || self.ends_on_another(&messages::ENDS_ON_OTHER).filter(|_| !self.has_open_end_beside());
         if let Some(problem) = self.begins_on_another().or_else(split) {
             report(problem)
-        } else if let Some((at, distance)) = self.turn_marker_beside().filter(|_| is_dead_end) {
+        } else if let Some((at, distance)) = self.turn_marker_beside().filter(|_| has_passed_branch) {
             let problem = Diagnostic::new(&messages::TURN_MARKER_BESIDE_TIP);
             report(problem.with("point", diagnostic_point(at)).with("distance", distance))
         } else if self.has_open_end_beside() || !is_dead_end {
@@ -195,7 +196,7 @@ impl Walker<'_> {
     }
 
     /// Returns the nearest turn marker, with its distance, if only a small gap separates it from the current point.
-    fn turn_marker_beside(&self) -> Option<(Xy, f64)> {
+    pub(super) fn turn_marker_beside(&self) -> Option<(Xy, f64)> {
         let distances = self.path.turns.iter().map(|turn| (turn.at, (turn.at - self.at).norm()));
         let nearest = distances.reduce(|best, other| if other.1 < best.1 { other } else { best });
         nearest.filter(|(_, distance)| *distance <= MAX_SKIPPED_GAP)

@@ -184,13 +184,15 @@ impl<'a> Walker<'a> {
         Ok(())
     }
 
-    /// Returns the point at which the walk continues after a small gap, to find independent problems: the end of a segment or the end
+    /// Returns the point at which the walk continues after a small gap, to find independent problems: the end of a segment, the end marker or a turn
     /// marker.
     fn point_beyond_gap(&self, problem: Option<&Diagnostic>) -> Option<Xy> {
         let message = problem.filter(|_| self.gaps.len() < MAX_GAPS)?.message;
         if [&paths::NOTHING_CONTINUES, &paths::TOO_LONG].contains(&message) {
             let (_, end, distance) = self.nearest_end(self.at)?;
             (distance <= MAX_SKIPPED_GAP).then_some(end)
+        } else if message == &paths::TURN_MARKER_BESIDE_TIP {
+            self.turn_marker_beside().map(|(at, _)| at)
         } else {
             (message == &paths::STOPS_BESIDE_END).then_some(self.path.end)
         }

@@ -213,6 +213,27 @@ fn a_turn_marker_beside_the_tip_is_named() {
     assert_eq!(text("20,11.01"), format!("{tip}; {left}"));
 }
 
+/// The walk turns back at the marker, so that the next mistake is told as well.
+#[test]
+fn a_turn_marker_beside_the_tip_hides_no_other_mistake() {
+    let told = |drawn: &str| {
+        let branch = "mill 0,0 20,0\nmill 20,0 20,8 \"N1\"\nturn 20,8.02";
+        let found = compile(&path(P, &format!("{branch}\n{drawn}"))).found;
+        found.iter().map(|found| found.text(pathbuild_diagnostic::Lang::En)).collect::<Vec<_>>()
+    };
+    let tip = |left: usize| {
+        format!(
+            "the path breaks off here, at the tip of a dead end: the turn marker at (20, 8.02) is 0.02 mm away; segments not reached: {left}"
+        )
+    };
+    assert_eq!(told("mill 20,0 50,0\nend 50,0"), [tip(1)]);
+    let twice = told("mill 0,0 20,0\nmill 20,0 50,0\nend 50,0");
+    assert_eq!(twice[0], tip(2));
+    assert!(twice.len() == 2 && twice[1].contains("is drawn twice"), "{twice:?}");
+    let gap = told("mill 20,0 50,0\nmill 50.1,0 60,0\nend 60,0");
+    assert_eq!(gap, [tip(2), "the path breaks off here; segments not reached: 1".to_owned()]);
+}
+
 #[test]
 fn a_segment_beside_the_way_back_is_named() {
     let notes = |gap: f64| {
