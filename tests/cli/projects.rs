@@ -130,6 +130,24 @@ fn a_hidden_drawing_defines_no_path_for_others() {
     assert_eq!(codes(&Place::of(&ignored), ""), [""; 0], "an embedded path is named");
 }
 
+/// Two half circles embed a closed path nowhere, so nothing is milled twice.
+#[test]
+fn a_segment_that_does_not_fit_embeds_nothing_twice() {
+    let with = |ends: &str| {
+        codes(
+            &Place::of(&format!(
+                "== projects/1111.1P.dxf ==\nlayer 1111.1P\nstart 0,0 \"T5 O2 I1 B0 MPlate\"\nmill 0,0 {ends}\n\
+                 == projects/8001.dxf ==\nlayer 8001.1P\nstart 0,0 \"T5 O2 MPlate\"\n\
+                 subpath arc centre 0,5 r 5 from 270 to 90 \">1111.1P\"\n\
+                 subpath arc centre 0,5 r 5 from 90 to 270 \">1111.1P\"\nend 0,0\n"
+            )),
+            "",
+        )
+    };
+    assert_eq!(with("10,0\nend 10,0"), ["121"]);
+    assert_eq!(with("10,0 10,9 0,0\nend 0,0"), ["505", "505"]);
+}
+
 /// The rules beside pathbuild.toml apply to the directories of the library, from wherever pathbuild runs.
 #[test]
 fn ignore_files_beside_the_configuration_apply() {

@@ -573,7 +573,9 @@ impl<'a> SubpathChecker<'a> {
         }
         let (here, there) = ((subpath.end - subpath.start).norm(), inner.size);
         if (here - there).abs() > CHORD_TOLERANCE {
-            let problem = Diagnostic::new(&messages::SIZE_DIFFERS)
+            let is_closed = there <= CHORD_TOLERANCE;
+            let message = if is_closed { &messages::SIZE_OF_CLOSED_PATH } else { &messages::SIZE_DIFFERS };
+            let problem = Diagnostic::new(message)
                 .with("segment", here)
                 .with("path", there)
                 .quoting("name", inner.name.as_str());

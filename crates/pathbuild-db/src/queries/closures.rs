@@ -15,7 +15,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::embedding::{Instance, path, summary};
 use crate::database::Db;
 use crate::inputs::{Limits, Role, Settings, SourceFile, Target};
-use crate::queries::embedding::{Embedding, Outcome, embeds};
+use crate::queries::embedding::{Embedding, Outcome, embeds, is_about_misfit};
 use crate::queries::index::{NameKey, PathSummary, keep_out_problems, path_index};
 use crate::queries::lookup::{find_path, own_directory, search_path};
 use crate::queries::part::{is_about_waste, part_problems};
@@ -253,7 +253,8 @@ impl<'db> ClosureWalk<'db> {
             let sweep_problems = self.sweep_problems(summary, signature, depth);
             has_errors |= self.report_all(instance, sweep_problems.iter());
         }
-        has_errors |= self.report_all(instance, &summary.walk_problems);
+        let problems = summary.walk_problems.iter().filter(|found| !is_about_misfit(db, instance, found));
+        has_errors |= self.report_all(instance, problems);
         has_errors |= self.report_all(instance, part_problems(self.db, instance));
         let Some(signature) = summary.known_signature() else { return PathErrors::Own };
         let mut errors = PathErrors::of(has_errors || summary.signature.is_none());

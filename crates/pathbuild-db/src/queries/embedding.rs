@@ -1,7 +1,8 @@
 //! Paths with bound variables, and the direct embeddings of each: every subpath segment with the path that it names, checked against each
 //! other. (book: language/embedding; the order of errors: book: reference/diagnostics)
 
-use pathbuild_diagnostic::{Diagnostic, Value};
+use pathbuild_diagnostic::messages::drawing;
+use pathbuild_diagnostic::{Code, Diagnostic, Value};
 use pathbuild_path::{
     Bindings, CaseSensitiveName, Origin, PathName, PathSignature, SubpathCall, SubpathChecker, SubpathName,
     WalkedPath,
@@ -55,6 +56,17 @@ pub enum Outcome<'db> {
 pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<'db>] {
     // Most paths embed nothing; no query is needed for them.
     if summary(db, instance).has_subpaths() { embeddings(db, instance) } else { &[] }
+}
+
+/// Whether a finding says that a segment embeds a path once more (PB121), although the segment does not fit that path (PB505).
+pub(super) fn is_about_misfit<'db>(db: &'db dyn Db, instance: Instance<'db>, found: &Diagnostic) -> bool {
+    let is_misfit = |embedding: &Embedding<'db>| match &embedding.outcome {
+        Outcome::Found { problems, .. } => problems
+            .iter()
+            .any(|problem| problem.code() == Code::SubpathSizeDiffers && problem.place == found.place),
+        _ => false,
+    };
+    found.message == &drawing::SUBPATH_TWICE && embeds(db, instance).iter().any(is_misfit)
 }
 
 #[salsa::tracked]

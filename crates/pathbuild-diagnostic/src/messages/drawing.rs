@@ -108,6 +108,13 @@ messages! {
         help_en: "correct the diameter; PHANTOM: 1 mm start, 1.5 mm turn marker, 2 mm end, 6 mm Z-probe; DASHDOT: 6 mm Z-probe; DOT: 6 mm Z-probe that is left out",
         help_de: "den Durchmesser berichtigen; PHANTOM: 1 mm Anfang, 1,5 mm Wendemarke, 2 mm Ende, 6 mm Z-Probe; DASHDOT: 6 mm Z-Probe; DOT: 6 mm ausgelassene Z-Probe",
     }
+    /// A DASHDOT circle that is no Z-probe, perhaps drawn to embed a closed path.
+    UNKNOWN_DASHDOT_CIRCLE: UnknownSpecialCircle {
+        en: "a {line_type} circle with a diameter of {diameter} mm has no meaning",
+        de: "ein {line_type}-Kreis mit {diameter} mm Durchmesser hat keine Bedeutung",
+        help_en: "give a Z-probe a diameter of 6 mm; to embed a path that ends where it starts, draw an arc from 270 to 270 degrees instead of the circle",
+        help_de: "einer Z-Probe 6 mm Durchmesser geben; um einen Pfad einzubetten, der endet, wo er anfängt, statt des Kreises einen Bogen von 270 bis 270 Grad zeichnen",
+    }
     /// A PHANTOM circle that would be a marker in another unit.
     SPECIAL_CIRCLE_IN_OTHER_UNIT: UnknownSpecialCircle {
         en: "a {line_type} circle with a diameter of {diameter} mm has no meaning; times {factor}, it would be {meant} mm: is the drawing in {unit}?",

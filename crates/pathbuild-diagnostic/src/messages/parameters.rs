@@ -122,8 +122,8 @@ messages! {
     NAME_ON_OTHER_ELEMENT: UnknownParameter {
         en: "{element} does not accept \"{letter}\": it embeds no path",
         de: "{element} kennt \"{letter}\" nicht: hier wird kein Pfad eingebettet",
-        help_en: "use line type DASHDOT for a line that embeds a path",
-        help_de: "für eine Linie, die einen Pfad einbettet, den Linientyp DASHDOT verwenden",
+        help_en: "embed a path by a line with line type DASHDOT, or, if it ends where it starts, by an arc from 270 to 270 degrees",
+        help_de: "einen Pfad durch eine Linie mit Linientyp DASHDOT einbetten oder, wenn er endet, wo er anfängt, durch einen Bogen von 270 bis 270 Grad",
     }
     /// A path name without `>`.
     NAME_WITHOUT_SIGN: UnknownParameter {

@@ -373,6 +373,13 @@ messages! {
         help_en: "draw the segment from where the path starts to where it ends: copy the component's proxy line",
         help_de: "das Segment vom Anfang des Pfads bis zu seinem Ende zeichnen: die Stellvertreterlinie des Bauteils kopieren",
     }
+    /// A subpath segment between two points, with a path that ends where it starts.
+    SIZE_OF_CLOSED_PATH: SubpathSizeDiffers {
+        en: "the segment is {segment} mm long, but path {name} ends where it starts",
+        de: "das Segment ist {segment} mm lang, Pfad {name} endet aber, wo er anfängt",
+        help_en: "replace the segment by a full circle, a DASHDOT arc from 270 to 270 degrees (not by a CIRCLE, nor by two half circles); or lead the path by a sweep to an end marker elsewhere, and draw the segment from its start to there",
+        help_de: "das Segment durch einen Vollkreis ersetzen, einen DASHDOT-Bogen von 270 bis 270 Grad (nicht durch einen CIRCLE oder zwei Halbkreise); oder den Pfad mit einer Leerfahrt zu einer Endmarke an anderer Stelle führen und das Segment von seinem Anfang bis dorthin zeichnen",
+    }
     /// A subpath segment with another cutter (O) than the embedded path has, which cannot be corrected on the segment alone.
     CUTTER_DIFFERS: SubpathParameterDiffers {
         en: "{letter} is {segment} here, but {path} in path {name}",

@@ -442,6 +442,9 @@ impl<'d> PathCollector<'d> {
                 let is_phantom = line_type == LineType::Phantom;
                 let scaled = MarkerInOtherUnit::of_radius(radius).filter(|_| is_phantom);
                 let diagnostic = match scaled {
+                    None if line_type == LineType::Dashdot => {
+                        Diagnostic::new(&messages::UNKNOWN_DASHDOT_CIRCLE)
+                    }
                     None => Diagnostic::new(&messages::UNKNOWN_SPECIAL_CIRCLE),
                     Some(scaled) => Diagnostic::new(&messages::SPECIAL_CIRCLE_IN_OTHER_UNIT)
                         .with("unit", scaled.unit)

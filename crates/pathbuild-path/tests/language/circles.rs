@@ -98,6 +98,19 @@ fn a_diameter_that_means_nothing_is_shown_with_its_digits() {
     assert_eq!(said("5"), "a PHANTOM circle with a diameter of 5 mm has no meaning");
 }
 
+/// A DASHDOT circle may have been meant to embed a closed path.
+#[test]
+fn an_arc_is_recommended_instead_of_a_dashdot_circle() {
+    let is_recommended = |circle: &str| {
+        let raw = raw(&format!("layer 1234.1P\nmill 0,0 20,0\ncircle {circle} 50,50 d 10"));
+        let help = raw.diagnostics.iter().filter(|found| found.code().to_string() == "PB105");
+        help.filter_map(|found| found.help(Lang::En))
+            .any(|help| help.contains("an arc from 270 to 270 degrees"))
+    };
+    assert!(is_recommended("DASHDOT"));
+    assert!(!is_recommended("PHANTOM") && !is_recommended("DOT"));
+}
+
 /// Two start markers on different layers of one path are two starts of that path.
 #[test]
 fn markers_are_counted_over_all_layers_of_a_path() {

@@ -66,6 +66,13 @@ fn the_segment_is_as_long_as_the_path() {
     assert_eq!(of_length("19.99901"), RIGHT);
     assert_eq!(of_length("20.00101"), ["PB505"]);
     assert_eq!(of_length("19.99899"), ["PB505"]);
+    // A closed path needs a full circle instead.
+    let help = |end: &str| {
+        let inner = signature(&path("T5 O3 I1 B0 Mx", &format!("mill 0,0 9,0 9,9 {end}\nend {end}")));
+        judged(&outer, &[], |judge, call| judge.mismatches(call, &inner))[0].help(Lang::En).unwrap()
+    };
+    assert!(help("0,0.001").starts_with("replace the segment by a full circle"));
+    assert!(help("0,0.00101").starts_with("draw the segment from where"));
 }
 
 #[test]
