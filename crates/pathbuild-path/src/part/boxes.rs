@@ -1,5 +1,7 @@
 //! An index of bounding boxes.
 
+use std::iter;
+
 use either::Either;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, Envelope as _, RTree};
@@ -62,12 +64,18 @@ impl GroupedBoxes {
     }
 
     fn near(&self, extent: AABB<[f64; 2]>) -> impl Iterator<Item = usize> {
-        let mut is_group_near = false;
-        (0..self.boxes.len()).filter(move |number| {
-            if number.is_multiple_of(GROUP_SIZE) {
-                is_group_near = self.groups[number / GROUP_SIZE].intersects(&extent);
+        let mut next = 0;
+        iter::from_fn(move || {
+            loop {
+                let number = next;
+                let own = self.boxes.get(number)?;
+                let is_far = number.is_multiple_of(GROUP_SIZE)
+                    && !self.groups[number / GROUP_SIZE].intersects(&extent);
+                next += if is_far { GROUP_SIZE } else { 1 };
+                if !is_far && own.intersects(&extent) {
+                    return Some(number);
+                }
             }
-            is_group_near && self.boxes[*number].intersects(&extent)
         })
     }
 }
