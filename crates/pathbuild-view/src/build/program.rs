@@ -259,6 +259,8 @@ fn lines_of_moves(program: &Program, text: &[u8], dialect: Dialect) -> Vec<Optio
                 lines.push(finder.line_of_move(&movement));
             }
             finder.drop_matched_moves();
+        } else {
+            finder.last = Some(line);
         }
     });
     lines.extend(moves.map(|movement| finder.line_of_move(&movement)));
@@ -271,6 +273,7 @@ struct LineFinder {
     written: Vec<(u32, Move)>,
     /// Index of the first written move that is not matched yet.
     next: usize,
+    /// Line of the previous move, at first of the written move that reaches the first fully known position.
     last: Option<u32>,
 }
 
@@ -304,8 +307,8 @@ impl LineFinder {
     }
 
     /// Returns the line of a rapid move before the next cut: a rapid with the same start and end, or else with the same end, or else with
-    /// the same end along the axes that the move changes. If there is none, one line of the text stands for several moves, and the line of
-    /// the previous move is returned.
+    /// the same end along the axes that the move changes, where the written move changes them as well. If there is none, one line of the text
+    /// stands for several moves, and the line of the previous move is returned.
     fn line_of_rapid(&mut self, movement: &Move) -> Option<u32> {
         let rest = &self.written[self.next..];
         let rapids = rest.iter().take_while(|(_, written)| written.pace == Pace::Rapid);
@@ -315,7 +318,9 @@ impl LineFinder {
             is_same(&written.from, &movement.from, Axes::ALL) && is_same(&written.to, &movement.to, Axes::ALL)
         };
         let has_end = |written: &&Move| is_same(&written.to, &movement.to, Axes::ALL);
-        let has_part = |written: &&Move| is_same(&written.to, &movement.to, moved);
+        let has_part = |written: &&Move| {
+            is_same(&written.to, &movement.to, moved) && !is_same(&written.from, &written.to, moved)
+        };
         let found = rapids.iter().position(has_both);
         let found = found.or_else(|| rapids.iter().position(has_end));
         let found = found.or_else(|| rapids.iter().position(has_part));
