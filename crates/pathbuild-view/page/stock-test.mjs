@@ -180,10 +180,13 @@ const plain = (tool, thickness, moves) => ({ through: 0.001001, paths: [{ tool, 
   assert.equal(marks(plain(2, null, [...cut, move("sweep", [20, 0, -1], [0, 0, -1])])), 0);
   assert.ok(marks(plain(2, null, [...cut, move("sweep", [20, 0, -1], [20, 1, -1])])) > 0);
   assert.equal(stockOf(plain(null, 2, cut)), null, "without a cutter there is no stock");
-  const typed = stockOf(plain(null, null, cut), { tool: 2, thickness: 3, surface: null });
-  assert.equal(typed.map.cutting.top, 3, "a cutter and a thickness that are typed count");
-  const [blank] = stockOf(plain(null, null, cut), { tool: 2, thickness: 3, surface: 1 }).map.cutting.blanks;
-  assert.deepEqual([blank.top, Number(blank.through.toFixed(3))], [1, -1.999], "the surface is where it is typed");
+  const faces = (is_on_zero, surface) => {
+    const [blank] = stockOf({ ...plain(null, null, cut), program: { is_on_zero } }, { tool: 2, thickness: 3, surface }).map.cutting.blanks;
+    return [blank.top, Number(blank.through.toFixed(3))];
+  };
+  assert.deepEqual(faces(true, null), [3, 0.001], "material on Z 0 has the thickness that is typed");
+  assert.deepEqual(faces(false, null), [0, -2.999], "elsewhere, Z 0 is its upper face");
+  assert.deepEqual(faces(false, 1), [1, -1.999], "the surface is where it is typed");
 }
 
 {

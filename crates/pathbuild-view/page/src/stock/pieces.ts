@@ -67,7 +67,7 @@ export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
       until.push(numbers.length / WIDTH);
       if (!isCut(move.kind) || points.length === 0) continue;
       hasUnknownTip ||= tip === "unknown";
-      const [top, raised] = faces(path, move, assumed);
+      const [top, raised] = faces(scene, path, move, assumed);
       const through = top > raised ? raised + scene.through : -Infinity;
       const name = `${top} ${through}`;
       let box = blanks.get(name)?.box ?? EMPTY;
@@ -104,10 +104,13 @@ function widen(blanks: Blank[], pieces: number[]): void {
 }
 
 /** Returns Z of the upper face and of the plate where a move cuts, in mm: components may be raised. */
-function faces(path: Path, move: Move, assumed: Assumed): [number, number] {
+function faces(scene: Scene, path: Path, move: Move, assumed: Assumed): [number, number] {
   const element = move.element === undefined ? undefined : path.elements[move.element];
   const component = path.embedded[element?.path ?? 0];
   const known = component?.thickness ?? path.thickness;
-  if (known === null && assumed.surface !== null) return [assumed.surface, assumed.surface - (assumed.thickness ?? 0)];
-  return [known ?? assumed.thickness ?? 0, component?.raised ?? 0];
+  if (known !== null) return [known, component?.raised ?? 0];
+  const thickness = assumed.thickness ?? 0;
+  // Only on Z 0 does the thickness lift the upper face.
+  const top = assumed.surface ?? (scene.program?.is_on_zero ? thickness : 0);
+  return [top, top - thickness];
 }
