@@ -321,6 +321,32 @@ fn values_that_nothing_gives_are_examples_and_times_without_them_are_left_out() 
     assert!(examples == "null" && minutes == 1.0 && !is_preview);
 }
 
+/// The shown program of a path with variables has the S that its moves and example values have: T + O if the path gives none.
+#[test]
+fn a_path_with_variables_has_one_sweep_height() {
+    let drawing = |start: &str| {
+        format!(
+            "layer 1234.1P\nstart 0,0 \"T5 O2 I1 F100 MX :X-0.2~1 B=X {start}\"\nmill 0,0 40,0\nend 40,0\n"
+        )
+    };
+    for (start, sweep_height, expected, is_example) in [
+        ("", "", 7.0, true),
+        ("", "sweep-height = 20\n", 7.0, true),
+        ("S9", "sweep-height = 20\n", 9.0, false),
+    ] {
+        let place = Place::of(&format!("== 1234 Pv.dxf ==\n{}", drawing(start)))
+            .file("pathbuild.toml", format!("rapid = 1000\n{sweep_height}"));
+        let file = place.path().join("x.json").to_str().unwrap().to_owned();
+        let scene = scene(&place.run_with(&["view", "1234 Pv.dxf", "-o", &file]));
+        let path = &scene["paths"][0];
+        assert_eq!(path["sweep_height"], expected, "{start} {sweep_height}");
+        let text = path["gcode"].as_str().unwrap();
+        assert!(text.contains(&format!("G00 Z{expected:.3}\n")), "{text}");
+        assert_eq!(path["examples"].to_string().contains(r#""name":"S""#), is_example, "{path}");
+        lines_lead_to_moves(path, text, Dialect::Native);
+    }
+}
+
 #[test]
 fn line_ends_are_no_part_of_lines() {
     let text = "G17 G21 G90 G94\nG0 X0 Y0\nG0 Z5\nG1 Z1 F100\nM30\n";

@@ -7,8 +7,8 @@ use pathbuild_diagnostic::messages::gcode as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Point, TraceStep, Value};
 use pathbuild_dxf::Drawing;
 use pathbuild_path::{
-    Bindings, ElementParameters, Origin, Path, PathName, PathRole, RawPath, Segment, SegmentKind, SourceMap,
-    WalkedPath, Xy, element_parameters,
+    Bindings, ElementParameters, Origin, Path, PathName, PathOptions, PathRole, RawPath, Segment,
+    SegmentKind, SourceMap, WalkedPath, Xy, element_parameters,
 };
 use pathbuild_toolpath::{FoldPaths, Occurrence, Program, StepOrigin, Trace, fold_traced};
 use rustc_hash::FxHashMap;
@@ -23,8 +23,7 @@ use crate::queries::raw::{raw_file, read_layers};
 /// A program with the origin of each step.
 #[derive(Debug)]
 pub struct TracedProgram {
-    /// The program. For emitted targets it equals that of [`program`](crate::queries::program); checked targets use the sweep height of a
-    /// check.
+    /// The program, equal to that of [`program`](crate::queries::program) where that has one.
     pub program: Program,
     /// The origin of each step. Paths are given as indices into [`TracedProgram::paths`].
     pub trace: Trace<usize>,
@@ -77,13 +76,7 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>>
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();
     let root = closure.root?;
-    let mut options = Settings::get(db).fold(db);
-    let is_only_embedded = !root.bindings(db).is_empty();
-    if *target.role(db) != Role::Emitted && (is_only_embedded || options.sweep_height.is_none()) {
-        // A checked path gets the sweep height that it has when embedded.
-        options.sweep_height = path(db, root).path.as_deref().map(Path::embedded_sweep_height);
-    }
-    let (program, trace) = fold_traced(&ClosurePaths { db }, root, drawing, options);
+    let (program, trace) = fold_traced(&ClosurePaths { db }, root, drawing, fold_options(db, target, root));
     let mut instances: Vec<Instance<'_>> = Vec::new();
     let mut numbers: FxHashMap<Instance<'_>, usize> = FxHashMap::default();
     let occurrences = trace.occurrences.into_iter().map(|occurrence| {
@@ -101,6 +94,17 @@ pub fn traced_program(db: &dyn Db, target: Target) -> Option<Arc<TracedProgram>>
     };
     let paths = instances.into_iter().map(bound).collect::<Option<Vec<_>>>()?;
     Some(Arc::new(TracedProgram { program, trace, paths }))
+}
+
+/// Returns the options with which a target is folded. A checked path that has variables, or no S in the options, gets the sweep height that it
+/// has when embedded.
+pub(super) fn fold_options(db: &dyn Db, target: Target, root: Instance<'_>) -> PathOptions {
+    let mut options = Settings::get(db).fold(db);
+    let is_only_embedded = !root.bindings(db).is_empty();
+    if *target.role(db) != Role::Emitted && (is_only_embedded || options.sweep_height.is_none()) {
+        options.sweep_height = path(db, root).path.as_deref().map(Path::embedded_sweep_height);
+    }
+    options
 }
 
 /// Returns a path as it is drawn; `None` if the drawing has no path of that name.

@@ -15,7 +15,7 @@ use crate::queries::index::{bind, file_index};
 use crate::queries::keep_outs::keep_out_collisions;
 use crate::queries::neighbours::{neighbour_findings, neighbour_problems};
 use crate::queries::part::{doubtful_outlines, example_findings, has_doubtful_outlines};
-use crate::queries::programs::ClosurePaths;
+use crate::queries::programs::{ClosurePaths, fold_options};
 use crate::queries::raw::{locate_in, raw_file, read_layers};
 
 /// Folds a path and everything it embeds into a program. `None` if one of them has errors, an option is missing, or the tool hits a
@@ -29,8 +29,8 @@ pub fn program(db: &dyn Db, target: Target) -> Option<Arc<Program>> {
         return None;
     }
     let drawing = target.file(db).path(db).file_name().unwrap_or_default();
-    let program =
-        fold(&ClosurePaths { db }, closure.root?, drawing, Settings::get(db).fold(db), closure.moves);
+    let root = closure.root?;
+    let program = fold(&ClosurePaths { db }, root, drawing, fold_options(db, target, root), closure.moves);
     Some(Arc::new(program))
 }
 

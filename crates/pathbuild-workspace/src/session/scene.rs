@@ -96,7 +96,7 @@ pub(crate) fn examples(
     let example = |name: String, value: Option<&str>| Example { name, value: value.map(str::to_owned) };
     let mut examples: Vec<Example> =
         root.bindings.iter().map(|(name, value)| example(name.to_string(), Some(value))).collect();
-    if root.path.sweep_height(&Settings::get(db).fold(db), PathRole::Emitted).is_none() {
+    if root.path.sweep_height(&Settings::get(db).fold(db), PathRole::Emitted) != Some(program.sweep_height) {
         let height = Number(program.sweep_height).to_string();
         examples.push(example("S".to_owned(), Some(&height)));
     }
