@@ -1040,6 +1040,27 @@ fn the_legend_does_not_cut_texts_of_other_layers() {
     assert!(rows.iter().any(|[y, _]| *y > legend), "{legend}: {rows:?}");
 }
 
+/// Texts are shown as in a CAD program: with line breaks and the characters that codes stand for.
+#[test]
+fn texts_are_shown_as_in_a_cad_program() {
+    let path = "layer 1234.1P\nstart 0,0 \"T5 O2 I1 B0 F100\"\nmill 0,0 40,0 \"%%uB1%%u\"\nend 40,0\nlayer REMARKS\n";
+    let texts =
+        "text 10,-9 \"%%c10 %%d45 %%p0.1\" height 2\nmtext 20,-9 \"first\\Psecond^Icolumn\" height 2\n";
+    let place = Place::new().file("1234.1P.dxf", sheet(&format!("{path}{texts}")).unwrap().to_dxf());
+    place.run("view 1234.1P -o a.svg --rapid 900 --sweep-height 9");
+    let svg = place.read("a.svg");
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let line = |text: &str| {
+        let found = document.descendants().find(|node| node.is_element() && node.text() == Some(text));
+        let node = found.unwrap_or_else(|| panic!("no {text} in {svg}"));
+        ["y", "font-size"].map(|name| node.attribute(name).unwrap().parse::<f64>().unwrap())
+    };
+    line("B1");
+    line("\u{2300}10 \u{b0}45 \u{b1}0.1");
+    let ([first, size], [second, _]) = (line("first"), line("second column"));
+    assert!((second - first - size).abs() < 0.02, "{first} {second} {size}");
+}
+
 /// Numbers, start, parameters and names are legible: they do not overlap.
 #[test]
 fn texts_of_a_picture_are_apart() {

@@ -70,6 +70,6 @@ pub use read::{
     AssignedElement, AssignedText, NearNames, ProxyLine, TextCircle, assigned_texts, has_text_on_part,
     is_near_clamps_or_parts, keep_outs, may_be_stray_text, parts, proxy_lines, raw_file, stray_findings,
 };
-pub use text::{LetterValue, ParameterText, ParameterTexts, TextId};
+pub use text::{LetterValue, ParameterText, ParameterTexts, TextId, as_seen};
 pub use variables::{AllowedValues, Bindings, Combinations, Definition};
 pub use walk::{walk, walk_watched};

@@ -468,7 +468,7 @@ pub(crate) fn without_percent_codes(text: &str) -> Cow<'_, str> {
 }
 
 /// Replaces `%%c`, `%%d` and `%%p` by the characters that CAD programs show, and drops `%%u` and `%%o`.
-pub(crate) fn as_seen(text: &str) -> Cow<'_, str> {
+pub fn as_seen(text: &str) -> Cow<'_, str> {
     replace_percent_codes(text, |code| code.seen)
 }
 

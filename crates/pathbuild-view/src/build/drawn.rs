@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{ElementId, EntityKind};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 use pathbuild_path::{
     Arc, AssignedText, Curve, ElementParameters, Marker, Parameter as InForceParameter, PlacedPart,
-    Placement, Position, RawPath, Role, Shape as DrawnShape, SourceMap, TextCircle, Xy,
+    Placement, Position, RawPath, Role, Shape as DrawnShape, SourceMap, TextCircle, Xy, as_seen,
 };
 
 use super::corners;
@@ -171,7 +171,7 @@ impl ElementBuilder<'_> {
         });
         Label {
             path: self.path,
-            text: text.text.trim_end().to_owned(),
+            text: shown_text(&text.text),
             at: pair(self.placement.place(text.circle.centre)),
             radius: text.circle.radius,
             height: line_height(text),
@@ -183,11 +183,17 @@ impl ElementBuilder<'_> {
 /// Returns the height in mm of a line of a text, derived from the circle of the text. For a long MTEXT, the circle is smaller than the
 /// text.
 fn line_height(text: &AssignedText) -> f64 {
-    let longest = text.text.lines().map(|line| line.chars().count()).max().unwrap_or(0).max(1);
-    let (rows, letters) = (text.text.lines().count().max(1) as f64, 0.6 * longest as f64);
+    let shown = as_seen(&text.text);
+    let longest = shown.lines().map(|line| line.chars().count()).max().unwrap_or(0).max(1);
+    let (rows, letters) = (shown.lines().count().max(1) as f64, 0.6 * longest as f64);
     let by_diagonal = 2.0 * text.circle.radius / libm::hypot(rows, letters);
     let by_height = text.circle.radius / (0.7 * rows);
     if text.entity == EntityKind::MText { by_diagonal.max(by_height) } else { by_diagonal }
+}
+
+/// Returns a text as CAD programs show it, with a blank for each tab.
+fn shown_text(text: &str) -> String {
+    as_seen(text).trim_end().replace('\t', " ")
 }
 
 fn parameter(known: &InForceParameter) -> Parameter {
@@ -301,7 +307,7 @@ fn other_shape(drawing: &Drawing, entity: &Entity) -> OtherShape {
     let layer = drawing.layers[entity.layer as usize].name.to_string();
     let text = |circle: TextCircle, text: &str, height, rotation| OtherShape::Text {
         layer: layer.clone(),
-        text: text.to_owned(),
+        text: shown_text(text),
         at: pair(circle.centre),
         height,
         rotation,

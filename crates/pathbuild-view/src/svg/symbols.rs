@@ -32,7 +32,7 @@ pub(super) fn draw_below_moves(canvas: &mut Canvas, scene: &Scene, frame: &Frame
                 if *rotation == 0.0 {
                     // The legend would cover the lower half of a text across the lower edge.
                     if at[1] < bottom {
-                        at[1] = at[1].min(bottom - size / 2.0);
+                        at[1] = at[1].min(bottom - size * rows(text) / 2.0);
                     }
                     room.occupy(text_rectangle(at, size, text));
                 }
@@ -46,8 +46,20 @@ pub(super) fn draw_below_moves(canvas: &mut Canvas, scene: &Scene, frame: &Frame
 
 /// Returns the approximate rectangle of a text that is centred on a point.
 fn text_rectangle([x, y]: Point, size: f64, text: &str) -> Rectangle {
-    let half = text_width(text, size) / 2.0;
-    [[x - half, y - size / 2.0], [x + half, y + size / 2.0]]
+    let width = text.lines().map(|line| text_width(line, size)).fold(0.0, f64::max);
+    let half = [width / 2.0, size * rows(text) / 2.0];
+    [[x - half[0], y - half[1]], [x + half[0], y + half[1]]]
+}
+
+/// Returns the number of lines of a text, at least one.
+fn rows(text: &str) -> f64 {
+    text.lines().count().max(1) as f64
+}
+
+/// Returns each line of a text with the distance of its middle below the middle of the text, in lines.
+fn rows_from_middle(text: &str) -> impl Iterator<Item = (f64, &str)> {
+    let middle = (rows(text) - 1.0) / 2.0;
+    text.lines().enumerate().map(move |(row, line)| (row as f64 - middle, line))
 }
 
 /// Draws clamps, each with its height in the middle.
@@ -95,7 +107,9 @@ fn draw_other_text(canvas: &mut Canvas, [x, y]: Point, size: f64, rotation: f64,
         format!(" transform=\"rotate({} {} {})\"", svg_number(-rotation), svg_number(x), svg_number(y))
     };
     let style = format!("stroke=\"none\" fill=\"{OTHER_COLOUR}\" dominant-baseline=\"central\"{turn}");
-    canvas.text([x, y], size, Anchor::Middle, &style, text);
+    for (row, line) in rows_from_middle(text) {
+        canvas.text([x, y + row * size], size, Anchor::Middle, &style, line);
+    }
 }
 
 /// Draws the shapes above the moves: elements, support bars, markers, probes, numbers, and names of embedded paths. Returns the numbers for
@@ -169,16 +183,14 @@ pub(super) fn draw_texts(
     // Place short texts first. They keep their positions, so that the circle of a text still encloses the text; long texts give way.
     labels.sort_by_key(|label| longest_line(label));
     for label in labels {
-        let lines: Vec<&str> = label.text.lines().collect();
         let longest = longest_line(label).max(1);
-        let rows = lines.len().max(1) as f64;
         let size = (label.height * place.scale()).min(14.0);
         // The path's own texts are always legible; those of embedded paths are shown only if they are large enough.
         let size = if label.path == 0 { size.max(MIN_TEXT_SIZE) } else { size };
         if size < MIN_LEGIBLE_SIZE {
             continue;
         }
-        let extent = [0.62 * size * longest as f64, rows * size];
+        let extent = [0.62 * size * longest as f64, rows(&label.text) * size];
         let Some(at) = room.occupy_near(place.to_page(label.at), extent) else { continue };
         for element in &label.elements {
             let to = place.to_page(nearest(&path.elements[*element as usize].shape, label.at));
@@ -188,9 +200,8 @@ pub(super) fn draw_texts(
                 &format!("stroke=\"{TEXT_COLOUR}\" stroke-width=\"0.5\" stroke-opacity=\"0.6\""),
             );
         }
-        for (row, line) in lines.iter().enumerate() {
-            let down = (row as f64 - (rows - 1.0) / 2.0 + 0.35) * size;
-            canvas.text([at[0], at[1] + down], size, Anchor::Middle, HALO, line);
+        for (row, line) in rows_from_middle(&label.text) {
+            canvas.text([at[0], at[1] + (row + 0.35) * size], size, Anchor::Middle, HALO, line);
         }
     }
     canvas.close();
