@@ -360,6 +360,25 @@ const text = (page, selector) => page.locator(selector).innerText();
   await page.close();
 }
 {
+  // The height at the machine's own position is unknown: it is not shown, and moves there are no moves through material.
+  const file = join(directory, "home.nc");
+  writeFileSync(file, ["G21 G90 G94 G17", "G0 Z5", "G0 X0 Y0", "G1 Z-2 F120", "G1 X20", "G53 G0 Z0", "G0 X0 Y20", "G0 Z3", "G1 Z-1", "G0 Z5", "M30", ""].join("\n"));
+  const { page, faults } = await open(file, {}, directory);
+  const places = { 4: "X20.00 Y0.00 Z-2.00", 5: "X20.00 Y0.00", 6: "X0.00 Y20.00", 7: "X0.00 Y20.00 Z3.00" };
+  for (const [move, place] of Object.entries(places)) {
+    await page.locator("#slider").fill(move);
+    assert.equal(await text(page, "#place"), place);
+  }
+  await page.locator("#assumedTool").fill("3");
+  await page.locator("#assumedSurface").fill("1");
+  await page.locator("#slider").fill("9");
+  assert.doesNotMatch(await text(page, "#legend"), /rapid in material/);
+  await page.locator("#view3").click();
+  await shot(page, "home");
+  assert.deepEqual(faults, []);
+  await page.close();
+}
+{
   // A program is shown with its findings by line, the checks that were made or not, the cutter that it states, and its waits. Arcs count with their
   // lowest and outermost points.
   const file = join(directory, "checked.nc");

@@ -27,6 +27,8 @@ export interface Model {
   /** The box round the drawing and its cuts, up to the highest move. */
   low: [number, number, number];
   high: [number, number, number];
+  /** Z at which ends of rapid moves with an unknown height are drawn: the highest known one, because the tool is usually above it. */
+  unknownZ: number;
   deepest: number;
   shallowest: number;
 }
@@ -46,9 +48,11 @@ export function model(scene: Scene): Model {
     rapidArrows: empty(),
     low: [Infinity, Infinity, Infinity],
     high: [-Infinity, -Infinity, -Infinity],
+    unknownZ: steps.reduce((highest, { move }) => Math.max(highest, move.from[2] ?? -Infinity, move.to[2] ?? -Infinity), -Infinity),
     deepest,
     shallowest,
   };
+  if (made.unknownZ === -Infinity) made.unknownZ = 0;
   const grow = (at: number[]) => {
     for (let axis = 0; axis < 3; axis++) {
       made.low[axis] = Math.min(made.low[axis], at[axis]);
@@ -61,7 +65,7 @@ export function model(scene: Scene): Model {
   for (const shape of scene.keep_outs.flatMap((it) => it.outline)) for (const [x, y] of pointsOfShape(shape)) grow([x, y, 0]);
   for (const [x, y] of scene.findings.flatMap((it) => (it.at ? [it.at] : []))) grow([x, y, 0]);
   const flat = steps.map(({ path, move }) =>
-    pointsOfMove(move).map(([x, y, z]): [number, number, number] => [x + path.zero[0], y + path.zero[1], z]),
+    pointsOfMove(move, undefined, made.unknownZ).map(([x, y, z]): [number, number, number] => [x + path.zero[0], y + path.zero[1], z]),
   );
   const hasElements = scene.paths.some((path) => path.elements.length > 0);
   flat.forEach((points, index) => {

@@ -165,10 +165,13 @@ function step(radius: number, sagitta: number): number {
 /** Maximum distance in mm between a drawn arc and its chords. */
 const SAGITTA = 0.02;
 
-/** Returns the points of a move from start to end; empty if its route is unknown. Chords stay within `sagitta` mm of an arc. */
-export function pointsOfMove(move: Move, sagitta = SAGITTA): [number, number, number][] {
+/**
+ * Returns the points of a move from start to end; empty if its route is unknown. Chords stay within `sagitta` mm of an arc. Ends of rapid moves at an
+ * unknown height are at `unknownZ` if it is given; other unknown heights are those of the move's other end, or 0.
+ */
+export function pointsOfMove(move: Move, sagitta = SAGITTA, unknownZ?: number): [number, number, number][] {
   const { from, to, arc } = move;
-  const z = (place: Place) => place[2] ?? (from[2] ?? to[2] ?? 0);
+  const z = (place: Place) => place[2] ?? (isRapid(move.kind) ? unknownZ : undefined) ?? from[2] ?? to[2] ?? 0;
   if (from[0] === null || from[1] === null || to[0] === null || to[1] === null) return [];
   const begin: [number, number, number] = [from[0], from[1], z(from)];
   const end: [number, number, number] = [to[0], to[1], z(to)];
@@ -247,6 +250,10 @@ export function pointsOfShape(shape: Shape, sagitta = Infinity): Point[] {
 
 export function isCut(kind: MoveKind): boolean {
   return kind === "mill" || kind === "mark" || kind === "plunge";
+}
+
+export function isRapid(kind: MoveKind): boolean {
+  return kind === "sweep" || kind === "lift";
 }
 
 /** Returns the point halfway along an arc. */

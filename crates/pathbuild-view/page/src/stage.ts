@@ -11,7 +11,7 @@ import { Kept } from "./kept.js";
 import { Labels, Spot } from "./labels.js";
 import { Model, Pieces } from "./model.js";
 import { color, hex } from "./palette.js";
-import { KeepOut, Path, Point, Scene, Shape, isCut, pointsOfShape } from "./scene.js";
+import { KeepOut, Path, Point, Scene, Shape, isCut, isRapid, pointsOfShape } from "./scene.js";
 import { Texels } from "./stock/heights.js";
 import { StockPicture } from "./stock/picture.js";
 import { Stock } from "./stock/stock.js";
@@ -290,13 +290,13 @@ export class Stage {
       [this.rapidArrows, this.model.rapidArrows],
     ] as const;
     for (const [strokes, pieces] of all) strokes.draw(of(pieces));
-    const { steps } = this.model;
-    const way = share > 0 ? wayUpTo(steps[count], share) : [];
+    const { steps, unknownZ } = this.model;
+    const way = share > 0 ? wayUpTo(steps[count], share, unknownZ) : [];
     this.progress.visible = way.length > 1 && (isCut(steps[count].move.kind) || this.rapids.object.visible);
     if (this.progress.visible) replace(this.progress, way.slice(1).flatMap((to, index) => [...way[index], ...to]));
     const step = steps[Math.max(count - 1, 0)];
     const at = step && (count === 0 ? step.move.from : step.move.to);
-    const place = way.at(-1) ?? (at && at[0] !== null && at[1] !== null ? [at[0] + step.path.zero[0], at[1] + step.path.zero[1], at[2] ?? 0] : null);
+    const place = way.at(-1) ?? (at && at[0] !== null && at[1] !== null ? [at[0] + step.path.zero[0], at[1] + step.path.zero[1], at[2] ?? (isRapid(step.move.kind) ? unknownZ : 0)] : null);
     this.tool.visible = place !== null && place !== undefined;
     if (place) this.tool.position.set(place[0], place[1], place[2]);
     this.draw();

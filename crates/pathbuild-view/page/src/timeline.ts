@@ -1,7 +1,7 @@
 // Times and positions of the tool along the moves of a scene.
 
 import { Model, Step } from "./model.js";
-import { pointsOfMove } from "./scene.js";
+import { isRapid, pointsOfMove } from "./scene.js";
 
 /** Speeds in mm/min assumed while the tool is animated, if a program states none. Times that depend on them are not shown. */
 const [ASSUMED_RAPID, ASSUMED_FEED] = [3000, 300];
@@ -23,13 +23,13 @@ export class Timeline {
     let [seconds, isKnown] = [0, true];
     let cutting: number | null = 0;
     model.steps.forEach(({ path, move }, index) => {
-      const isRapid = move.kind === "sweep" || move.kind === "lift";
-      const speed = isRapid ? (path.rapid ?? rapid) : (move.feed ?? null);
+      const rapidly = isRapid(move.kind);
+      const speed = rapidly ? (path.rapid ?? rapid) : (move.feed ?? null);
       if (move.length > 0) {
         isKnown &&= speed !== null;
-        const took = (60 * SLOWER * move.length) / (speed ?? (isRapid ? ASSUMED_RAPID : ASSUMED_FEED));
+        const took = (60 * SLOWER * move.length) / (speed ?? (rapidly ? ASSUMED_RAPID : ASSUMED_FEED));
         seconds += took;
-        if (!isRapid) cutting = speed === null || cutting === null ? null : cutting + took;
+        if (!rapidly) cutting = speed === null || cutting === null ? null : cutting + took;
       }
       this.ends[index] = seconds;
     });
@@ -63,9 +63,12 @@ export class Timeline {
 
 type Place = [number, number, number];
 
-/** Returns the points of a move up to a share of its length, in coordinates of the drawing. Empty if its ends are unknown. */
-export function wayUpTo({ path, move }: Step, share: number): Place[] {
-  const points = pointsOfMove(move, 0.001).map(([x, y, z]): Place => [x + path.zero[0], y + path.zero[1], z]);
+/**
+ * Returns the points of a move up to a share of its length, in coordinates of the drawing, with unknown heights of rapid moves at `unknownZ`. Empty if its
+ * ends are unknown.
+ */
+export function wayUpTo({ path, move }: Step, share: number, unknownZ: number): Place[] {
+  const points = pointsOfMove(move, 0.001, unknownZ).map(([x, y, z]): Place => [x + path.zero[0], y + path.zero[1], z]);
   const lengths = points.slice(1).map((to, index) => Math.hypot(...to.map((part, axis) => part - points[index][axis])));
   let left = share * lengths.reduce((sum, length) => sum + length, 0);
   const way = points.slice(0, 1);

@@ -8,7 +8,7 @@ import { sayLegend, sayScale, showLegend } from "./legend.js";
 import { Listing } from "./listing.js";
 import { Model, Step, model } from "./model.js";
 import { MOST_OPERATIONS, Operation, operations } from "./operations.js";
-import { Element, Finding, Path, Scene, cornersOf, isCut, isSameHandle, isSamePlace, middleOfArc, pointsOfShape } from "./scene.js";
+import { Element, Finding, Path, Scene, cornersOf, isCut, isRapid, isSameHandle, isSamePlace, middleOfArc, pointsOfShape } from "./scene.js";
 import { Stage, isThick } from "./stage.js";
 import { NOTHING } from "./stock/heights.js";
 import { Assumed } from "./stock/pieces.js";
@@ -432,11 +432,12 @@ function readout(): void {
   }
   const { path, move } = step;
   const [x, y] = path.zero;
-  const end = wayUpTo(step, share > 0 ? share : count === 0 ? 0 : 1).at(-1);
-  const place = end ? [end[0] - x, end[1] - y, end[2]] : count === 0 ? move.from : move.to;
+  const at = count === 0 ? move.from : move.to;
+  const end = share > 0 ? wayUpTo(step, share, made.unknownZ).at(-1) : undefined;
+  const isHeightKnown = move.from[2] !== null && move.to[2] !== null;
+  const place = end ? [end[0] - x, end[1] - y, isHeightKnown ? end[2] : null] : at;
   $("place").textContent = coordinates(place, (value) => value.toFixed(2));
-  const rapid = move.kind === "sweep" || move.kind === "lift";
-  $("pace").textContent = rapid ? say("sweep", lang) : move.feed ? `F${mm(move.feed)} mm/min` : "";
+  $("pace").textContent = isRapid(move.kind) ? say("sweep", lang) : move.feed ? `F${mm(move.feed)} mm/min` : "";
   const seconds = timeline.seconds(count, share);
   $("clock").textContent = timeline.isKnown ? `${clock(seconds)} ${say("elapsed", lang)} · ${clock(timeline.total - seconds)} ${say("remaining", lang)}` : "";
 }

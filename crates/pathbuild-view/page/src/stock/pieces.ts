@@ -1,6 +1,6 @@
 // The moves as straight pieces of the cutter's path, and the stock that they are cut from.
 
-import { Move, Path, Scene, isCut, pointsOfMove, tipOf, toolOf } from "../scene.js";
+import { Move, Path, Scene, isCut, isRapid, pointsOfMove, tipOf, toolOf } from "../scene.js";
 
 /** Number of values of a piece: from x y z, to x y z, the cutter's radius, 1 for a rapid move, and the radius of the cutter's corners. */
 export const WIDTH = 9;
@@ -60,10 +60,12 @@ export function cutting(scene: Scene, assumed: Assumed): Cutting | null {
       const radius = (tool ?? 0) / 2;
       const tip = tipOf(path, move);
       const round = typeof tip === "object" ? Math.min(tip.round, radius) : 0;
-      const isRapid = move.kind === "sweep" || move.kind === "lift";
-      const points = tool === null || move.kind === "probe" ? [] : pointsOfMove(move, SAGITTA);
+      const rapidly = isRapid(move.kind);
+      // Whether a rapid move at an unknown height hits material is unknown as well.
+      const isUnknown = move.kind === "probe" || (rapidly && [...move.from, ...move.to].includes(null));
+      const points = tool === null || isUnknown ? [] : pointsOfMove(move, SAGITTA);
       for (const at of points) for (const axis of [0, 1]) at[axis] += path.zero[axis];
-      for (let index = 1; index < points.length; index++) numbers.push(...points[index - 1], ...points[index], radius, isRapid ? 1 : 0, round);
+      for (let index = 1; index < points.length; index++) numbers.push(...points[index - 1], ...points[index], radius, rapidly ? 1 : 0, round);
       until.push(numbers.length / WIDTH);
       if (!isCut(move.kind) || points.length === 0) continue;
       hasUnknownTip ||= tip === "unknown";
