@@ -1061,6 +1061,28 @@ fn texts_are_shown_as_in_a_cad_program() {
     assert!((second - first - size).abs() < 0.02, "{first} {second} {size}");
 }
 
+/// A picture of a program with several tools shows the width of each, and drilled holes as wide as their drill.
+#[test]
+fn each_tool_of_a_program_has_its_width() {
+    let cut = |x: u32, y: u32, end: &str| format!("G0 X{x} Y{y}\nG1 Z-1 F100\n{end}G0 Z5\n");
+    let tools = "(T1 D=6. CR=0. - FLAT END MILL)\n(T2 D=3. CR=0. - FLAT END MILL)\nG21 G90 G94 G17\n";
+    let first = cut(0, 0, "G1 X40\n");
+    let second = cut(0, 20, "G1 X40\n") + &cut(20, 10, "");
+    let program = format!("{tools}T1 M6\nG0 Z5\n{first}T2 M6\n{second}M30\n");
+    let place = Place::new().file("a.ngc", program);
+    place.run("view a.ngc --dialect linuxcnc -o a.svg");
+    let svg = place.read("a.svg");
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let kerf = document.descendants().find(|node| node.attribute("id") == Some("kerf")).unwrap();
+    let values = |name: &str| -> Vec<f64> {
+        kerf.children().filter_map(|node| node.attribute(name)?.parse().ok()).collect()
+    };
+    let (widths, radii) = (values("stroke-width"), values("r"));
+    assert!(widths.len() == 2 && (widths[0] - 2.0 * widths[1]).abs() < 0.05, "{svg}");
+    assert!(radii.len() == 3 && (2.0 * radii[0] - widths[0]).abs() < 0.05, "{svg}");
+    assert!(radii[1..].iter().all(|radius| (2.0 * radius - widths[1]).abs() < 0.05), "{svg}");
+}
+
 /// Numbers, start, parameters and names are legible: they do not overlap.
 #[test]
 fn texts_of_a_picture_are_apart() {

@@ -171,6 +171,21 @@ pub enum Tip {
     Unknown,
 }
 
+impl ScenePath {
+    /// Returns the diameter in mm and the tip of the cutter of a move.
+    pub(crate) fn cutter(&self, movement: &SceneMove) -> Option<(f64, Tip)> {
+        let own = self.tool.map(|diameter| (diameter, self.tip));
+        self.tool_span(movement).map(|tool| (tool.diameter, tool.tip)).or(own)
+    }
+
+    /// Returns the entry of [`tools`](Self::tools) for a move.
+    pub(crate) fn tool_span(&self, movement: &SceneMove) -> Option<&ToolSpan> {
+        let line = movement.line.unwrap_or(0);
+        let later = self.tools.partition_point(|tool| tool.line <= line);
+        later.checked_sub(1).map(|index| &self.tools[index])
+    }
+}
+
 impl Tip {
     /// Whether the cutter is flat over its whole diameter.
     pub fn is_flat(&self) -> bool {

@@ -153,13 +153,11 @@ impl PageTransform {
 fn corners_of(path: &ScenePath) -> Vec<[Point; 2]> {
     let moved = |corners: [Point; 2]| corners.map(|[x, y]| [x + path.zero[0], y + path.zero[1]]);
     let shapes = path.elements.iter().map(|element| element.shape.extent());
-    let moves = path
-        .moves
-        .iter()
-        .filter(|movement| movement.kind.cuts())
-        .filter_map(super::super::scene::SceneMove::extent);
-    let half = path.tool.unwrap_or(0.0) / 2.0;
-    let moves = moves.map(|[low, high]| [low.map(|at| at - half), high.map(|at| at + half)]);
+    let moves = path.moves.iter().filter(|movement| movement.kind.cuts()).filter_map(|movement| {
+        let half = path.cutter(movement).map_or(0.0, |(diameter, _)| diameter / 2.0);
+        let [low, high] = movement.extent()?;
+        Some([low.map(|at| at - half), high.map(|at| at + half)])
+    });
     let rapids = path.elements.is_empty().then_some(&path.moves).into_iter().flatten();
     let rapids = rapids.filter_map(super::super::scene::SceneMove::extent);
     let circle = |centre, radius| Shape::Circle { centre, radius }.extent();

@@ -15,10 +15,13 @@ const MIN_ARROW_LENGTH: f64 = 26.0;
 /// Number of lines that replace an arc whose plane is not XY.
 const PIECES_PER_ARC: u32 = 24;
 
-/// All moves along one line, regardless of direction. The line has the direction of the first move and the depth of the deepest one.
+/// All moves along one line, regardless of direction. The line has the direction of the first move, the depth of the deepest one, and the width of
+/// the widest cutter.
 pub(super) struct CutLine<'a> {
     way: &'a SceneMove,
     depth: Option<f64>,
+    /// Diameter of the cutter in mm, if known.
+    diameter: Option<f64>,
 }
 
 /// Draws the width of the cutter along cuts, and holes. Texts lie above it, because they are usually drawn on or beside their element.
@@ -30,17 +33,16 @@ pub(super) fn draw_kerf(
     depths: &Depths,
 ) {
     canvas.open("id=\"kerf\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
-    if let Some(tool) = path.tool {
-        let width = svg_number((tool * place.scale()).max(0.5));
-        for movement in cuts.iter().filter(|movement| movement.way.kind != MoveKind::Plunge) {
-            canvas.merged_path(
-                &path_data(&movement.way.way, place),
-                &format!("stroke=\"{KERF_COLOUR}\" stroke-width=\"{width}\""),
-            );
-        }
+    for cut in cuts.iter().filter(|cut| cut.way.kind != MoveKind::Plunge) {
+        let Some(diameter) = cut.diameter else { continue };
+        let width = svg_number((diameter * place.scale()).max(0.5));
+        canvas.merged_path(
+            &path_data(&cut.way.way, place),
+            &format!("stroke=\"{KERF_COLOUR}\" stroke-width=\"{width}\""),
+        );
     }
     for cut in cuts {
-        if let Some(radius) = hole_radius(cut.way, path, place) {
+        if let Some(radius) = hole_radius(cut, path, place) {
             draw_disc(canvas, cut, radius, place, depths);
         }
     }
@@ -86,7 +88,7 @@ fn draw_cut(
 ) {
     let movement = cut.way;
     if movement.kind == MoveKind::Plunge {
-        if hole_radius(movement, path, place).is_none() {
+        if hole_radius(cut, path, place).is_none() {
             draw_disc(canvas, cut, 1.8, place, depths);
         }
         return;
@@ -102,11 +104,11 @@ fn draw_disc(canvas: &mut Canvas, cut: &CutLine<'_>, radius: f64, place: &PageTr
 }
 
 /// Returns the radius of a plunge that is drawn as a hole: its cutter is known, and its element is a circle, or it has no element.
-fn hole_radius(movement: &SceneMove, path: &ScenePath, place: &PageTransform) -> Option<f64> {
+fn hole_radius(cut: &CutLine<'_>, path: &ScenePath, place: &PageTransform) -> Option<f64> {
     let is_circle =
         |element: u32| matches!(path.elements[element as usize].shape, crate::scene::Shape::Circle { .. });
-    let is_hole = movement.kind == MoveKind::Plunge && movement.element.is_none_or(is_circle);
-    path.tool.filter(|_| is_hole).map(|tool| (tool / 2.0 * place.scale()).max(2.0))
+    let is_hole = cut.way.kind == MoveKind::Plunge && cut.way.element.is_none_or(is_circle);
+    cut.diameter.filter(|_| is_hole).map(|diameter| (diameter / 2.0 * place.scale()).max(2.0))
 }
 
 fn final_depths(path: &ScenePath) -> Vec<Option<f64>> {
@@ -127,9 +129,13 @@ pub(super) fn cuts(path: &ScenePath) -> Vec<CutLine<'_>> {
     let mut cuts: Vec<CutLine<'_>> = Vec::new();
     for way in path.moves.iter().filter(|movement| movement.kind.cuts() && movement.is_placed()) {
         let index = *places.entry(line_of(way)).or_insert(cuts.len());
+        let diameter = path.cutter(way).map(|(diameter, _)| diameter);
         match cuts.get_mut(index) {
-            Some(cut) => cut.depth = deeper(cut.depth, way.depth()),
-            None => cuts.push(CutLine { way, depth: way.depth() }),
+            Some(cut) => {
+                cut.depth = deeper(cut.depth, way.depth());
+                cut.diameter = cut.diameter.into_iter().chain(diameter).reduce(f64::max);
+            }
+            None => cuts.push(CutLine { way, depth: way.depth(), diameter }),
         }
     }
     cuts.sort_by(|a, b| b.depth.unwrap_or_default().total_cmp(&a.depth.unwrap_or_default()));

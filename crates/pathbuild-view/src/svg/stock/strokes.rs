@@ -2,7 +2,7 @@
 
 use pathbuild_motion::{Move, MoveShape, Position};
 
-use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath, Tip, ToolSpan};
+use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath, Tip};
 
 /// Number of steps into which the deepest slope is divided. Each step has one colour.
 pub(super) const SLOPE_STEPS: f64 = 64.0;
@@ -166,7 +166,7 @@ pub(super) fn swept_area(paths: &[&ScenePath], MovePiece { path, movement, piece
     let path = paths[path as usize];
     let movement = &path.moves[movement as usize];
     let way = piece.of(&in_drawing_coordinates(&movement.way, path.zero));
-    SweptArea { way, diameter: cutter(path, movement).map_or(0.0, |(diameter, _)| diameter) }
+    SweptArea { way, diameter: path.cutter(movement).map_or(0.0, |(diameter, _)| diameter) }
 }
 
 /// A move that has a known place and known material.
@@ -220,25 +220,13 @@ pub(super) fn cutting_conditions(
 ) -> Option<CuttingConditions> {
     let element = movement.element.and_then(|element| path.elements.get(element as usize));
     let component = path.embedded.get(element.map_or(0, |element| element.path as usize));
-    let stated = tool_span(path, movement).and_then(|tool| tool.surface);
+    let stated = path.tool_span(movement).and_then(|tool| tool.surface);
     let top = stated.or(component.map(|component| component.thickness)).or(path.thickness)?;
     let raised = component.map_or(0.0, |component| component.raised);
     let is_on_zero = scene.program.as_ref().is_none_or(|program| program.is_on_zero);
     let through = if is_on_zero && top > raised { raised + scene.through } else { f64::NEG_INFINITY };
-    let (diameter, tip) = cutter(path, movement)?;
+    let (diameter, tip) = path.cutter(movement)?;
     Some(CuttingConditions { diameter, tip, top, through })
-}
-
-/// Returns the diameter in mm and the tip of the cutter of a move.
-fn cutter(path: &ScenePath, movement: &SceneMove) -> Option<(f64, Tip)> {
-    let own = path.tool.map(|diameter| (diameter, path.tip));
-    tool_span(path, movement).map(|tool| (tool.diameter, tool.tip)).or(own)
-}
-
-fn tool_span<'s>(path: &'s ScenePath, movement: &SceneMove) -> Option<&'s ToolSpan> {
-    let line = movement.line.unwrap_or(0);
-    let later = path.tools.partition_point(|tool| tool.line <= line);
-    later.checked_sub(1).map(|index| &path.tools[index])
 }
 
 fn in_drawing_coordinates(way: &Move, zero: Point) -> Move {
