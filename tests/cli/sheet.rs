@@ -566,6 +566,21 @@ fn joined_paths_have_one_sheet_with_all_cutters() {
     }
 }
 
+/// A title is on the page of the first row of its table, however high that row is.
+#[test]
+fn no_title_of_a_table_stands_alone() {
+    let place = place_with_two_cutters();
+    let configuration = place.read("pathbuild.toml");
+    for letters in (2..44).step_by(3) {
+        let name = format!("[tool.{}]", "two-".repeat(letters));
+        fs::write(place.path().join("pathbuild.toml"), configuration.replace("[tool.two]", &name)).unwrap();
+        place.run("emit 1234.1P 1235.1P --post linuxcnc --join both");
+        let svg = place.read("both_Sheet.svg");
+        let texts = texts(&svg);
+        assert!(texts.windows(2).any(|pair| pair == ["Cutters", "T"]), "{letters}: {texts:?}");
+    }
+}
+
 /// The positions of clamps are relative to the program's zero, which is the path's start.
 #[test]
 fn clamps_are_listed_from_the_start() {

@@ -53,20 +53,15 @@ pub(super) fn lay_out<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<I
     let mut head: Option<&[String]> = None;
     for (index, block) in blocks.iter().enumerate() {
         let mut laid = Vec::new();
-        let mut below = y;
-        if let Block::Row { shares, head: wanted, continued, .. } = block
-            && head != Some(wanted)
-        {
-            if index == 0 {
-                below = heading(continued, column, below, true, &mut laid);
-            }
-            below = row(wanted, shares, column, below, true, &mut laid);
-            head = Some(wanted);
+        let below = block.lay_out_with_head(head, column, y, index == 0, &mut laid);
+        if let Block::Row { head: own, .. } = block {
+            head = Some(own);
         }
-        below = block.lay_out_below(column, below, index == 0, &mut laid);
         // A heading must not be separated from the block that follows.
-        let room = match block {
-            Block::Heading(_) => below + 3.0 * LINE_HEIGHT,
+        let room = match (block, blocks.get(index + 1)) {
+            (Block::Heading(_), Some(next)) => next
+                .lay_out_with_head(head, column, below, false, &mut Vec::new())
+                .max(below + 3.0 * LINE_HEIGHT),
             _ => below,
         };
         if room > column.bottom && index > 0 {
@@ -79,6 +74,28 @@ pub(super) fn lay_out<'b>(blocks: &'b [Block], column: Column, items: &mut Vec<I
 }
 
 impl Block {
+    /// Lays out this block below `top`. A row of a table whose head is not `head` comes below its own head, and at the top of a column also below the
+    /// title of the table. Returns the lower edge.
+    fn lay_out_with_head(
+        &self,
+        head: Option<&[String]>,
+        column: Column,
+        top: f64,
+        is_first: bool,
+        items: &mut Vec<Item>,
+    ) -> f64 {
+        let mut below = top;
+        if let Self::Row { shares, head: own, continued, .. } = self
+            && head != Some(own)
+        {
+            if is_first {
+                below = heading(continued, column, below, true, items);
+            }
+            below = row(own, shares, column, below, true, items);
+        }
+        self.lay_out_below(column, below, is_first, items)
+    }
+
     /// Lays out this block below `top`. Returns its lower edge.
     fn lay_out_below(&self, column: Column, top: f64, is_first: bool, items: &mut Vec<Item>) -> f64 {
         match self {
