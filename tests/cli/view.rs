@@ -347,6 +347,21 @@ fn a_path_with_variables_has_one_sweep_height() {
     }
 }
 
+/// After a tool change, moves count only from where X, Y and Z are stated again: the time to each move ends with the stated time.
+#[test]
+fn lengths_of_moves_add_up_to_the_totals() {
+    let program = "G17 G21 G90 G94\nT1 M6\nG0 X0 Y0\nG0 Z9\nG1 Z-1 F100\nG1 X50\nG0 Z9\n\
+                   T2 M6\nG0 X70 Y0\nG0 Z9\nG1 Z-1\nG1 X20\nG0 Z9\nM30\n";
+    let place = Place::new().file("a.nc", program);
+    let file = place.path().join("x.json").to_str().unwrap().to_owned();
+    let path = &scene(&place.run_with(&["view", "a.nc", "--dialect", "linuxcnc", "-o", &file]))["paths"][0];
+    let lengths = path["moves"].as_array().unwrap().iter().map(|it| it["length"].as_f64().unwrap());
+    let lengths: Vec<f64> = lengths.collect();
+    assert_eq!(lengths, [0.0, 0.0, 10.0, 50.0, 10.0, 0.0, 0.0, 10.0, 50.0, 10.0]);
+    let totals = ["milling", "drilling", "sweeps"].map(|kind| path["totals"][kind].as_f64().unwrap());
+    assert_eq!(totals, [100.0, 20.0, 20.0]);
+}
+
 #[test]
 fn line_ends_are_no_part_of_lines() {
     let text = "G17 G21 G90 G94\nG0 X0 Y0\nG0 Z5\nG1 Z1 F100\nM30\n";

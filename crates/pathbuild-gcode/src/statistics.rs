@@ -28,14 +28,14 @@ pub fn statistics(program: &Program, rapid: f64) -> Statistics {
 /// Filter for the moves of a parsed program whose length is included in totals: those between positions that are completely known and that the
 /// program has specified since the last tool change.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct LengthFilter {
+pub struct LengthFilter {
     /// The axes specified before the current step.
     stated: Axes,
 }
 
 impl LengthFilter {
     /// Whether the length of the next step is included in totals. Must be called for every step.
-    pub(crate) fn counts(&mut self, step: &Step) -> bool {
+    pub fn counts(&mut self, step: &Step) -> bool {
         let stated = std::mem::replace(&mut self.stated, step.stated);
         match &step.action {
             Action::Move(movement) => [stated, step.stated, movement.from.known, movement.to.known]

@@ -1274,6 +1274,10 @@ fn a_fault_says_what_and_where() {
         "PB734 (Some(3), Some(1)) the arc begins with the radius 6 and ends with 4: the difference is 1.998 mm more than rs274 accepts \
          Some(\"G2 X10 Y0 I6 F10\")\n"
     );
+    let vertical =
+        interpret(b"G21 G90 G18\nG0 X0 Y0 Z0\nG2 X10 Z0 I6 K0 F10\nM30\n", Rs274, &Options::default());
+    let help = vertical.problems[0].help(Lang::En);
+    assert_eq!(help.as_deref(), Some("write I, K with more decimals, or check the centre"));
 }
 
 #[test]

@@ -391,7 +391,7 @@ pub fn groups(compared: &ComparedMoves) -> Vec<Group> {
                     group.moves += 1;
                 }
             }
-            group.length += movement.length;
+            group.length += movement.way.length();
             if group.at.is_none() && movement.is_placed() {
                 group.at = Some(movement.to());
             }

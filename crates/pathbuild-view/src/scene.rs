@@ -641,7 +641,7 @@ pub struct SceneMove {
     pub kind: MoveKind,
     /// Geometry of the move: start, end and curve. Arcs and helices are not flattened.
     pub way: motion::Move,
-    /// Length of the move in mm.
+    /// Length of the move in mm; 0 if the statistics do not count it.
     pub length: f64,
     /// Element from which the move comes, as an index into [`ScenePath::elements`](crate::scene::ScenePath::elements).
     pub element: Option<u32>,

@@ -325,8 +325,8 @@ messages! {
     RADII_DIFFER: ArcRadiiDiffer {
         en: "the arc begins with the radius {start} and ends with {end}: the difference is {difference} mm more than {dialect} accepts",
         de: "der Bogen beginnt mit dem Radius {start} und endet mit {end}: der Unterschied ist {difference} mm größer, als {dialect} zulässt",
-        help_en: "write I and J with more decimals, or check the centre",
-        help_de: "I und J mit mehr Nachkommastellen schreiben oder den Mittelpunkt prüfen",
+        help_en: "write {centre} with more decimals, or check the centre",
+        help_de: "{centre} mit mehr Nachkommastellen schreiben oder den Mittelpunkt prüfen",
     }
     /// An arc with neither centre nor radius.
     ARC_WITHOUT_CENTRE: InvalidArc {

@@ -745,8 +745,10 @@ impl Interpreter<'_> {
             RadiusTolerance::Relative { most, least, share } => most.min(least.max(share * start.max(end))),
         };
         if difference > most {
+            let words = plane_words(arc.plane, ["I", "J", "K"]);
             self.report(block, &say::RADII_DIFFER, block.span(), |d| {
-                d.with("start", start).with("end", end).with("difference", difference - most)
+                let d = d.with("start", start).with("end", end).with("difference", difference - most);
+                d.quoting("centre", words)
             });
         }
     }

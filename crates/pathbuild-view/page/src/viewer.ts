@@ -18,7 +18,7 @@ import { remember, remembered } from "./remembered.js";
 import { FIELDS, ProgramSettings, fragmentOf } from "./programs.js";
 import { Timeline, clock, wayUpTo } from "./timeline.js";
 import { visible } from "./visible.js";
-import { Lang, Word, mm, say, sayKind, wholeMm } from "./words.js";
+import { Lang, Word, hundredths, mm, say, sayKind, wholeMm } from "./words.js";
 
 const slider = $<HTMLInputElement>("slider");
 const speed = $<HTMLSelectElement>("speed");
@@ -436,7 +436,7 @@ function readout(): void {
   const end = share > 0 ? wayUpTo(step, share, made.unknownZ).at(-1) : undefined;
   const isHeightKnown = move.from[2] !== null && move.to[2] !== null;
   const place = end ? [end[0] - x, end[1] - y, isHeightKnown ? end[2] : null] : at;
-  $("place").textContent = coordinates(place, (value) => value.toFixed(2));
+  $("place").textContent = coordinates(place, hundredths);
   $("pace").textContent = isRapid(move.kind) ? say("sweep", lang) : move.feed ? `F${mm(move.feed)} mm/min` : "";
   const seconds = timeline.seconds(count, share);
   $("clock").textContent = timeline.isKnown ? `${clock(seconds)} ${say("elapsed", lang)} · ${clock(timeline.total - seconds)} ${say("remaining", lang)}` : "";
@@ -696,7 +696,7 @@ picture.addEventListener("pointermove", (event) => {
     const [x, y] = [left - box.left, top - box.top];
     const at = stage!.plane(x, y, 0);
     const height = shown.stock && !space && stock ? stock.map.at(...at) : NOTHING;
-    $("at").textContent = `${shownPlace(at, (value) => value.toFixed(2))}${height === NOTHING ? "" : ` Z${height.toFixed(2)}`}`;
+    $("at").textContent = `${shownPlace(at, hundredths)}${height === NOTHING ? "" : ` Z${hundredths(height)}`}`;
     const step = stage!.pick(x, y, count);
     if (step !== null || chosen === null) describe(step);
   });

@@ -217,3 +217,8 @@ export function wholeMm(value: number): string {
 export function mm(value: number): string {
   return String(Math.round(value * 1000) / 1000 + 0);
 }
+
+/** Formats a coordinate with two decimals; never as -0.00. */
+export function hundredths(value: number): string {
+  return value.toFixed(2).replace(/^-0\.00$/, "0.00");
+}

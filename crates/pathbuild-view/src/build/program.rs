@@ -3,7 +3,7 @@
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Heights, Options, interpret_each};
 use pathbuild_gcode::native::FIRST_PARAMETER;
-use pathbuild_gcode::statistics::{Summary, statistics};
+use pathbuild_gcode::statistics::{LengthFilter, Summary, statistics};
 use pathbuild_motion::{Axes, Move, Pace, Position, Step};
 use pathbuild_path::{Curve, Path, Placement, SegmentKind, Shape as DrawnShape};
 use pathbuild_toolpath::{Occurrence, Program, StepOrigin, Trace, axis_circle, support_bars};
@@ -209,14 +209,21 @@ fn plain_lines(text: &[u8]) -> String {
 
 /// Returns the scene of a program: its moves, without any elements.
 pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
-    let moves = source.steps.iter().filter_map(Step::as_move);
+    let mut counting = LengthFilter::default();
+    let scene_move = |step: &Step| {
+        let is_counted = counting.counts(step);
+        let (line, way) = step.as_move()?;
+        let movement = SceneMove::new(way, Some(line));
+        Some(SceneMove { length: if is_counted { movement.length } else { 0.0 }, ..movement })
+    };
+    let moves = source.steps.iter().filter_map(scene_move).collect();
     let summary = Summary::of(source.steps, false).total;
     ScenePath {
         name: source.file.to_owned(),
         file: source.file.to_owned(),
         tool: source.tool,
         rapid: source.rapid,
-        moves: moves.map(|(line, way)| SceneMove::new(way, Some(line))).collect(),
+        moves,
         totals: Some(Totals {
             milling: summary.milling.total.length,
             drilling: summary.drilling.total.length,

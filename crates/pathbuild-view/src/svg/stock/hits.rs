@@ -92,7 +92,7 @@ impl HitSearch<'_> {
         if !self.is_low(movement) || movement.way.is_vertical() {
             return 1;
         }
-        let count = (movement.length / (setting.diameter * SEARCH_PIECE)).ceil().clamp(1.0, MAX_PIECES);
+        let count = (movement.way.length() / (setting.diameter * SEARCH_PIECE)).ceil().clamp(1.0, MAX_PIECES);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let count = count as u16;
         count
