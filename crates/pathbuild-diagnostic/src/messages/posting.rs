@@ -462,7 +462,7 @@ messages! {
         help_en: "write the height or place with absolute coordinates (G90)",
         help_de: "die Höhe oder den Ort mit absoluten Koordinaten (G90) schreiben",
     }
-    /// A program that switches the spindle off for a stop or a dwell, for a post whose definition consists of CAD6 control texts.
+    /// A program that switches the spindle off for a stop or a dwell, for a post that is defined by CAD6 control texts.
     JOB_SPINDLE_OFF: NothingToPost {
         en: "{operation} switches the spindle off before it stops or waits, and this post can only do so at a tool change",
         de: "{operation} schaltet die Spindel vor einem Halt oder einer Wartezeit aus; dieser Postprozessor kann das nur beim Werkzeugwechsel",

@@ -151,7 +151,7 @@ fn moves_in_plane(movement: &Move) -> bool {
     !movement.to.known.and(Axes::XY).is_empty()
 }
 
-/// Rule that finds a program whose first move in the plane also states Z, although the height before it is unknown.
+/// Finds an inclined first move in the plane: it also states Z, although the height before it is unknown.
 #[derive(Debug, Default)]
 pub struct ProgramStart {
     has_moved_in_plane: bool,

@@ -46,7 +46,7 @@ pub(super) struct Leftover {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Beside {
     ThroughCut,
-    /// A through cut whose full width reaches the outline only above the plate's lower face, with its lowest height in mm.
+    /// A through cut with a round tip that reaches the outline only above the plate's lower face, with its lowest height in mm.
     RoundTip(f64),
     /// A cut that does not go through the plate, with its lowest height in mm.
     ShallowCut(f64),

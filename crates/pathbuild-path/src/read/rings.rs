@@ -59,7 +59,7 @@ pub(super) fn nesting(rings: &[Vec<Curve>]) -> Vec<Vec<usize>> {
     around.iter().map(sorted).collect()
 }
 
-/// Whether a ring is larger than another one. Of two copies, the one that is drawn first counts as larger.
+/// Whether a ring is larger than another one. Of two copies, the first in the file counts as larger.
 fn is_larger(ring: usize, other: usize, areas: &[f64]) -> bool {
     let [own, others] = [ring, other].map(|ring| (areas[ring] / AREA_STEP).round());
     own > others || own == others && ring < other

@@ -382,8 +382,8 @@ impl<'s> Sources<'s> {
         self.header.tools.iter().map(direction).collect()
     }
 
-    /// Returns the line from which a tool is in use. In a program with subprograms, that is the first line: a subprogram may stand above the tool
-    /// change that comes before its call. Tools whose lines matter are alike in such a program.
+    /// Returns the line from which a tool is in use. With subprograms, that is the first line of the program: a subprogram may stand above the tool
+    /// change before its call. Where lines matter, all tools of such a program are alike.
     fn first_line(&self, tool: &CuttingTool) -> u32 {
         if self.header.has_calls { 0 } else { tool.line }
     }
