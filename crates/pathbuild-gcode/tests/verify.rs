@@ -31,11 +31,16 @@ fn wrong(program: &str, stock: Option<&Stock>) -> Vec<String> {
 }
 
 fn wrong_on(machine: &Machine, program: &str) -> Vec<String> {
+    machine_rules(machine, &run(program).steps).finish().iter().map(fault_text).collect()
+}
+
+/// Returns the rules of a machine after these steps.
+fn machine_rules<'m>(machine: &'m Machine, steps: &[Step]) -> MachineRules<'m> {
     let mut rules = MachineRules::new(machine);
-    for step in &run(program).steps {
+    for step in steps {
         rules.step(step);
     }
-    rules.finish().iter().map(fault_text).collect()
+    rules
 }
 
 /// Returns the problems on material up to Z 5 with a cutter of 2 mm.
@@ -801,12 +806,9 @@ fn positions_of_the_machine_fit_into_its_travel() {
 fn each_work_offset_of_unknown_place_fits_into_the_travel() {
     let machine = Machine { travel: Some(Travel::Size([400.0, 300.0, 80.0])), ..Machine::default() };
     let run_after = |head: &str, program: &str| {
-        let mut rules = MachineRules::new(&machine);
         let text = format!("G21 G90 G54 {head}\nG0 Z5\nG0 X0 Y0\n{program}\nM30\n");
         let steps = interpret(text.as_bytes(), LinuxCnc, &Options::default()).steps;
-        for step in &steps {
-            rules.step(step);
-        }
+        let rules = machine_rules(&machine, &steps);
         (rules.has_several_frames(), rules.finish().iter().map(fault_text).collect::<Vec<_>>())
     };
     let run = |program: &str| run_after("", program);
@@ -824,12 +826,9 @@ fn each_work_offset_of_unknown_place_fits_into_the_travel() {
 fn moves_from_unknown_positions_fit_into_the_travel() {
     let run = |travel: Travel, program: &str| {
         let machine = Machine { travel: Some(travel), ..Machine::default() };
-        let mut rules = MachineRules::new(&machine);
         let text = format!("G17 G21 G90 G94 F100\n{program}\nM30\n");
         let steps = interpret(text.as_bytes(), LinuxCnc, &Options::default()).steps;
-        for step in &steps {
-            rules.step(step);
-        }
+        let rules = machine_rules(&machine, &steps);
         (rules.has_unknown_axis(), rules.finish().iter().map(fault_text).collect::<Vec<_>>())
     };
     let size = |program: &str| run(Travel::Size([400.0, 300.0, 80.0]), program);

@@ -550,7 +550,7 @@ messages! {
     /// A program that moves in the plane after a stop for a tool change or a new zero, before it states or raises Z in a line of its own.
     CHANGE_NOT_RAISED: StartNotRaised {
         en: "after a stop for a tool change or a new zero, the program moves in X or Y before a move in Z alone has raised the cutter: only the controller knows how high the cutter is",
-        de: "nach einem Halt für Werkzeugwechsel oder Nullpunkt fährt das Programm in X oder Y, bevor es den Fräser in Z allein angehoben hat: nur die Steuerung weiß, wie hoch der Fräser steht",
+        de: "nach einem Halt für Werkzeugwechsel oder Nullpunkt fährt das Programm in X oder Y, bevor es den Fräser allein in Z angehoben hat: nur die Steuerung weiß, wie hoch der Fräser steht",
         help_en: "raise the cutter with G0 Z before X and Y; the definition of a post-processor does so at the end of its ToolChange",
         help_de: "den Fräser mit G0 Z anheben, bevor X und Y kommen; die Definition eines Postprozessors tut das am Ende ihres ToolChange",
     }
