@@ -5,6 +5,7 @@
 
 mod build;
 mod changes;
+mod extent;
 #[cfg(feature = "pictures")]
 mod page;
 #[cfg(feature = "pictures")]

@@ -12,6 +12,8 @@ use pathbuild_motion::{Axes, MoveShape, Pace};
 use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 
+use crate::extent::{Corners, bounding_box, enclosing_box, with_margin};
+
 /// Name of the JSON form of a scene.
 pub const SCHEMA: &str = "pathbuild-scene";
 
@@ -552,9 +554,21 @@ impl Scene {
         }
     }
 
+    /// Returns the places of the findings, as boxes without extent.
+    pub(crate) fn finding_places(&self) -> impl Iterator<Item = Corners> {
+        self.findings.iter().filter_map(|finding| finding.at).map(|at| [at; 2])
+    }
+
     /// Returns the scene as JSON on one line. Characters with special effects, such as control characters, are escaped.
     pub fn to_json(&self) -> String {
         shown::json(&serde_json::to_string(self).expect("every part of a scene is plain data")).into_owned()
+    }
+}
+
+impl KeepOut {
+    /// Returns the bounding box of the outline; `None` without an outline.
+    pub(crate) fn extent(&self) -> Option<Corners> {
+        bounding_box(self.outline.iter().map(Shape::extent))
     }
 }
 
@@ -597,10 +611,10 @@ impl Shape {
     }
 
     /// Returns the lower left and upper right corner of the bounding box.
-    pub fn extent(&self) -> [Point; 2] {
+    pub fn extent(&self) -> Corners {
         match self {
-            Self::Line { from, to } => box_of_points(*from, *to),
-            Self::Circle { centre: [x, y], radius: r } => [[x - r, y - r], [x + r, y + r]],
+            Self::Line { from, to } => enclosing_box([*from; 2], [*to; 2]),
+            Self::Circle { centre, radius } => with_margin([*centre; 2], *radius),
             Self::Arc(arc) => arc.extent(),
         }
     }
@@ -615,8 +629,8 @@ impl ArcShape {
         [self.centre[0] + x * cos - y * sin, self.centre[1] + x * sin + y * cos]
     }
 
-    fn extent(&self) -> [Point; 2] {
-        let [mut low, mut high] = box_of_points(self.from, self.to);
+    fn extent(&self) -> Corners {
+        let [mut low, mut high] = enclosing_box([self.from; 2], [self.to; 2]);
         let start = libm::atan2(self.from[1] - self.centre[1], self.from[0] - self.centre[0]).to_degrees();
         for (axis, outermost, sign) in [(0, 0.0, 1.0), (1, 90.0, 1.0), (0, 180.0, -1.0), (1, 270.0, -1.0)] {
             let ahead = if self.clockwise { start - outermost } else { outermost - start };
@@ -628,10 +642,6 @@ impl ArcShape {
         }
         [low, high]
     }
-}
-
-fn box_of_points(a: Point, b: Point) -> [Point; 2] {
-    [[a[0].min(b[0]), a[1].min(b[1])], [a[0].max(b[0]), a[1].max(b[1])]]
 }
 
 /// A move of the tool tip.
@@ -695,7 +705,7 @@ impl SceneMove {
     }
 
     /// Returns the corners of the bounding box in the plane; `None` if the position is unknown.
-    pub fn extent(&self) -> Option<[Point; 2]> {
+    pub fn extent(&self) -> Option<Corners> {
         let [Some(x), Some(y), _] = self.way.extent() else { return None };
         self.is_placed().then_some([[x.0, y.0], [x.1, y.1]])
     }

@@ -4,11 +4,11 @@
 use pathbuild_diagnostic::{Lang, Number};
 
 use super::canvas::{Anchor, Canvas, INK_COLOUR, OTHER_COLOUR, svg_number};
-use super::frame::{Frame, PageTransform, widen};
+use super::frame::{Frame, PageTransform};
 use super::moves::path_data;
 use crate::changes::{Change, ChangeKind, ComparedMove, ComparedMoves, Group, groups, moves, phrase};
-
-use crate::scene::{MoveKind, Point, SceneMove};
+use crate::extent::bounding_box;
+use crate::scene::{MoveKind, SceneMove};
 
 /// Colours of moves: added ones are blue; removed ones are vermilion, wider and dashed, so that the colour-blind can distinguish them too.
 const ADDED_COLOUR: &str = "#0072b2";
@@ -212,9 +212,5 @@ fn entry(canvas: &mut Canvas, group: &Group, style: Option<Style>, top: f64, lan
 }
 
 fn frame<'a>(moves: impl Iterator<Item = &'a SceneMove>) -> Frame {
-    let mut corners: Option<[Point; 2]> = None;
-    for extent in moves.filter_map(SceneMove::extent) {
-        widen(&mut corners, extent);
-    }
-    Frame::around(corners)
+    Frame::around(bounding_box(moves.filter_map(SceneMove::extent)))
 }

@@ -1,9 +1,10 @@
 //! Pictures of the part of a drawing around a finding.
 
 use super::canvas::{Anchor, Canvas, ERROR_COLOUR, INK_COLOUR, TEXT_COLOUR, WARNING_COLOUR, mm};
-use super::frame::{Frame, OccupiedSpace, PageTransform, VisibleParts, widen};
+use super::frame::{Frame, OccupiedSpace, PageTransform, VisibleParts};
 use super::stock::{self, MilledStock};
 use super::symbols;
+use crate::extent::{Corners, bounding_box, with_margin};
 use crate::scene::{KeepOut, Label, OtherShape, Point, Scene, ScenePath, Shape};
 use pathbuild_diagnostic::Lang;
 
@@ -72,7 +73,7 @@ pub fn stock_cutout_svg(scene: &Scene, spot: &FindingPlace, has_corners: bool, n
 }
 
 /// Draws the area around a finding by calling `draw`, and marks the place.
-fn draw_surroundings(spot: &FindingPlace, draw: impl FnOnce(&mut Canvas, &Frame, [Point; 2])) -> String {
+fn draw_surroundings(spot: &FindingPlace, draw: impl FnOnce(&mut Canvas, &Frame, Corners)) -> String {
     let window = window(spot);
     let scale = SIZE[0] / (window[1][0] - window[0][0]);
     let frame = Frame::at_scale(window, scale, [0.0, 0.0]);
@@ -86,12 +87,9 @@ fn draw_surroundings(spot: &FindingPlace, draw: impl FnOnce(&mut Canvas, &Frame,
 }
 
 /// Returns the corners of the area shown. It is centred on the place and its related points.
-fn window(spot: &FindingPlace) -> [Point; 2] {
-    let mut corners = None;
-    for at in spot.related.iter().chain([&spot.at]) {
-        widen(&mut corners, [*at, *at]);
-    }
-    let [low, high] = corners.unwrap_or_default();
+fn window(spot: &FindingPlace) -> Corners {
+    let places = spot.related.iter().chain([&spot.at]);
+    let [low, high] = bounding_box(places.map(|at| [*at; 2])).unwrap_or_default();
     let tall = SIZE[1] / SIZE[0];
     let across = libm::hypot(high[0] - low[0], high[1] - low[1]);
     let least =
@@ -104,14 +102,14 @@ fn window(spot: &FindingPlace) -> [Point; 2] {
 
 /// Returns the elements, texts and clamps of a scene that lie in an area. Without this selection, the picture of each finding would contain the whole
 /// drawing.
-fn scene_near(scene: &Scene, [low, high]: [Point; 2]) -> Scene {
-    let is_in = |[from, to]: [Point; 2]| (0..2).all(|axis| from[axis] <= high[axis] && to[axis] >= low[axis]);
+fn scene_near(scene: &Scene, [low, high]: Corners) -> Scene {
+    let is_in = |[from, to]: Corners| (0..2).all(|axis| from[axis] <= high[axis] && to[axis] >= low[axis]);
     let is_near = |shape: &Shape| is_in(shape.extent());
     let is_other_near = |other: &&OtherShape| match other {
         OtherShape::Shape { shape, .. } => is_near(shape),
         OtherShape::Text { at, height, text, .. } => {
             let reach = height * text.chars().count().max(1) as f64;
-            is_in([[at[0] - reach, at[1] - reach], [at[0] + reach, at[1] + reach]])
+            is_in(with_margin([*at; 2], reach))
         }
     };
     let is_clamp_near = |clamp: &&KeepOut| clamp.outline.iter().any(is_near);
@@ -141,16 +139,14 @@ fn keep_first_texts(paths: &mut [ScenePath]) {
 fn path_near(
     path: &ScenePath,
     is_near: impl Fn(&Shape) -> bool,
-    is_in: impl Fn([Point; 2]) -> bool,
+    is_in: impl Fn(Corners) -> bool,
 ) -> ScenePath {
     let kept = path.elements.iter().zip(0_u32..).filter(|(element, _)| is_near(&element.shape));
     let (elements, numbers): (Vec<_>, Vec<u32>) =
         kept.map(|(element, number)| (element.clone(), number)).unzip();
     let renumbered = |old: &u32| numbers.binary_search(old).ok().and_then(|new| u32::try_from(new).ok());
     let label = |label: &Label| {
-        let [x, y] = label.at;
-        let r = label.radius;
-        is_in([[x - r, y - r], [x + r, y + r]]).then(|| Label {
+        is_in(with_margin([label.at; 2], label.radius)).then(|| Label {
             elements: label.elements.iter().filter_map(renumbered).collect(),
             ..label.clone()
         })

@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use pathbuild_diagnostic::Lang;
 
-use crate::scene::{Point, Scene, ScenePath, Shape};
+use crate::extent::{Corners, bounding_box, with_margin, with_min_extent};
+use crate::scene::{KeepOut, OtherShape, Point, Scene, SceneMove, ScenePath};
 
 /// The parts of a scene that a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,45 +68,25 @@ pub(super) struct PageTransform {
 impl Frame {
     /// Returns the frame around the paths (or the other layers, if the paths have no extent), the clamps and the places of findings.
     pub(super) fn of(scene: &Scene) -> Self {
-        let mut corners: Option<[Point; 2]> = None;
-        for path in &scene.paths {
-            for extent in corners_of(path) {
-                widen(&mut corners, extent);
-            }
-        }
-        if corners.is_none() {
-            let shapes = scene.other_layers.iter().filter_map(|other| match other {
-                crate::scene::OtherShape::Shape { shape, .. } => Some(shape.extent()),
-                crate::scene::OtherShape::Text { .. } => None,
-            });
-            for extent in shapes {
-                widen(&mut corners, extent);
-            }
-        }
-        for shape in scene.keep_outs.iter().flat_map(|clamp| &clamp.outline) {
-            widen(&mut corners, shape.extent());
-        }
-        for at in scene.findings.iter().filter_map(|finding| finding.at) {
-            widen(&mut corners, [at, at]);
-        }
-        Self::around(corners)
+        let other_shapes = scene.other_layers.iter().filter_map(|other| match other {
+            OtherShape::Shape { shape, .. } => Some(shape.extent()),
+            OtherShape::Text { .. } => None,
+        });
+        let drawn = bounding_box(scene.paths.iter().flat_map(extents)).or_else(|| bounding_box(other_shapes));
+        let clamps = scene.keep_outs.iter().filter_map(KeepOut::extent);
+        Self::around(bounding_box(drawn.into_iter().chain(clamps).chain(scene.finding_places())))
     }
 
     /// Returns the frame around a bounding box, at the scale at which the box fills the available space.
-    pub(super) fn around(corners: Option<[Point; 2]>) -> Self {
-        let [mut low, mut high] = corners.unwrap_or([[0.0; 2], [MIN_EXTENT; 2]]);
-        for axis in [0, 1] {
-            let missing = (MIN_EXTENT - (high[axis] - low[axis])).max(0.0) / 2.0;
-            low[axis] -= missing;
-            high[axis] += missing;
-        }
+    pub(super) fn around(corners: Option<Corners>) -> Self {
+        let [low, high] = with_min_extent(corners.unwrap_or([[0.0; 2], [MIN_EXTENT; 2]]), MIN_EXTENT);
         let scale = (DRAWING_SIZE[0] / (high[0] - low[0])).min(DRAWING_SIZE[1] / (high[1] - low[1]));
         let spare = (DRAWING_SIZE[0] - (high[0] - low[0]) * scale) / 2.0;
         Self { low, high, scale, corner: [MARGIN + spare, MARGIN] }
     }
 
     /// Returns the frame of a bounding box at a given scale, with its upper left corner at a given point of the page.
-    pub(super) fn at_scale([low, high]: [Point; 2], scale: f64, corner: Point) -> Self {
+    pub(super) fn at_scale([low, high]: Corners, scale: f64, corner: Point) -> Self {
         Self { low, high, scale, corner }
     }
 
@@ -150,32 +131,17 @@ impl PageTransform {
 
 /// Returns the bounding boxes of the elements, the texts and the removed material of a path, in coordinates of the drawing; those of rapid moves only
 /// if the path has no elements.
-fn corners_of(path: &ScenePath) -> Vec<[Point; 2]> {
-    let moved = |corners: [Point; 2]| corners.map(|[x, y]| [x + path.zero[0], y + path.zero[1]]);
+fn extents(path: &ScenePath) -> impl Iterator<Item = Corners> {
+    let moved = |corners: Corners| corners.map(|[x, y]| [x + path.zero[0], y + path.zero[1]]);
     let shapes = path.elements.iter().map(|element| element.shape.extent());
     let moves = path.moves.iter().filter(|movement| movement.kind.cuts()).filter_map(|movement| {
         let half = path.cutter(movement).map_or(0.0, |(diameter, _)| diameter / 2.0);
-        let [low, high] = movement.extent()?;
-        Some([low.map(|at| at - half), high.map(|at| at + half)])
+        Some(with_margin(movement.extent()?, half))
     });
     let rapids = path.elements.is_empty().then_some(&path.moves).into_iter().flatten();
-    let rapids = rapids.filter_map(super::super::scene::SceneMove::extent);
-    let circle = |centre, radius| Shape::Circle { centre, radius }.extent();
-    let texts = path.texts.iter().map(|text| circle(text.at, text.radius));
-    shapes.chain(moves).chain(rapids).chain(texts).map(moved).collect()
-}
-
-pub(super) fn widen(corners: &mut Option<[Point; 2]>, [low, high]: [Point; 2]) {
-    if ![low, high].iter().flatten().all(|value| value.is_finite()) {
-        return;
-    }
-    *corners = Some(match *corners {
-        None => [low, high],
-        Some([lowest, highest]) => [
-            [lowest[0].min(low[0]), lowest[1].min(low[1])],
-            [highest[0].max(high[0]), highest[1].max(high[1])],
-        ],
-    });
+    let rapids = rapids.filter_map(SceneMove::extent);
+    let texts = path.texts.iter().map(|text| with_margin([text.at; 2], text.radius));
+    shapes.chain(moves).chain(rapids).chain(texts).map(moved)
 }
 
 /// The occupied space of a picture, as cells of a grid, for placing texts that do not overlap. The cost of an operation depends on the
@@ -348,9 +314,4 @@ const OUTSIDE_COST: usize = 1 << 20;
 /// Returns the approximate width of a text in px.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     0.62 * size * text.chars().count() as f64
-}
-
-/// Returns the square around a point with this half width in px.
-pub(super) fn square_around([x, y]: Point, half: f64) -> Rectangle {
-    [[x - half, y - half], [x + half, y + half]]
 }

@@ -12,9 +12,10 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::{Code, Lang};
 
 use super::canvas::{Anchor, Canvas, INK_COLOUR, mm, svg_number};
-use super::frame::{Frame, LINE_HEIGHT, PageTransform, VisibleParts, widen};
+use super::frame::{Frame, LINE_HEIGHT, PageTransform, VisibleParts};
 use super::moves::path_data;
 use super::symbols;
+use crate::extent::{Corners, bounding_box, enclosing_box};
 use crate::scene::{FinishedPart, Point, Scene, ScenePath, Tip};
 use hits::hits;
 use parts::{draw_corners, draw_defects, draw_leftovers};
@@ -68,7 +69,7 @@ pub(super) struct MilledStock<'s> {
 }
 
 /// Corners of a rectangle of stock, and Z in mm of its upper face.
-type Blank = ([Point; 2], f64);
+type Blank = (Corners, f64);
 
 impl<'s> MilledStock<'s> {
     pub(super) fn of(scene: &'s Scene) -> Self {
@@ -144,7 +145,7 @@ impl<'s> MilledStock<'s> {
     }
 
     /// Removes the strokes and hits outside of an area.
-    pub(super) fn keep_near(mut self, [low, high]: [Point; 2]) -> Self {
+    pub(super) fn keep_near(mut self, [low, high]: Corners) -> Self {
         let paths = self.paths.as_slice();
         let is_near = |at: MovePiece| {
             let swept = swept_area(paths, at);
@@ -160,15 +161,9 @@ impl<'s> MilledStock<'s> {
     }
 
     /// Returns the bounding box of the stock and of the places of findings.
-    pub(super) fn extent(&self) -> Option<[Point; 2]> {
-        let mut corners = None;
-        for (blank, _) in &self.blanks {
-            widen(&mut corners, *blank);
-        }
-        for at in self.scene.findings.iter().filter_map(|finding| finding.at) {
-            widen(&mut corners, [at, at]);
-        }
-        corners
+    pub(super) fn extent(&self) -> Option<Corners> {
+        let blanks = self.blanks.iter().map(|(blank, _)| *blank);
+        bounding_box(blanks.chain(self.scene.finding_places()))
     }
 
     /// Draws the stock with its defects, and the outlines of the parts. `id` makes the ids of clip paths unique.
@@ -427,16 +422,10 @@ fn stroke(canvas: &mut Canvas, data: &str, width: f64, color: &str) {
 }
 
 /// Returns the path of a rectangle, given by its lower left and upper right corner.
-fn rectangle(place: &PageTransform, corners: [Point; 2]) -> String {
+fn rectangle(place: &PageTransform, corners: Corners) -> String {
     let [[left, bottom], [right, top]] =
         corners.map(|corner| place.to_page(corner)).map(|corner| corner.map(svg_number));
     format!("M{left} {top}H{right}V{bottom}H{left}Z")
-}
-
-fn enclosing_box(blank: [Point; 2], extent: [Point; 2]) -> [Point; 2] {
-    let mut corners = Some(blank);
-    widen(&mut corners, extent);
-    corners.unwrap_or(blank)
 }
 
 fn depth_color(share: f64) -> String {

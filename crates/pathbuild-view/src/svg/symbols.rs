@@ -4,8 +4,9 @@ use super::canvas::{
     Anchor, BAR_COLOUR, Canvas, ERROR_COLOUR, INK_COLOUR, OTHER_COLOUR, PROBE_COLOUR, RAPID_COLOUR,
     TEXT_COLOUR, WARNING_COLOUR, svg_number,
 };
-use super::frame::{Frame, OccupiedSpace, PageTransform, Rectangle, VisibleParts, square_around, text_width};
+use super::frame::{Frame, OccupiedSpace, PageTransform, Rectangle, VisibleParts, text_width};
 use super::moves::{along, arc_pieces};
+use crate::extent::with_margin;
 use crate::scene::{
     ArcShape, Element, ElementKind, Label, MoveKind, OtherShape, Point, Scene, SceneMove, ScenePath, Shape,
 };
@@ -71,13 +72,7 @@ fn draw_keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, roo
     }
     let style = format!("stroke=\"none\" fill=\"{ERROR_COLOUR}\"");
     for clamp in &scene.keep_outs {
-        let corners = clamp.outline.iter().flat_map(Shape::extent);
-        let hull = |[low, high]: [Point; 2], at: Point| {
-            [[low[0].min(at[0]), low[1].min(at[1])], [high[0].max(at[0]), high[1].max(at[1])]]
-        };
-        let Some([low, high]) = corners.map(|at| [at, at]).reduce(|all, [at, _]| hull(all, at)) else {
-            continue;
-        };
+        let Some([low, high]) = clamp.extent() else { continue };
         let [x, y] = place.to_page([0, 1].map(|axis| f64::midpoint(low[axis], high[axis])));
         let label = format!("Z{}", svg_number(clamp.height));
         room.occupy(text_rectangle([x, y], 11.0, &label));
@@ -305,10 +300,10 @@ const NUMBER_RADIUS: f64 = 7.0;
 /// Reserves the space of symbols with fixed positions.
 pub(super) fn reserve_symbols(path: &ScenePath, place: &PageTransform, room: &mut OccupiedSpace) {
     for marker in markers(path).into_iter().flatten() {
-        room.occupy(square_around(place.to_page(marker.shape.start()), 5.0));
+        room.occupy(with_margin([place.to_page(marker.shape.start()); 2], 5.0));
     }
     for probe in &path.probes {
-        room.occupy(square_around(place.to_page(probe.at), probe_radius(place)));
+        room.occupy(with_margin([place.to_page(probe.at); 2], probe_radius(place)));
     }
 }
 

@@ -5,9 +5,9 @@ use super::flow::Block;
 use super::{operations, shims};
 use pathbuild_diagnostic::{Lang, with_decimal_separator};
 
-use crate::scene::{BilingualText, MoveKind, Point};
+use crate::scene::{BilingualText, MoveKind};
 use crate::svg::canvas::mm;
-use crate::svg::sheet::data::{clamp_box, feeds, rapid_heights, removed_box};
+use crate::svg::sheet::data::{feeds, rapid_heights, removed_box};
 
 /// Returns the steps before running the program, in the order in which the operator carries them out.
 pub(super) fn checklist(sheet: &Sheet, lang: Lang) -> Vec<Block> {
@@ -334,7 +334,7 @@ fn probes(sheet: &Sheet) -> Vec<Vec<String>> {
 fn clamps(sheet: &Sheet, lang: Lang) -> Vec<Vec<String>> {
     let to = lang.choose("to", "bis");
     let row = |clamp: &crate::scene::KeepOut| {
-        let [low, high]: [Point; 2] = clamp_box(clamp);
+        let [low, high] = clamp.extent().unwrap_or_default();
         let range = |axis: usize| format!("{} {to} {}", mm(low[axis]), mm(high[axis]));
         vec![clamp.layer.clone(), range(0), range(1), mm(clamp.height)]
     };

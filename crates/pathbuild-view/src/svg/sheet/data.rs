@@ -2,9 +2,9 @@
 
 use pathbuild_diagnostic::{Lang, with_decimal_separator};
 
-use crate::scene::{BilingualText, KeepOut, MoveKind, Point, Scene, SceneMove, Shape};
+use crate::extent::{Corners, bounding_box, with_margin};
+use crate::scene::{BilingualText, KeepOut, MoveKind, Point, Scene, SceneMove, ScenePath};
 use crate::svg::canvas::mm;
-use crate::svg::frame::widen;
 
 /// Width and height of a page in mm.
 pub(super) const PAPER: Point = [210.0, 297.0];
@@ -89,49 +89,22 @@ pub struct SheetProbe {
     pub height: f64,
 }
 
-/// Lower left and upper right corner of a rectangle, in mm.
-pub(super) type Corners = [Point; 2];
-
 /// Returns the bounding box of the removed material seen from above; `None` if nothing is cut.
 pub(super) fn removed_box(sheet: &Sheet) -> Option<Corners> {
-    let mut corners = None;
-    for path in &sheet.scene.paths {
-        let radius = path.tool.unwrap_or_default() / 2.0;
+    let cuts = |path: &ScenePath| {
         let cuts = path.moves.iter().filter(|movement| movement.kind.cuts()).filter_map(SceneMove::extent);
-        for [low, high] in cuts {
-            widen(
-                &mut corners,
-                [low.map(|coordinate| coordinate - radius), high.map(|coordinate| coordinate + radius)],
-            );
-        }
-    }
-    corners
+        Some(with_margin(bounding_box(cuts)?, path.tool.unwrap_or_default() / 2.0))
+    };
+    bounding_box(sheet.scene.paths.iter().filter_map(cuts))
 }
 
 /// Returns the bounding box of everything that the picture shows.
 pub(super) fn shown_box(sheet: &Sheet) -> Corners {
-    let mut corners = removed_box(sheet);
-    widen(&mut corners, [[0.0; 2]; 2]);
-    for path in &sheet.scene.paths {
-        for extent in path.moves.iter().filter_map(SceneMove::extent) {
-            widen(&mut corners, extent);
-        }
-    }
-    for at in sheet.probes.iter().map(|probe| probe.at) {
-        widen(&mut corners, [at, at]);
-    }
-    for clamp in &sheet.scene.keep_outs {
-        widen(&mut corners, clamp_box(clamp));
-    }
-    corners.unwrap_or_default()
-}
-
-pub(super) fn clamp_box(clamp: &KeepOut) -> Corners {
-    let mut corners = None;
-    for extent in clamp.outline.iter().map(Shape::extent) {
-        widen(&mut corners, extent);
-    }
-    corners.unwrap_or_default()
+    let moves = sheet.scene.paths.iter().flat_map(|path| &path.moves).filter_map(SceneMove::extent);
+    let clamps = sheet.scene.keep_outs.iter().filter_map(KeepOut::extent);
+    let zero_and_probes = [[0.0; 2]].into_iter().chain(sheet.probes.iter().map(|probe| probe.at));
+    let points = zero_and_probes.map(|at| [at; 2]);
+    bounding_box(removed_box(sheet).into_iter().chain(moves).chain(clamps).chain(points)).unwrap_or_default()
 }
 
 /// Returns the feeds in mm/min of the given kinds of moves, in ascending order without duplicates.

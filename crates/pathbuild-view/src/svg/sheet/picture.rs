@@ -3,6 +3,7 @@
 
 use pathbuild_diagnostic::Lang;
 
+use crate::extent::{Corners, with_margin, with_min_extent};
 use crate::scene::Point;
 use crate::svg::canvas::{
     Anchor, Canvas, Depths, INK_COLOUR, PROBE_COLOUR, TEXT_COLOUR, mm, svg_number, text_width,
@@ -11,7 +12,7 @@ use crate::svg::frame::{Frame, OccupiedSpace, PageTransform, VisibleParts};
 use crate::svg::stock::{MilledStock, has_stock};
 use crate::svg::{drawing, legend, moves, symbols};
 
-use super::data::{Corners, Sheet, UNITS_PER_MM, removed_box, shown_box};
+use super::data::{Sheet, UNITS_PER_MM, removed_box, shown_box};
 use super::flow::{Column, MAX_PICTURE_HEIGHT};
 
 /// Margins around the drawing in units. Dimensions are to the left and below, and their last numbers extend to the right.
@@ -66,7 +67,7 @@ impl Scale {
 
 /// Returns the picture for the first page: in true size if there is enough space, otherwise reduced; enlarged if it would be very small.
 pub(super) fn first_page_picture(sheet: &Sheet, area: Column) -> PlacedPicture {
-    let corners = with_min_extent(shown_box(sheet));
+    let corners = with_min_extent(shown_box(sheet), MIN_EXTENT);
     let limit = max_scale(corners, area);
     let is_small = limit * MIN_SPACE_SHARE >= 1.0;
     let limit = if is_small { max_scale_beside_inset(corners, area) } else { limit.min(1.0) };
@@ -83,8 +84,8 @@ pub(super) fn larger_picture(sheet: &Sheet, area: Column) -> Option<PlacedPictur
 /// Returns a picture of the stock after milling for a whole page; `None` if nothing is cut.
 pub(super) fn stock_picture(sheet: &Sheet, area: Column) -> Option<PlacedPicture> {
     let radius = sheet.tools.iter().map(|tool| tool.diameter / 2.0).fold(0.0, f64::max);
-    let [low, high] = removed_box(sheet).filter(|_| has_stock(&sheet.scene))?;
-    let corners = with_min_extent([low.map(|at| at - radius), high.map(|at| at + radius)]);
+    let removed = removed_box(sheet).filter(|_| has_stock(&sheet.scene))?;
+    let corners = with_min_extent(with_margin(removed, radius), MIN_EXTENT);
     Some(upright_or_turned(area, |area| {
         let scale = Scale::within(max_scale(corners, area));
         PlacedPicture { is_stock: true, ..PlacedPicture::new(area, corners, scale, false) }
@@ -97,15 +98,6 @@ fn upright_or_turned(area: Column, placed: impl Fn(Column) -> PlacedPicture) -> 
     let turned = PlacedPicture { turned: Some([area.left, area.bottom]), ..placed(beneath) };
     let upright = placed(area);
     if turned.scale.0 > upright.scale.0 { turned } else { upright }
-}
-
-fn with_min_extent([mut low, mut high]: Corners) -> Corners {
-    for axis in [0, 1] {
-        let missing = (MIN_EXTENT - (high[axis] - low[axis])).max(0.0) / 2.0;
-        low[axis] -= missing;
-        high[axis] += missing;
-    }
-    [low, high]
 }
 
 /// Returns the scale at which the corners fill the area.

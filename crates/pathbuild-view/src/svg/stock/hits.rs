@@ -4,8 +4,9 @@ use pathbuild_gcode::interpret::Program;
 use pathbuild_gcode::verify::{Cutter, Stock, StockSpan, rapid_hits};
 use pathbuild_motion::{Move, MoveShape, Pace, Position, Step};
 
+use super::Blank;
 use super::strokes::{CuttingConditions, MovePiece, Piece, cutting_conditions};
-use super::{Blank, enclosing_box};
+use crate::extent::enclosing_box;
 use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath};
 
 /// Length, in cutter diameters, of the pieces of a rapid move that are checked for material.

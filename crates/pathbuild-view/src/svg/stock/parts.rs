@@ -1,9 +1,10 @@
 //! Defects of finished parts: material left beside them, cuts into them, and parts that nothing holds.
 
 use super::{LEFTOVER_COLOUR, LOOSE_COLOUR, WRONG_COLOUR, rectangle, stroke};
+use crate::extent::{bounding_box, with_margin};
 use crate::scene::{FinishedPart, Shape};
 use crate::svg::canvas::Canvas;
-use crate::svg::frame::{PageTransform, widen};
+use crate::svg::frame::PageTransform;
 use crate::svg::symbols;
 
 /// Draws the material left around a part, outside of its outline.
@@ -61,12 +62,8 @@ pub(super) fn draw_defects(canvas: &mut Canvas, part: &FinishedPart, place: &Pag
 
 /// Defines a clip path for the outside of a part: a frame around the rings of the part. The rings run with their material on the left.
 fn clip_outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, reach: f64, id: &str) {
-    let mut corners = None;
-    for shape in part.rings.iter().flatten() {
-        widen(&mut corners, shape.extent());
-    }
-    let [low, high] = corners.unwrap_or_default();
-    let frame = rectangle(place, [low.map(|at| at - reach), high.map(|at| at + reach)]);
+    let corners = bounding_box(part.rings.iter().flatten().map(Shape::extent)).unwrap_or_default();
+    let frame = rectangle(place, with_margin(corners, reach));
     let rings: String = part.rings.iter().map(|ring| symbols::outline(ring, place)).collect();
     canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{frame}{rings}\"/></clipPath>"));
 }

@@ -2,6 +2,7 @@
 
 use pathbuild_motion::{Move, MoveShape, Position};
 
+use crate::extent::{Corners, with_margin};
 use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath, Tip};
 
 /// Number of steps into which the deepest slope is divided. Each step has one colour.
@@ -179,13 +180,10 @@ pub(super) struct StockMove<'s> {
 
 impl StockMove<'_> {
     /// Returns the corners of the stock that the move needs, in the coordinates of the drawing: the cutter's diameter around it.
-    pub(super) fn extent(&self) -> Option<[Point; 2]> {
-        let [from, to] = self.movement.extent()?;
-        let (zero, margin) = (self.path.zero, self.setting.diameter);
-        Some([
-            [0, 1].map(|axis| from[axis] + zero[axis] - margin),
-            [0, 1].map(|axis| to[axis] + zero[axis] + margin),
-        ])
+    pub(super) fn extent(&self) -> Option<Corners> {
+        let zero = self.path.zero;
+        let corners = self.movement.extent()?.map(|[x, y]| [x + zero[0], y + zero[1]]);
+        Some(with_margin(corners, self.setting.diameter))
     }
 }
 
