@@ -38,6 +38,7 @@ mod line_words;
 mod number;
 mod options;
 mod read_back;
+mod read_back_options;
 mod rs274_translation;
 mod target;
 mod tools;

@@ -8,8 +8,8 @@ use pathbuild_diagnostic::{Diagnostic, Message, Note, Severity, TextFault, Value
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Interpretation, Options, code_name};
 use pathbuild_gcode::verify::{
-    BentRapidRules, CornerRules, Cutter, LengthRules, Machine, MachineRules, ProgramStart, Rules, Stock,
-    StockSpan, Tolerance, coarse_arc_finding,
+    BentRapidRules, CornerRules, Cutter, LengthRules, MachineRules, ProgramStart, Rules, Stock, StockSpan,
+    Tolerance, coarse_arc_finding,
 };
 use pathbuild_motion::{
     Action, Axes, Change, Coolant, Move, MoveShape, NamedPosition, Pace, Position, Step, ToolLength, Turning,
@@ -19,60 +19,11 @@ use pathbuild_motion::{
 use crate::findings::LineOrigin;
 use crate::job::{Entry, Job, JobStep, Operation};
 use crate::line_words::{CommentMarks, Word, words};
+use crate::read_back_options::{ReadBackOptions, Wording};
 use crate::rs274_translation::{Doubt, TranslatedText};
 use crate::target::Target;
 use crate::traverse::{self, MatchedCut};
 use crate::{ambiguous, dwells, tools};
-
-/// How the words of a text are understood.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Wording<'a> {
-    /// As words of this control.
-    Control(&'a Target),
-    /// By this translation to RS274, which is checked instead of the text: no dialect defines the words, or the definition has its own axes.
-    Translated(&'a TranslatedText),
-}
-
-impl<'a> Wording<'a> {
-    pub(super) fn control(self) -> Option<&'a Target> {
-        match self {
-            Self::Control(target) => Some(target),
-            Self::Translated(_) => None,
-        }
-    }
-
-    fn translation(self) -> Option<&'a TranslatedText> {
-        match self {
-            Self::Control(_) => None,
-            Self::Translated(translated) => Some(translated),
-        }
-    }
-
-    /// Returns the dialect in which the text is read.
-    pub(super) fn reader(self) -> Dialect {
-        self.control().map_or(Dialect::LinuxCnc, |target| target.reader)
-    }
-}
-
-/// The expectations that a text is checked against.
-#[derive(Clone, Copy, Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
-pub(super) struct ReadBackOptions<'a> {
-    pub(super) wording: Wording<'a>,
-    /// Permitted deviation of the moves from the job. `None` if the user takes responsibility for the moves.
-    pub(super) tolerance: Option<Tolerance>,
-    pub(super) machine: Option<&'a Machine>,
-    /// Maximum distance in mm by which cuts may miss the outline of a part.
-    pub(super) part_tolerance: f64,
-    /// Whether the program need not switch the spindle, because the operator does it or the target has no word for it.
-    pub(super) is_manual: bool,
-    /// Whether the text never moves in Z, because a beam cuts at all depths.
-    pub(super) is_flat: bool,
-    /// Whether the texts of the definition switch the coolant as the job says.
-    pub(super) follows_coolant: bool,
-    /// Whether the machine counts P of dwells in milliseconds. Only for controls where this is a setting.
-    pub(super) milliseconds: bool,
-}
 
 /// Checks a text. Returns the errors: those reported by the reader of the target, or else the first deviation from the job and violations of the
 /// rules of `verify`. If there are no errors, returns warnings about doubtful constructs.

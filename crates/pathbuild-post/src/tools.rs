@@ -8,7 +8,7 @@ use pathbuild_gcode::verify::{LengthFit, TipHeight, ToolState};
 use pathbuild_motion::{Action, Change, Coolant, Move, Pace, Step, ToolLength, Turning};
 
 use crate::job::{Job, JobStep, Operation};
-use crate::read_back::ReadBackOptions;
+use crate::read_back_options::ReadBackOptions;
 use crate::traverse::MatchedCut;
 
 /// Difference in spindle speed, in 1/min, that is attributed to rounding. Some definitions write whole numbers.

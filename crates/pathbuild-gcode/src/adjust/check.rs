@@ -10,8 +10,8 @@ use pathbuild_toolpath::odd_probes;
 
 use super::Inputs;
 use super::scan::{ProbeSurvey, ProbeUse};
-use super::values::{EnteredValue, ProbeLine, ProbePoint, ProbeTable, ProgramProbe, hides_probes};
-use crate::native::{f3, push_exact};
+use super::values::{EnteredValue, ProbeLine, ProbeTable, hides_probes};
+use crate::native::{ProgramProbe, f3, push_exact};
 
 /// Measured heights in mm, by probe number.
 pub(super) type Values = BTreeMap<u32, f64>;
@@ -76,19 +76,19 @@ impl Check<'_, '_> {
         let is_other = |(a, b): (f64, f64)| (a - b).abs() > MIN_DIFFERENCE;
         let height = line.height.unwrap_or(program_probe.height);
         let pairs = [
-            (line.place[0], program_probe.place[0]),
-            (line.place[1], program_probe.place[1]),
+            (line.drawn_at.x, program_probe.drawn_at.x),
+            (line.drawn_at.y, program_probe.drawn_at.y),
             (height, program_probe.height),
         ];
         let is_moved =
             line.at.zip(program_probe.at).is_some_and(|(a, b)| is_other((a.x, b.x)) || is_other((a.y, b.y)));
         if is_moved || pairs.into_iter().any(is_other) {
             let position = describe_probe(
-                program_probe.place,
+                program_probe.drawn_at,
                 program_probe.height,
                 program_probe.at.filter(|_| line.at.is_some()),
             );
-            let here = describe_probe(line.place, height, line.at);
+            let here = describe_probe(line.drawn_at, height, line.at);
             return Err(Box::new(
                 fault(&messages::OTHER_PROBE).quoting("here", here).quoting("there", position),
             ));
@@ -166,7 +166,7 @@ fn rounded_to_printed(value: f64) -> f64 {
     text.parse().unwrap_or(value)
 }
 
-fn describe_probe(place: ProbePoint, height: f64, at: Option<Xy>) -> String {
+fn describe_probe(drawn_at: Xy, height: f64, at: Option<Xy>) -> String {
     let at = at.map(|at| format!(" @ [{}|{}]", f3(at.x), f3(at.y))).unwrap_or_default();
-    format!("[{} {}] T={}{at}", f3(place[0]), f3(place[1]), f3(height))
+    format!("[{} {}] T={}{at}", f3(drawn_at.x), f3(drawn_at.y), f3(height))
 }

@@ -10,8 +10,9 @@ use pathbuild_toolpath::ZModel;
 use super::check::{MIN_DIFFERENCE, Values};
 use super::scan::{FormulaSpan, Line, formula_spans, lines, plain_height, value_of};
 use super::surface::{AppliedCorrection, CutDepths, MeasuredSurface};
-use super::values::{ProbeTable, ProgramProbe};
+use super::values::ProbeTable;
 use super::{MeasuredHeights, Source, is_height};
+use crate::native::ProgramProbe;
 
 /// Evaluates the formulas of a program that lists measured heights in its header, and returns findings about the resulting heights. `below_plate` is
 /// the depth in mm below the plate beyond which a lowered height is reported, `model` the model of the surface between the probes, and `shims` those

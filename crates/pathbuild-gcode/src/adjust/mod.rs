@@ -16,9 +16,10 @@ use camino::Utf8Path;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode::PROGRAM_IN_UTF_16;
 use pathbuild_diagnostic::messages::probes as messages;
+use pathbuild_path::Xy;
 use pathbuild_toolpath::ZModel;
 
-use crate::native::{f3, push_exact};
+use crate::native::{ProgramProbe, f3, probe_entry, push_exact};
 use crate::provenance::{is_same_program, without_comment_marks};
 use crate::read::is_utf_16;
 
@@ -32,7 +33,6 @@ use scan::{
 use surface::MeasuredSurface;
 pub use values::loss_of_values;
 use values::{ProbeTable, entry_of_line, is_header};
-pub(crate) use values::{ProgramProbe, probe_entry};
 
 /// A file in memory. Its text may be in any encoding that extends ASCII; other bytes are preserved.
 #[derive(Clone, Copy, Debug)]
@@ -168,11 +168,11 @@ pub fn listed_heights(program: &[u8]) -> BTreeMap<u32, f64> {
 }
 
 /// Returns the probes listed in a program's header, each with its line, its position, and the height in mm at which it was drawn.
-pub fn listed_probes(program: &[u8]) -> Vec<(u32, [f64; 2], f64)> {
+pub fn listed_probes(program: &[u8]) -> Vec<(u32, Xy, f64)> {
     let lines = (1..).zip(program.split(|byte| *byte == b'\n'));
     let probe = |(line, text): (u32, &[u8])| {
         let (_, probe) = entry_of_line(text)?;
-        Some((line, probe.at.map_or(probe.place, |at| [at.x, at.y]), probe.height))
+        Some((line, probe.at.unwrap_or(probe.drawn_at), probe.height))
     };
     lines.take_while(|(_, text)| is_header(text)).filter_map(probe).collect()
 }

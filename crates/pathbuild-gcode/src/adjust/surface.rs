@@ -12,9 +12,9 @@ use pathbuild_toolpath::{MIN_REPORTED_DEVIATION, Surface, ZModel};
 use super::Source;
 use super::check::{MIN_DIFFERENCE, Values};
 use super::scan::lines;
-use super::values::ProgramProbe;
 use crate::dialect::Dialect;
 use crate::interpret::{Options, interpret_each};
+use crate::native::ProgramProbe;
 
 /// The surface of the material according to the measured heights.
 pub(super) struct MeasuredSurface {

@@ -5,26 +5,25 @@
 //! machine zero must be workpiece zero, which the comparison with the drawn heights will reveal.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::ops::Range;
 use std::sync::LazyLock;
 
 use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Point};
 use pathbuild_path::{Xy, parse_number};
-use regex::Regex;
 use regex::bytes::{self, Captures};
 
 use super::Source;
 use super::scan::{Line, lines};
-use crate::native::f3;
+use crate::native::{ProgramProbe, probe_entry};
 
 /// A line of the file of values, which describes one probe.
 #[derive(Debug)]
 pub(super) struct ProbeLine<'a> {
     pub(super) line: Line<'a>,
     pub(super) probe: u32,
-    pub(super) place: ProbePoint,
+    /// Position in the coordinates of the drawing that contains the probe.
+    pub(super) drawn_at: Xy,
     /// Position in the emitted drawing; missing in files of PathDxf2GCode and of old versions of pathbuild.
     pub(super) at: Option<Xy>,
     /// The expected height in mm, after `T=`; missing in the older form of the file.
@@ -117,7 +116,7 @@ fn probe_line<'a>(line: Line<'a>, parts: &Captures<'_>) -> Option<ProbeLine<'a>>
     Some(ProbeLine {
         line,
         probe: str::from_utf8(&parts[8]).ok()?.parse().ok()?,
-        place: [x, y],
+        drawn_at: Xy::new(x, y),
         at: number(4).zip(number(5)).map(|(x, y)| Xy::new(x, y)),
         height: number(3),
         value,
@@ -135,37 +134,6 @@ pub(super) fn parse(text: &[u8]) -> Option<f64> {
 pub(super) struct ProbeTable {
     pub(super) probes: BTreeMap<u32, ProgramProbe>,
 }
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ProgramProbe {
-    pub(super) place: ProbePoint,
-    /// Height at which the probe was drawn, in mm.
-    pub(crate) height: f64,
-    /// Position in the program's coordinates, if the header states it.
-    pub(super) at: Option<Xy>,
-    /// Measured height in mm; only in adjusted programs.
-    pub(crate) measured: Option<f64>,
-}
-
-/// Formats the position and the height of a probe as the header of a program lists them.
-impl fmt::Display for ProgramProbe {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y] = self.place;
-        write!(f, "[{} {}] T={}", f3(x), f3(y), f3(self.height))?;
-        self.at.map_or(Ok(()), |at| write!(f, " X{} Y{}", f3(at.x), f3(at.y)))
-    }
-}
-
-/// X and Y of a probe, in mm, in the coordinates of the drawing that contains it.
-pub(super) type ProbePoint = [f64; 2];
-
-static HEADER_ENTRY: LazyLock<Regex> = LazyLock::new(|| {
-    let number = r"(-?[0-9]+(?:\.[0-9]+)?)";
-    let pattern = format!(
-        r"^Probe #([0-9]+): \[{number} {number}\] T={number}(?: X{number} Y{number})?(?: Z{number})?$"
-    );
-    Regex::new(&pattern).expect("a constant pattern")
-});
 
 impl ProbeTable {
     /// Reads the probes listed in the comments before the first block of the program.
@@ -188,18 +156,6 @@ pub(super) fn is_header(line: &[u8]) -> bool {
 pub(super) fn entry_of_line(line: &[u8]) -> Option<(u32, ProgramProbe)> {
     let comment = line.trim_ascii_end().strip_prefix(b"(")?.strip_suffix(b")")?;
     probe_entry(str::from_utf8(comment).ok()?)
-}
-
-/// Parses the probe listed in a comment, with its number; `None` if the comment lists none.
-pub(crate) fn probe_entry(comment: &str) -> Option<(u32, ProgramProbe)> {
-    if !comment.starts_with("Probe #") {
-        return None;
-    }
-    let parts = HEADER_ENTRY.captures(comment)?;
-    let number = |index: usize| parts.get(index).and_then(|part| parse_number(part.as_str()));
-    let at = number(5).zip(number(6)).map(|(x, y)| Xy::new(x, y));
-    let probe = ProgramProbe { place: [number(2)?, number(3)?], height: number(4)?, at, measured: number(7) };
-    Some((parts[1].parse().ok()?, probe))
 }
 
 /// Values that differ by no more than this, in mm, are considered equal: users enter three decimals.

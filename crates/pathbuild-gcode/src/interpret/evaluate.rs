@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pathbuild_diagnostic::Text;
 
 use super::state::{INCH, State};
-use crate::adjust::ProgramProbe;
+use crate::native::ProgramProbe;
 use crate::read::{Binary, Block, Code, Function, Op, Span};
 
 /// LinuxCNC considers numbers equal if they differ by less than this.

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 
 use super::evaluate::{NoValue, ProbeHeight};
 use super::execute::Interpreter;
-use crate::adjust::probe_entry;
+use crate::native::probe_entry;
 use crate::provenance::Provenance;
 use crate::read::{Block, Formula, Span};
 

@@ -3,6 +3,7 @@
 
 mod number;
 mod program;
+mod program_probe;
 mod read_back;
 
 pub(crate) use number::push_exact;
@@ -13,6 +14,7 @@ pub use program::{
     title, too_large, values_file, write_program,
 };
 pub(crate) use program::{announces_probe, kind_of_label, stated_length};
+pub(crate) use program_probe::{ProgramProbe, probe_entry};
 pub use read_back::{
     OtherLine, Parts, first_other_line, formula_differences, is_read_back, read_back, read_probing_back,
     unstated_heights,

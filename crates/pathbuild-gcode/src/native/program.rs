@@ -11,6 +11,7 @@ use pathbuild_toolpath::{
 };
 
 use super::number::{FIRST_PARAMETER, Formulas, PrintedArc, f3, printed, push_f3};
+use super::program_probe::{PROBE_COMMENT, ProgramProbe};
 use crate::dialect::{Charset, Dialect, within_comment};
 use crate::statistics::statistics;
 
@@ -217,9 +218,9 @@ impl Writer<'_> {
         }
         for (index, probe) in self.program.probes.iter().enumerate() {
             let number = FIRST_PARAMETER + index;
-            let (drawn, at) = (probe.drawn_at, probe.at);
-            let place = format!("[{} {}] T={}", f3(drawn.x), f3(drawn.y), f3(probe.height));
-            self.comment(&format!("Probe #{number}: {place} X{} Y{}", f3(at.x), f3(at.y)));
+            let ProbePoint { drawn_at, height, at, .. } = *probe;
+            let entry = ProgramProbe { drawn_at, height, at: Some(at), measured: None };
+            self.comment(&format!("{PROBE_COMMENT}{number}: {entry}"));
         }
     }
 
@@ -342,9 +343,6 @@ impl Writer<'_> {
 
 /// The dwell after each probe, P in seconds, so that the user can read the value.
 const DWELL: &str = "G04 P4";
-
-/// Beginning of the comment before each probe; the number of the probe's parameter follows.
-const PROBE_COMMENT: &str = "Probe #";
 
 /// Writes the probing program, which probes at one point after the other and dwells after each.
 pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptions) -> String {

@@ -4,7 +4,6 @@ use pathbuild_diagnostic::Diagnostic;
 use rstar::{AABB, Envelope as _};
 
 use super::boxes::{BoxIndex, widened};
-use super::gouge::MIN_CUT_DEPTH;
 use super::intervals::JOIN_GAP;
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
@@ -102,6 +101,9 @@ pub struct StandingBar {
 
 /// Z in mm up to which a cut is considered to go through the plate: a cut that ends at Z0.001 still does.
 pub const THROUGH_HEIGHT: f64 = 0.001 + 1e-6;
+
+/// Depth in mm below a plate's upper face from which a cut is considered a cut into the plate.
+pub(super) const MIN_CUT_DEPTH: f64 = 0.01;
 
 impl PathCuts {
     /// Places a finding at an element, which is given as an index into [`Self::elements`].

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use rstar::Envelope as _;
 
-use super::cuts::{CutIndex, IndexedCut, THROUGH_HEIGHT};
+use super::cuts::{CutIndex, IndexedCut, MIN_CUT_DEPTH, THROUGH_HEIGHT};
 use super::intervals::{JOIN_GAP, Stretch, joined_length, stretch_of_section};
 use super::prepared::{CutterPassage, PreparedPart, Side};
 use super::{Part, placed_part};
@@ -179,9 +179,6 @@ pub(super) fn level_for_cuts(raised: f64, thickness: f64, height: f64) -> f64 {
     let highest = (thickness - MIN_CUT_DEPTH).max(0.0);
     raised + (height - raised).clamp(0.0, highest)
 }
-
-/// Depth in mm below a plate's upper face from which a cut is considered a cut into the plate.
-pub(super) const MIN_CUT_DEPTH: f64 = 0.01;
 
 impl Gouge {
     /// Returns the length in mm on which the cutter goes into the part, as seen from above.

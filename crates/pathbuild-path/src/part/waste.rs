@@ -5,8 +5,7 @@ use std::ops::Range;
 
 use rstar::{AABB, Envelope as _};
 
-use super::cuts::THROUGH_HEIGHT;
-use super::gouge::MIN_CUT_DEPTH;
+use super::cuts::{MIN_CUT_DEPTH, THROUGH_HEIGHT};
 use super::intervals::{Stretch, add_stretches_within, gaps_between, join_stretches};
 use super::loose::is_enclosed;
 use super::neighbours::PlacedCuts;

@@ -7,7 +7,7 @@ use pathbuild_gcode::interpret::code_name;
 use pathbuild_motion::{
     Action, Change, Coolant, Corners, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem,
 };
-use pathbuild_toolpath::{ProbePoint, ZModel};
+use pathbuild_toolpath::{ProbePoint, Xy, ZModel};
 
 use crate::config::types::Choice;
 use crate::program::Program;
@@ -146,8 +146,8 @@ impl MachineStates {
     pub fn of(program: &Program) -> Self {
         let mut states = Self::of_steps(&program.read.steps);
         states.dialect = Some(program.dialect);
-        for (line, [x, y], height) in adjust::listed_probes(&program.text) {
-            let words = probe_words([x, y], height);
+        for (line, at, height) in adjust::listed_probes(&program.text) {
+            let words = probe_words(at, height);
             let probe = StatedWords { cut: 0, words, line };
             states.stated[StateKind::Probe as usize].get_or_insert_default().push(probe);
         }
@@ -194,7 +194,7 @@ impl MachineStates {
     pub(super) fn set_probes(&mut self, probes: &[ProbePoint]) {
         let words = probes.iter().map(|probe| {
             let feed = Number(probe.feed);
-            (0, format!("{} F{feed}", probe_words([probe.at.x, probe.at.y], probe.height)))
+            (0, format!("{} F{feed}", probe_words(probe.at, probe.height)))
         });
         self.set(StateKind::Probe, words.collect());
     }
@@ -403,8 +403,8 @@ fn cutter_words(diameter: f64) -> String {
 }
 
 /// The words for a probe: its place, and the expected height.
-fn probe_words([x, y]: [f64; 2], height: f64) -> String {
-    format!("X{} Y{} T{}", rounded(x), rounded(y), rounded(height))
+fn probe_words(at: Xy, height: f64) -> String {
+    format!("X{} Y{} T{}", rounded(at.x), rounded(at.y), rounded(height))
 }
 
 /// Rounds a length to thousandths, as programs have them.

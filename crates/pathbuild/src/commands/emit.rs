@@ -55,8 +55,7 @@ fn conclude(context: &Context, args: &EmitArgs, report: EmitReport) -> ExitStatu
     let outdated = if args.check { outdated } else { Vec::new() };
     let is_current = show_all(context, &files, &notes) && outdated.is_empty();
     for file in &outdated {
-        context.json_row(|| row(context, file, FileState::Outdated, None));
-        show_state(context, file, FileState::Outdated);
+        show(context, file, FileState::Outdated, None);
     }
     let failed = run_all(&post_builds);
     for path in removed {
@@ -100,7 +99,7 @@ fn run_all(post_builds: &[PostBuild]) -> Vec<Diagnostic> {
 pub(super) fn show_all(context: &Context, files: &[OutputFile], notes: &[String]) -> bool {
     let mut is_current = true;
     for file in files {
-        is_current &= show(context, file);
+        is_current &= show(context, &file.file, file.state, Some(file));
     }
     for note in notes {
         context.printer.status(note);
@@ -108,37 +107,35 @@ pub(super) fn show_all(context: &Context, files: &[OutputFile], notes: &[String]
     is_current
 }
 
-/// Shows the outcome of a file. Returns whether it is up to date.
-fn show(context: &Context, output: &OutputFile) -> bool {
-    let OutputFile { file, state, length, minutes, .. } = output;
-    // Only the program itself gets a length; the files that belong to it have none.
-    context.json_row(|| row(context, file, *state, Some(output)));
-    match state {
-        FileState::Written | FileState::Overwritten | FileState::Unchanged => {
-            let state = match state {
-                FileState::Written => context.choose("written", "geschrieben"),
-                FileState::Overwritten => context.choose(
-                    "written over an edited file (give edited programs a name of their own)",
-                    "über eine bearbeitete Datei geschrieben (bearbeiteten Programmen einen eigenen Namen geben)",
-                ),
-                _ => context.choose("unchanged", "unverändert"),
-            };
-            if output.is_program {
-                context.printer.status(format_args!("{file}: {state}, {length:.0} mm, {minutes:.0} min"));
-            } else {
-                context.printer.status(format_args!("{file}: {state}"));
-            }
-            true
-        }
+/// Shows the outcome of a file, which is one of an earlier run without `output`. Returns whether it is up to date.
+fn show(context: &Context, file: &str, state: FileState, output: Option<&OutputFile>) -> bool {
+    context.json_row(|| row(context, file, state, output));
+    let label = match state {
+        FileState::Written => context.choose("written", "geschrieben"),
+        FileState::Overwritten => context.choose(
+            "written over an edited file (give edited programs a name of their own)",
+            "über eine bearbeitete Datei geschrieben (bearbeiteten Programmen einen eigenen Namen geben)",
+        ),
+        FileState::Unchanged => context.choose("unchanged", "unverändert"),
         FileState::Current | FileState::Outdated | FileState::Missing => {
-            show_state(context, file, *state);
-            *state == FileState::Current
+            show_state(context, file, state);
+            return state == FileState::Current;
         }
         _ => {
-            output.text.iter().for_each(|text| context.printer.result_bytes(text));
-            true
+            if let Some(text) = output.and_then(|output| output.text.as_ref()) {
+                context.printer.result_bytes(text);
+            }
+            return true;
         }
+    };
+    // Only the program itself gets a length; the files that belong to it have none.
+    match output.filter(|output| output.is_program) {
+        Some(OutputFile { length, minutes, .. }) => {
+            context.printer.status(format_args!("{file}: {label}, {length:.0} mm, {minutes:.0} min"));
+        }
+        None => context.printer.status(format_args!("{file}: {label}")),
     }
+    true
 }
 
 /// Reports how many files are up to date.
