@@ -11,7 +11,7 @@ use crate::Point3;
 use crate::collect::too_many_entities;
 use crate::encoding::Decoder;
 use crate::entities::{EntityReader, Item, Shape, Space};
-use crate::faults::{EntityError, Fatal, missing_end_error, stop_error};
+use crate::faults::{EntityError, FatalError, missing_end_error, stop_error};
 use crate::fields::{Fields, FillDecision};
 use crate::groups::{Groups, Records};
 use crate::layers::LayerId;
@@ -76,7 +76,7 @@ impl<'a> Block<'a> {
 }
 
 /// Checks that the record after a block's contents is its ENDBLK.
-fn check_ended(records: &Records<'_>) -> Result<(), Fatal> {
+fn check_ended(records: &Records<'_>) -> Result<(), FatalError> {
     if records.head.is("ENDBLK") { Ok(()) } else { Err(missing_end_error("BLOCK", &records.head)) }
 }
 
@@ -126,7 +126,7 @@ impl<'a> Blocks<'a> {
         &mut self,
         block: BlockId,
         reader: &mut EntityReader<'a, '_>,
-    ) -> Result<Rc<[Item<'a>]>, Fatal> {
+    ) -> Result<Rc<[Item<'a>]>, FatalError> {
         let block = &mut self.all[block.0];
         if let Some(items) = &block.items {
             return Ok(items.clone());
@@ -152,7 +152,7 @@ impl<'a> Blocks<'a> {
         layer: LayerId,
         reader: &mut EntityReader<'a, '_>,
         steps: &mut StepBudget,
-    ) -> Result<Rc<[LayerId]>, Fatal> {
+    ) -> Result<Rc<[LayerId]>, FatalError> {
         if let Some(wanted) = self.wanted.get(&(block, layer)) {
             return Ok(wanted.clone());
         }
@@ -173,7 +173,7 @@ impl<'a> Blocks<'a> {
         block: BlockId,
         reader: &mut EntityReader<'a, '_>,
         steps: &mut StepBudget,
-    ) -> Result<Arc<[SmolStr]>, Fatal> {
+    ) -> Result<Arc<[SmolStr]>, FatalError> {
         if let Some(layers) = &self.all[block.0].drawn_layers {
             return Ok(layers.clone());
         }
@@ -204,7 +204,7 @@ impl<'a> Blocks<'a> {
         layer: LayerId,
         reader: &mut EntityReader<'a, '_>,
         steps: &mut StepBudget,
-    ) -> Result<(Vec<LayerId>, HashSet<BlockOnLayer>), Fatal> {
+    ) -> Result<(Vec<LayerId>, HashSet<BlockOnLayer>), FatalError> {
         let (mut wanted, mut known) = (Vec::new(), HashSet::new());
         let mut seen = HashSet::from([(block, layer)]);
         let mut ahead = vec![(block, layer)];
@@ -238,7 +238,11 @@ impl<'a> Blocks<'a> {
     }
 
     /// Determines the layers of those contents of a block that may be drawn on a wanted layer.
-    fn layers(&mut self, block: BlockId, reader: &mut EntityReader<'a, '_>) -> Result<BlockLayers, Fatal> {
+    fn layers(
+        &mut self,
+        block: BlockId,
+        reader: &mut EntityReader<'a, '_>,
+    ) -> Result<BlockLayers, FatalError> {
         let block = &mut self.all[block.0];
         if matches!(block.layers, BlockLayers::Unknown) {
             let mut records = block.records();
@@ -304,7 +308,7 @@ impl StepBudget {
     ///
     /// # Errors
     /// PB005 if it is exhausted.
-    pub(crate) fn spend(&mut self, count: usize) -> Result<(), Fatal> {
+    pub(crate) fn spend(&mut self, count: usize) -> Result<(), FatalError> {
         self.left = self.left.checked_sub(count).ok_or_else(|| too_many_entities(self.most_entities))?;
         Ok(())
     }

@@ -18,7 +18,7 @@ use pathbuild_diagnostic::{Diagnostic, EntityKind, Place, Point, Value};
 use smol_str::SmolStr;
 
 use crate::entities::Shape;
-use crate::faults::{EntityError, Fatal};
+use crate::faults::{EntityError, FatalError};
 use crate::layers::{LayerId, LayerProperties};
 use crate::names::case_folded;
 use crate::placement::Placement;
@@ -138,7 +138,7 @@ impl<'d> Collector<'d> {
         &mut self,
         placed: &PlacedEntity<'_>,
         shape: Result<Shape<'_>, EntityError<'_>>,
-    ) -> Result<(), Fatal> {
+    ) -> Result<(), FatalError> {
         let layer = self.layer(placed);
         self.drawn += usize::from(!matches!(&shape, Ok(Shape::Plain(geometry)) if geometry.is_blank()));
         if let Some(trouble) = placed.layer.fault() {
@@ -165,7 +165,12 @@ impl<'d> Collector<'d> {
         }
     }
 
-    fn add_parts(&mut self, placed: &PlacedEntity<'_>, layer: u32, shape: Shape<'_>) -> Result<(), Fatal> {
+    fn add_parts(
+        &mut self,
+        placed: &PlacedEntity<'_>,
+        layer: u32,
+        shape: Shape<'_>,
+    ) -> Result<(), FatalError> {
         let placement = placed.placement.unwrap_or(&Placement::IDENTITY);
         let tolerance = Tolerance { distance: self.limits.curves, most_pieces: self.limits.entities };
         let parts = match shape {
@@ -205,7 +210,7 @@ impl<'d> Collector<'d> {
         layer: u32,
         group: Option<u32>,
         geometry: Geometry,
-    ) -> Result<(), Fatal> {
+    ) -> Result<(), FatalError> {
         self.count()?;
         let line_type = placed.line_type.clone();
         self.drawing.origins.push(placed.origin);
@@ -221,7 +226,7 @@ impl<'d> Collector<'d> {
         placed: &PlacedEntity<'_>,
         layer: u32,
         trouble: &EntityError<'_>,
-    ) -> Result<(), Fatal> {
+    ) -> Result<(), FatalError> {
         let diagnostic = match trouble {
             EntityError::Group(group) => group.diagnostic(placed.kind),
             EntityError::Tilted => Diagnostic::new(&TILTED).quoting("entity", placed.kind.name()),
@@ -278,7 +283,11 @@ impl<'d> Collector<'d> {
     }
 
     /// Records a hatch. It does not count as an entity of its layer.
-    pub(crate) fn add_hatch(&mut self, placed: &PlacedEntity<'_>, point: Option<Point>) -> Result<(), Fatal> {
+    pub(crate) fn add_hatch(
+        &mut self,
+        placed: &PlacedEntity<'_>,
+        point: Option<Point>,
+    ) -> Result<(), FatalError> {
         self.count()?;
         self.drawing.hatches.push(place_of(placed, point));
         Ok(())
@@ -290,7 +299,7 @@ impl<'d> Collector<'d> {
         placed: &PlacedEntity<'_>,
         text: SmolStr,
         tip: Circle,
-    ) -> Result<(), Fatal> {
+    ) -> Result<(), FatalError> {
         if placed.is_invisible {
             return Ok(());
         }
@@ -401,7 +410,7 @@ impl<'d> Collector<'d> {
 
     /// Checks that the limit allows one more entity, fault or left-out curve.
     #[inline]
-    fn count(&self) -> Result<(), Fatal> {
+    fn count(&self) -> Result<(), FatalError> {
         let drawing = &self.drawing;
         let troubles = drawing.faults.len() + drawing.left_out.len();
         let surcharge = (FAULT_WEIGHT - 1) * troubles.saturating_sub(MAX_CHEAP_FAULTS);
@@ -414,7 +423,7 @@ impl<'d> Collector<'d> {
     }
 
     #[cold]
-    fn entity_limit_error(&self) -> Fatal {
+    fn entity_limit_error(&self) -> FatalError {
         too_many_entities(self.limits.entities)
     }
 }
@@ -444,6 +453,6 @@ fn with_block(mut problem: Diagnostic, block: Option<&str>, layers: &[SmolStr]) 
 }
 
 #[cold]
-pub(crate) fn too_many_entities(most: usize) -> Fatal {
+pub(crate) fn too_many_entities(most: usize) -> FatalError {
     Box::new(exceeded(&ENTITIES, most, "entities"))
 }

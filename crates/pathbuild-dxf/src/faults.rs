@@ -14,7 +14,7 @@ use crate::number::NotANumber;
 use crate::pairs::{Pair, Stop};
 
 /// An error that ends the reading of a file.
-pub(crate) type Fatal = Box<Diagnostic>;
+pub(crate) type FatalError = Box<Diagnostic>;
 
 /// Returns PB002 for a value that is not a number.
 pub(crate) fn bad_value_error(entity: &str, code: i32, value: &[u8], reason: NotANumber) -> Diagnostic {
@@ -33,7 +33,7 @@ pub(crate) fn bad_value_error(entity: &str, code: i32, value: &[u8], reason: Not
 }
 
 /// Returns PB002 for a section that the end of the file cuts off, or that has something else where a group code should be.
-pub(crate) fn stop_error(stop: Stop<'_>, section: &str) -> Fatal {
+pub(crate) fn stop_error(stop: Stop<'_>, section: &str) -> FatalError {
     Box::new(match stop {
         Stop::End { line } => Diagnostic::new(&TRUNCATED).quoting("section", section).at_line(line, None),
         Stop::BadCode { line, found } => bad_code_error(found, line),
@@ -41,12 +41,12 @@ pub(crate) fn stop_error(stop: Stop<'_>, section: &str) -> Fatal {
 }
 
 /// Returns PB002 for a pair that is not allowed in its place.
-pub(crate) fn pair_error(message: &'static Message, pair: &Pair<'_>) -> Fatal {
+pub(crate) fn pair_error(message: &'static Message, pair: &Pair<'_>) -> FatalError {
     Box::new(Diagnostic::new(message).quoting("found", value_excerpt(pair.value)).at_line(pair.line, None))
 }
 
 /// Returns PB002 for a pair found where a section should end.
-pub(crate) fn missing_end_error(section: &str, found: &Pair<'_>) -> Fatal {
+pub(crate) fn missing_end_error(section: &str, found: &Pair<'_>) -> FatalError {
     let mut diagnostic = pair_error(&SECTION_NOT_ENDED, found);
     diagnostic.arguments.push(("section", Value::quoted(section)));
     diagnostic

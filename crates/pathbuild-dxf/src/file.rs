@@ -10,7 +10,7 @@ use crate::binary::to_ascii;
 use crate::collect::{Collector, Limits};
 use crate::encoding::Decoder;
 use crate::entities::{EntityReader, max_repeated_groups};
-use crate::faults::{Fatal, missing_end_error, pair_error, stop_error, value_excerpt};
+use crate::faults::{FatalError, missing_end_error, pair_error, stop_error, value_excerpt};
 use crate::fields::Fields;
 use crate::groups::Records;
 use crate::header::{Header, millimetres};
@@ -21,7 +21,11 @@ use crate::placement::Placement;
 use crate::{Drawing, Options};
 
 /// Reads a file. An error concerns the file as a whole.
-pub(crate) fn read_file(drawing: &mut Drawing, bytes: &[u8], options: &Options<'_>) -> Result<(), Fatal> {
+pub(crate) fn read_file(
+    drawing: &mut Drawing,
+    bytes: &[u8],
+    options: &Options<'_>,
+) -> Result<(), FatalError> {
     if bytes.is_empty() {
         return Err(Box::new(Diagnostic::new(&EMPTY_FILE)));
     }
@@ -34,7 +38,12 @@ pub(crate) fn read_file(drawing: &mut Drawing, bytes: &[u8], options: &Options<'
     }
 }
 
-fn read_text(drawing: &mut Drawing, text: &[u8], has_bom: bool, options: &Options<'_>) -> Result<(), Fatal> {
+fn read_text(
+    drawing: &mut Drawing,
+    text: &[u8],
+    has_bom: bool,
+    options: &Options<'_>,
+) -> Result<(), FatalError> {
     let mut file = File::new(text, has_bom);
     match file.find_entities()? {
         PreambleEnd::Entities => file.read_entities(drawing, options),
@@ -73,7 +82,7 @@ impl<'a> File<'a> {
     }
 
     /// Skips to ENTITIES, and remembers the needed sections before it.
-    fn find_entities(&mut self) -> Result<PreambleEnd, Fatal> {
+    fn find_entities(&mut self) -> Result<PreambleEnd, FatalError> {
         let mut head = self.next_head().map_err(|_| not_dxf(self.bytes))?;
         if !head.is("SECTION") && !head.is("EOF") {
             return Err(not_dxf(self.bytes));
@@ -98,7 +107,7 @@ impl<'a> File<'a> {
     }
 
     /// Reads header variables that follow the end of HEADER and have an ENDSEC of their own, as written by dxflib 2.0.
-    fn variables_after_header(&mut self, first: Pair<'a>) -> Result<Pair<'a>, Fatal> {
+    fn variables_after_header(&mut self, first: Pair<'a>) -> Result<Pair<'a>, FatalError> {
         let end = self.header.read_on(first, &mut self.pairs).map_err(|stop| stop_error(stop, "HEADER"))?;
         if !end.is("ENDSEC") {
             return Err(pair_error(&SECTION_EXPECTED, &end));
@@ -117,7 +126,7 @@ impl<'a> File<'a> {
     }
 
     /// Reads or skips a section before the entities.
-    fn read_or_skip_section(&mut self, name: &Pair<'a>) -> Result<(), Fatal> {
+    fn read_or_skip_section(&mut self, name: &Pair<'a>) -> Result<(), FatalError> {
         let section = || value_excerpt(name.value);
         let begin = self.pairs;
         match self.pairs.skip_section() {
@@ -138,7 +147,7 @@ impl<'a> File<'a> {
         if known.is_some() { Err(pair_error(&SECTION_TWICE, name)) } else { Ok(()) }
     }
 
-    fn read_entities(self, drawing: &mut Drawing, options: &Options<'_>) -> Result<(), Fatal> {
+    fn read_entities(self, drawing: &mut Drawing, options: &Options<'_>) -> Result<(), FatalError> {
         let scale = millimetres(&self.header, options.units)?;
         let decoder = Decoder::new(self.bytes, &self.header, self.has_bom);
         let layers = Layers::new(options.keep_layer, LayerTable::new(self.tables));
@@ -175,7 +184,7 @@ impl<'a> File<'a> {
 /// The sections that are read. None of them may follow ENTITIES.
 const READ_SECTIONS: [&str; 4] = ["HEADER", "TABLES", "BLOCKS", "ENTITIES"];
 
-fn not_dxf(bytes: &[u8]) -> Fatal {
+fn not_dxf(bytes: &[u8]) -> FatalError {
     if bytes.starts_with(b"version https://git-lfs.github.com/spec/") {
         return Box::new(Diagnostic::new(&LFS_POINTER).at_line(1, None));
     }
@@ -198,7 +207,7 @@ fn kind_of_file(bytes: &[u8]) -> &'static Text {
     }
 }
 
-fn missing_entities_error(stop: Stop<'_>) -> Fatal {
+fn missing_entities_error(stop: Stop<'_>) -> FatalError {
     match stop {
         Stop::End { line } => Box::new(Diagnostic::new(&NO_ENTITIES).at_line(line, None)),
         Stop::BadCode { .. } => stop_error(stop, ""),

@@ -8,7 +8,7 @@ use pathbuild_diagnostic::messages::files::WRONG_UNITS;
 use pathbuild_diagnostic::{Diagnostic, Text};
 
 use crate::Units;
-use crate::faults::{self, Fatal};
+use crate::faults::{self, FatalError};
 use crate::number::whole_number;
 use crate::pairs::{Keyword, Pair, Pairs, Stop};
 
@@ -68,7 +68,7 @@ impl<'a> Header<'a> {
     }
 
     /// Returns the value of `$INSUNITS`, if the header has it.
-    pub(crate) fn units(&self) -> Result<Option<i64>, Fatal> {
+    pub(crate) fn units(&self) -> Result<Option<i64>, FatalError> {
         let Some((pair, _)) = self.units else { return Ok(None) };
         whole_number(pair.value).map(Some).map_err(|reason| {
             let diagnostic = faults::bad_value_error("$INSUNITS", pair.code, pair.value, reason);
@@ -92,7 +92,7 @@ impl<'a> Header<'a> {
 }
 
 /// Returns the millimetres per unit of the drawing, or PB113.
-pub(crate) fn millimetres(header: &Header<'_>, units: Units) -> Result<f64, Fatal> {
+pub(crate) fn millimetres(header: &Header<'_>, units: Units) -> Result<f64, FatalError> {
     if units == Units::Millimetres {
         return Ok(1.0);
     }

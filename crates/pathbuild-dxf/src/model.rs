@@ -18,7 +18,7 @@ use crate::blocks::{BlockId, Blocks, StepBudget};
 use crate::clips::clipping_dictionaries;
 use crate::collect::{Collector, PlacedEntity};
 use crate::entities::{CommonProperties, EntityReader, Item, Shape, Space};
-use crate::faults::{EntityError, Fatal, stop_error};
+use crate::faults::{EntityError, FatalError, stop_error};
 use crate::groups::Records;
 use crate::layers::{LayerId, LayerTableReader, LineType};
 use crate::pairs::Pairs;
@@ -37,7 +37,7 @@ pub(crate) struct Model<'r, 'a, 'o> {
     /// The extension dictionaries with a clipping boundary, once they are looked up.
     clipping: Option<HashSet<Handle>>,
     /// Damage to the BLOCKS section, which is an error only if the blocks matter.
-    damage: Option<Fatal>,
+    damage: Option<FatalError>,
     /// Whether insertions on unwanted layers may draw on wanted ones, or insert missing blocks.
     blocks_matter: bool,
     /// The insertions in progress, outermost first.
@@ -100,7 +100,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         &mut self,
         records: &mut Records<'a>,
         placement: Option<Placement>,
-    ) -> Result<(), Fatal> {
+    ) -> Result<(), FatalError> {
         let around = EntityContext { placement, insertion: None, is_invisible: false, frozen: None };
         while let Some(item) =
             self.reader.next_item(records, Space::Model).map_err(|stop| stop_error(stop, "ENTITIES"))?
@@ -112,7 +112,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     }
 
     #[inline(always)]
-    fn add_item(&mut self, item: Item<'a>, around: &EntityContext) -> Result<(), Fatal> {
+    fn add_item(&mut self, item: Item<'a>, around: &EntityContext) -> Result<(), FatalError> {
         let layer = match &around.insertion {
             Some(insertion) => self.reader.layers.inherited(item.traits.layer, insertion.layer),
             None => item.traits.layer,
@@ -148,7 +148,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
     }
 
-    fn insert(&mut self, site: &InsertionSite<'_, 'a>) -> Result<(), Fatal> {
+    fn insert(&mut self, site: &InsertionSite<'_, 'a>) -> Result<(), FatalError> {
         self.index_blocks();
         let is_kept = self.reader.layers.is_kept(site.layer);
         if let Some(damage) = &self.damage {
@@ -209,7 +209,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         &mut self,
         site: &InsertionSite<'_, 'a>,
         block: BlockId,
-    ) -> Result<Option<EntityError<'a>>, Fatal> {
+    ) -> Result<Option<EntityError<'a>>, FatalError> {
         if self.open.contains(&block) || self.open.len() >= MAX_BLOCK_DEPTH {
             return Ok(Some(EntityError::Nested(site.insert.block.as_str().into())));
         }
@@ -221,7 +221,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     }
 
     /// Whether an insertion with this extension dictionary has a clipping boundary, so that only a part of its block is visible.
-    fn is_clipped(&mut self, dictionary: Option<Handle>) -> Result<bool, Fatal> {
+    fn is_clipped(&mut self, dictionary: Option<Handle>) -> Result<bool, FatalError> {
         let Some(dictionary) = dictionary else { return Ok(false) };
         if self.clipping.is_none() {
             let found = clipping_dictionaries(&self.entities);
@@ -249,7 +249,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         site: &InsertionSite<'_, 'a>,
         block: BlockId,
         copies: impl Iterator<Item = Placement>,
-    ) -> Result<(), Fatal> {
+    ) -> Result<(), FatalError> {
         let placed = site.place(self.reader)?;
         let insertion =
             Insertion { layer: site.layer, line_type: placed.line_type.clone(), origin: placed.origin };
@@ -271,7 +271,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
 
     /// Reports PB111 for an insertion on a wanted layer whose block draws elements on other layers, but nothing visible, except for hatches, on
     /// wanted ones.
-    fn check_elsewhere(&mut self, site: &InsertionSite<'_, 'a>, block: BlockId) -> Result<(), Fatal> {
+    fn check_elsewhere(&mut self, site: &InsertionSite<'_, 'a>, block: BlockId) -> Result<(), FatalError> {
         if !self.reader.layers.is_kept(site.layer) {
             return Ok(());
         }
@@ -289,7 +289,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
 
     /// Reports a missing block that is inserted on a layer that is not read. Reports nothing if that layer, or that of an insertion around it, is
     /// frozen, or in compatible mode.
-    fn note_missing(&mut self, site: &InsertionSite<'_, 'a>) -> Result<(), Fatal> {
+    fn note_missing(&mut self, site: &InsertionSite<'_, 'a>) -> Result<(), FatalError> {
         let is_compatible = self.reader.options.compatible;
         let placed = site.place(self.reader)?;
         if !is_compatible && !placed.layer.is_frozen && placed.frozen.is_none() {
@@ -304,7 +304,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         site: &InsertionSite<'_, 'a>,
         layers: &[LayerId],
         trouble: &EntityError<'a>,
-    ) -> Result<(), Fatal> {
+    ) -> Result<(), FatalError> {
         for layer in layers {
             if self.reader.layers.is_kept(*layer) {
                 let placed = place_entity(self.reader, site.traits, *layer, site.around)?;
@@ -325,7 +325,7 @@ impl<'a> InsertionSite<'_, 'a> {
         EntityError::LeftOut { message, point: self.point(), block, layers }
     }
 
-    fn place<'p>(&'p self, reader: &'p mut EntityReader<'_, '_>) -> Result<PlacedEntity<'p>, Fatal> {
+    fn place<'p>(&'p self, reader: &'p mut EntityReader<'_, '_>) -> Result<PlacedEntity<'p>, FatalError> {
         place_entity(reader, self.traits, self.layer, self.around)
     }
 }
@@ -337,7 +337,7 @@ fn place_entity<'p>(
     traits: &CommonProperties,
     layer_id: LayerId,
     around: &'p EntityContext,
-) -> Result<PlacedEntity<'p>, Fatal> {
+) -> Result<PlacedEntity<'p>, FatalError> {
     let EntityReader { layers, line_types, fields, decoder, .. } = reader;
     let layer = layers.properties(layer_id, &mut LayerTableReader { fields, decoder });
     let layer = layer.map_err(|stop| stop_error(stop, "TABLES"))?;

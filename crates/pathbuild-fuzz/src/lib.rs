@@ -237,7 +237,7 @@ fn values(data: &[u8]) {
 /// Reads the text of a `pathbuild.toml`.
 fn config(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else { return };
-    for fault in config::faults(Utf8Path::new("pathbuild.toml"), text) {
+    for fault in config::check_text(Utf8Path::new("pathbuild.toml"), text) {
         let text = fault.text(Lang::En) + &fault.text(Lang::De);
         assert!(!text.contains(pathbuild_diagnostic::shown::is_active), "{text:?}");
     }

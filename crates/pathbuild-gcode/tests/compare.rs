@@ -237,6 +237,10 @@ fn a_difference_is_said_with_both_lines() {
         said("G1 X10", "G1 X10\nY3").text(Lang::En),
         "the moves end here, but the other program goes on in line 5"
     );
+    assert_eq!(
+        said("G1 X10\nY3", "G1 X10").text(Lang::En),
+        "the other program has no more moves, but this program goes on here"
+    );
 }
 
 fn emitted(to: Emitted) -> ProgramStep {

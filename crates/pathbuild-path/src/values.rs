@@ -408,10 +408,10 @@ const USUAL_BAR_THICKNESS: f64 = 1.0;
 /// may be mistaken, is above it.
 const MAX_SWEEP_CLEARANCE: f64 = 100.0;
 
-/// A usual height of sweeps above the surface in mm, for help.
+/// A usual height of sweeps above the surface in mm, as an example in help texts.
 const USUAL_SWEEP_CLEARANCE: f64 = 5.0;
 
-/// A usual infeed in mm, for help.
+/// A usual infeed in mm, as an example in help texts.
 const USUAL_INFEED: f64 = 0.5;
 
 /// Thickness in mm below which a support bar is too weak to hold a part, in material of twice that thickness or more.

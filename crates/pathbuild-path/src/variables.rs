@@ -59,7 +59,7 @@ impl Bindings {
     }
 
     /// Whether each of these variables has a value.
-    pub fn cover(&self, definitions: &[Definition]) -> bool {
+    pub fn has_all(&self, definitions: &[Definition]) -> bool {
         definitions.iter().all(|definition| self.get(definition.name).is_some())
     }
 

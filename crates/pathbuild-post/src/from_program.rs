@@ -118,7 +118,7 @@ impl<'a> Builder<'a> {
         let mut rest = self.program.steps.as_slice();
         while let Some((step, after)) = rest.split_first() {
             rest = match step {
-                ProgramStep::Comment(comment) => self.comment(comment, after),
+                ProgramStep::Comment(comment) => self.handle_comment(comment, after),
                 ProgramStep::Move { to, count } => {
                     self.add_planned_move(to, count.length);
                     after
@@ -133,7 +133,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Handles a comment and returns the remaining steps. If the comment announces a hole, the steps of the hole are consumed as well.
-    fn comment(&mut self, comment: &Comment, after: &'a [ProgramStep]) -> &'a [ProgramStep] {
+    fn handle_comment(&mut self, comment: &Comment, after: &'a [ProgramStep]) -> &'a [ProgramStep] {
         let names: &'a Names = &self.program.names;
         match *comment {
             Comment::StartSubpath(name) => self.embedded.push(names.get(name)),
@@ -186,7 +186,7 @@ impl<'a> Builder<'a> {
             _ => HoleKind::Plain,
         };
         for remark in remarks {
-            self.comment(remark, &[]);
+            self.handle_comment(remark, &[]);
         }
         let hole = Hole { at: [x, y], level, retract, bottom: bottom.z, exit, feed: Some(*feed), kind };
         let operation = self.operation();

@@ -228,7 +228,7 @@ impl Comparison<'_> {
         new: &Range<usize>,
     ) -> Option<(Point, Range<usize>, Range<usize>)> {
         let [before, after] = self.sides;
-        let (old, new) = (cuts(before, old)?, cuts(after, new)?);
+        let (old, new) = (cut_range(before, old)?, cut_range(after, new)?);
         let by = [0, 1].map(|axis| after[new.start].to()[axis] - before[old.start].to()[axis]);
         if old.len() != new.len() || by.iter().all(|way| way.abs() <= END_TOLERANCE) {
             return None;
@@ -346,7 +346,7 @@ impl Comparison<'_> {
 }
 
 /// Returns the range from the first to the last cut of a run; `None` if nothing is cut.
-fn cuts(moves: &[SceneMove], row: &Range<usize>) -> Option<Range<usize>> {
+fn cut_range(moves: &[SceneMove], row: &Range<usize>) -> Option<Range<usize>> {
     let is_cut = |index: &usize| moves[*index].kind.cuts();
     let first = row.clone().find(is_cut)?;
     let last = row.clone().rfind(is_cut)?;

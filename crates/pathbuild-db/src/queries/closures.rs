@@ -110,7 +110,7 @@ pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Dia
         Role::Checked => index.examples.clone(),
         Role::CheckedWith(bindings) => bindings.clone(),
     };
-    let missing = if index.header.is_sound && !bindings.cover(&index.header.definitions) {
+    let missing = if index.header.is_sound && !bindings.has_all(&index.header.definitions) {
         raw_path(db, file, name)?.missing_values(&bindings)
     } else {
         Vec::new()

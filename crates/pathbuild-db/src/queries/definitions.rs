@@ -62,8 +62,8 @@ pub fn second_definitions<'a>(
     repeated.into_values().flat_map(|files| ambiguous(db, files, are_together)).collect()
 }
 
-/// Takes drawings that define the same path. For a project in the directory of each of them, returns the first drawing that the project would find,
-/// paired with every other that it would find. If `are_together`, a project would find all of them.
+/// Returns the ambiguous definitions among drawings that define the same path: for a project in the directory of each drawing, the first drawing that
+/// the project would find, paired with every other one that it would find. If `are_together`, a project would find all of them.
 fn ambiguous(
     db: &dyn Db,
     mut files: BTreeMap<&str, &PathName>,

@@ -371,7 +371,7 @@ messages! {
     }
     /// Note: a waiver with a last day does not apply because the date of the run is unknown.
     WAIVER_WITHOUT_DATE: InvalidConfiguration {
-        en: "{place} accepts this finding until {until}, which does not hold here because this run has no date",
+        en: "{place} accepts this finding until {until}, but that does not apply here because this run has no date",
         de: "laut {place} ist dieser Befund bis {until} hingenommen; das gilt hier nicht, weil dieser Lauf kein Datum hat",
     }
     /// Note: the configuration sets a severity until a date.

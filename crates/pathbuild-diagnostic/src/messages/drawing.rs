@@ -239,10 +239,10 @@ messages! {
         en: "{element} at {point} already has a text: write all letters into one text",
         de: "{element} bei {point} hat schon einen Text: alle Buchstaben in einen Text schreiben",
     }
-    /// Note: a nearby element that already has an equal text.
+    /// Note: a nearby element that already has the same text.
     HAS_SAME_TEXT: TextWithoutElement {
-        en: "{element} at {point} already has an equal text: delete one of the two",
-        de: "{element} bei {point} hat schon einen gleichen Text: einen der beiden löschen",
+        en: "{element} at {point} already has the same text: delete one of the two",
+        de: "{element} bei {point} hat schon den gleichen Text: einen der beiden löschen",
     }
     /// Note: a nearby part of a polyline that already has a text.
     POLYLINE_HAS_A_TEXT: TextWithoutElement {

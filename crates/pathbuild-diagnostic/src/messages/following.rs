@@ -403,7 +403,7 @@ messages! {
         help_en: "correct numbers that are far too large, or raise `{key}` under [limits] in pathbuild.toml",
         help_de: "viel zu große Zahlen berichtigen oder `{key}` unter [limits] in pathbuild.toml erhöhen",
     }
-    /// A program that exceeds the limit of pieces into which arcs and ramps are divided to simulate the material.
+    /// A program with arcs and slopes that are divided into more pieces than the limit, to simulate the material.
     TOO_MANY_PIECES: LimitReached {
         en: "to simulate the material, the arcs and slopes of this program are divided into {count} pieces, which exceeds the limit of {limit}; rapid moves into material are not checked",
         de: "um das Material zu simulieren, werden die Bögen und schrägen Bewegungen dieses Programms in {count} Stücke geteilt, mehr als die erlaubten {limit}; Eilgänge ins Material werden nicht geprüft",

@@ -136,8 +136,8 @@ messages! {
     }
     /// A tool with a number that the configuration gives to a tool with another name and diameter.
     TOOL_REPLACED: Disagreement {
-        en: "T{number} of the machine is {name} with {new} mm, but [tool.{table}] with {old} mm has this number: its other keys, such as spindle and paths, remain those of the former tool",
-        de: "T{number} der Maschine ist {name} mit {new} mm, diese Nummer hat aber [tool.{table}] mit {old} mm: die anderen Schlüssel, etwa spindle und paths, bleiben die des bisherigen Werkzeugs",
+        en: "T{number} of the machine is {name}, {new} mm in diameter, but [tool.{table}], {old} mm in diameter, has this number: the table's other keys, such as spindle and paths, remain those of the former tool",
+        de: "T{number} der Maschine ist {name} mit {new} mm Durchmesser, diese Nummer hat aber [tool.{table}] mit {old} mm Durchmesser: die anderen Schlüssel der Tabelle, etwa spindle und paths, bleiben die des bisherigen Werkzeugs",
         help_en: "if this is another tool, give it a table of its own and change `number` in the old one",
         help_de: "ist es ein anderes Werkzeug, ihm eine eigene Tabelle geben und `number` in der alten ändern",
     }

@@ -290,8 +290,17 @@ messages! {
     }
     /// A text that exceeds the limit of its length when variables are replaced.
     TEXT_LENGTH: EndlessMacro {
-        en: "{text}, line {line}, column {column}: the text becomes longer than {limit} bytes",
-        de: "{text}, Zeile {line}, Spalte {column}: der Text wird länger als {limit} Bytes",
+        en: "{text}, line {line}, column {column}: replacing the variables makes the text longer than {limit} bytes",
+        de: "{text}, Zeile {line}, Spalte {column}: durch das Ersetzen der Variablen wird der Text länger als {limit} Bytes",
+        help_en: "look for variables that contain other variables several times: each level multiplies the text",
+        help_de: "nach Variablen suchen, die andere Variablen mehrmals enthalten: jede Ebene vervielfacht den Text",
+    }
+    /// A text in which more variables are replaced than the limit permits.
+    VARIABLE_COUNT: EndlessMacro {
+        en: "{text}, line {line}, column {column}: more than {limit} variables are replaced in this text",
+        de: "{text}, Zeile {line}, Spalte {column}: in diesem Text werden mehr als {limit} Variablen ersetzt",
+        help_en: "look for variables that contain other variables several times: each level multiplies the text",
+        help_de: "nach Variablen suchen, die andere Variablen mehrmals enthalten: jede Ebene vervielfacht den Text",
     }
     /// Statements or terms that are nested too deeply.
     TEXT_DEPTH: EndlessMacro {

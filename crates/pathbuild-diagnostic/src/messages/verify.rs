@@ -798,7 +798,7 @@ messages! {
     }
     /// A program that goes on after the last move of the one it is compared with.
     MOVES_TOO_MANY: MovesDiffer {
-        en: "the moves of the other program end in line {line}, but this program goes on",
-        de: "die Bewegungen des anderen Programms enden in Zeile {line}, dieses Programm geht aber weiter",
+        en: "the other program has no more moves, but this program goes on here",
+        de: "das andere Programm hat keine weiteren Bewegungen, dieses Programm geht hier aber weiter",
     }
 }

@@ -89,6 +89,17 @@ pub(super) enum Origin {
     Resume,
 }
 
+/// The word to which coordinates, F and other values of a block belong. On controls that obey one command per line, they belong to that command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ValueOwner {
+    /// A word that can move the machine or uses coordinates. On all other controls, the motion in effect.
+    Move,
+    /// A word that the interpreter executes, and that never moves the machine.
+    Command,
+    /// A word that the interpreter does not execute: its values are ignored.
+    NotFollowed,
+}
+
 impl Command {
     pub(super) fn group(self) -> Group {
         match self {

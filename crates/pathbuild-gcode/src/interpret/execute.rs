@@ -6,11 +6,10 @@ use pathbuild_diagnostic::{Diagnostic, Message, Severity, Text};
 use pathbuild_motion::{Action, Axes, Change, Group, Move, Pace, Step};
 
 use super::codes;
-use super::codes::{Command, Motion};
+use super::codes::{Command, Motion, ValueOwner};
 use super::evaluate::{Fault, Parameters, StatedProbes};
 use super::half_circles::DoubtfulArcs;
 use super::state::{ClearedZero, Heights, Options, State};
-use super::words::ValueOwner;
 use crate::dialect::{MCodeOrder, Percent, Rules, beginning_of};
 use crate::read::{Block, OWordKind, Problems, SourcePosition, Span};
 

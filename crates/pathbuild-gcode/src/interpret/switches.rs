@@ -4,10 +4,9 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message, Text};
 use pathbuild_motion::{Action, Axes, Change, Coolant, Corners, Group, Move, ToolLength, Turning};
 
-use super::codes::{self, Command, FeedUnit, Motion};
+use super::codes::{self, Command, FeedUnit, Motion, ValueOwner};
 use super::execute::{Interpreter, Slot, Values, limits, whole_number};
 use super::state::{INCH, StatedLength};
-use super::words::ValueOwner;
 use crate::dialect::{DwellUnit, FeedMode, UnitChange};
 use crate::read::{Block, Span};
 

@@ -4,7 +4,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Severity};
 use pathbuild_motion::{Action, Group, StatedWord, WordEffect};
 
-use super::codes::{self, Command, Motion};
+use super::codes::{self, Command, Motion, ValueOwner};
 use super::evaluate::{Scope, name_of, parameter_number};
 use super::execute::{AssignedParameter, Interpreter, Slot, ValueFault, Values, limits};
 use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
@@ -13,17 +13,6 @@ use crate::read::{Block, Span, Target, Value, Word};
 
 /// Number of decimals that marks the value of an expression, which has no decimals of its own.
 const EXPRESSION_DECIMALS: u8 = u8::MAX;
-
-/// The word to which coordinates, F and other values of a block belong. On controls that obey one command per line, they belong to that command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ValueOwner {
-    /// A word that can move the machine or uses coordinates. On all other controls, the motion in effect.
-    Move,
-    /// A word that the interpreter executes, and that never moves the machine.
-    Command,
-    /// A word that the interpreter does not execute: its values are ignored.
-    NotFollowed,
-}
 
 impl Interpreter<'_> {
     /// Sorts the words of a block and evaluates them.

@@ -127,7 +127,7 @@ impl Difference {
         let diagnostic = match (&self.found, &self.expected) {
             (Some(found), Some(expected)) => diagnostic_of_kind(self.kind, found, expected),
             (None, Some((line, _))) => Diagnostic::new(&say::MOVES_MISSING).with("line", u64::from(*line)),
-            (Some(_), None) => Diagnostic::new(&say::MOVES_TOO_MANY).with("line", 0_u64),
+            (Some(_), None) => Diagnostic::new(&say::MOVES_TOO_MANY),
             (None, None) => Diagnostic::new(&say::SHAPES_DIFFER).with("line", 0_u64),
         };
         diagnostic.at_line(self.found.map(|(line, _)| line), None)

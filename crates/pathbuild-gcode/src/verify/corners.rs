@@ -7,7 +7,7 @@ use pathbuild_motion::{Action, Change, Corners, Step};
 /// Rounding of corners in mm that the built-in posts permit.
 pub(super) const BUILT_IN_ROUNDING: f64 = 0.01;
 
-/// Factor for the rounding of numbers, such as those of a limit in inches.
+/// Factor by which corners may be rounded more than a limit permits, because converted numbers, such as those of a program in inches, are not exact.
 pub(super) const MARGIN: f64 = 1.0 + 1e-6;
 
 /// Rule that finds cuts whose corners the control may round by more than a limit: pass every step of a program, then call

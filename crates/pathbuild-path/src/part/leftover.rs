@@ -125,7 +125,7 @@ impl RingStretches {
     }
 }
 
-/// How far the cuts follow a ring that lies in another ring or around one, the best first.
+/// How well the cuts follow one of several nested rings, from best to worst.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Agreement {
     /// Cuts come near at least a part of the ring.

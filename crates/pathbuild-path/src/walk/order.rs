@@ -182,7 +182,7 @@ struct SegmentEnds {
     next: [u32; 2],
 }
 
-/// A square as column and row, see [`strip_number`].
+/// A square as column and row, see [`grid_index`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Square(u64, u64);
 
@@ -294,7 +294,7 @@ impl Squares {
     }
 
     fn within(reach: f64, point: Xy) -> Self {
-        let (columns, rows) = (strips_around(point.x, reach), strips_around(point.y, reach));
+        let (columns, rows) = (grid_indices_around(point.x, reach), grid_indices_around(point.y, reach));
         Self { first: Square(columns.start, rows.start), end: Square(columns.end, rows.end) }
     }
 
@@ -305,16 +305,16 @@ impl Squares {
 }
 
 pub(super) fn square(point: Xy) -> Square {
-    Square(strip_number(in_squares(point.x)), strip_number(in_squares(point.y)))
+    Square(grid_index(in_squares(point.x)), grid_index(in_squares(point.y)))
 }
 
 /// Returns the columns or rows near a coordinate: one, or two near a border.
-fn strips_around(coordinate: f64, reach: f64) -> Range<u64> {
+fn grid_indices_around(coordinate: f64, reach: f64) -> Range<u64> {
     let place = in_squares(coordinate);
     let from_middle = place - (place + ROUNDING_ADDEND - ROUNDING_ADDEND);
     let (is_first, is_last) = (from_middle < reach - 0.5, from_middle > 0.5 - reach);
-    let strip = strip_number(place);
-    strip.wrapping_sub(is_first.into())..strip.wrapping_add(is_last.into()).wrapping_add(1)
+    let index = grid_index(place);
+    index.wrapping_sub(is_first.into())..index.wrapping_add(is_last.into()).wrapping_add(1)
 }
 
 fn in_squares(coordinate: f64) -> f64 {
@@ -323,7 +323,7 @@ fn in_squares(coordinate: f64) -> f64 {
 
 /// Returns the number of the column or row that contains a coordinate; adjacent ones differ by one. Very far from the origin they are wider, but
 /// there only equal points coincide.
-fn strip_number(place: f64) -> u64 {
+fn grid_index(place: f64) -> u64 {
     (place + ROUNDING_ADDEND).to_bits()
 }
 

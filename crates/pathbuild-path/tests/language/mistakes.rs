@@ -553,7 +553,7 @@ fn a_second_text_on_an_element_says_so() {
     let equal = "mill 0,0 20,0\ntext 10,-0.3 \"B1\" height 1\ntext 10,-0.3 \"B1\" height 1\nend 20,0";
     assert_eq!(
         noted(&path(P, equal)).1,
-        ["a line at (0, 0) already has an equal text: delete one of the two"]
+        ["a line at (0, 0) already has the same text: delete one of the two"]
     );
     let polyline =
         "polyline 0,0 20,0 20,20\ntext 10,-0.3 \"B1\" height 1\ntext 19.7,10 \"B2\" height 1\nend 20,20";

@@ -73,7 +73,7 @@ impl Expanded {
         }
         self.resolved += 1;
         if self.resolved > MAX_VARIABLES {
-            return Err(Fault::new(&posts::TEXT_LENGTH, 0..0).with("limit", MAX_TEXT_BYTES));
+            return Err(Fault::new(&posts::VARIABLE_COUNT, 0..0).with("limit", MAX_VARIABLES));
         }
         let Some(value) = variables.get(name) else {
             self.undefined.push((self.text.len(), name.to_owned()));

@@ -475,7 +475,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Whether the output states the plane of arcs. This is assumed without a dialect, because the definition may do so in words of its own.
-    pub(super) fn has_planes(&self) -> bool {
+    pub(super) fn states_plane(&self) -> bool {
         let is_plane = |(what, _): (&Macro, u32)| *what == Macro::State(State::WorkPlane);
         self.target.is_none() || self.templates().flat_map(Template::macros).any(is_plane)
     }

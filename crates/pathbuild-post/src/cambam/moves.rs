@@ -271,7 +271,7 @@ impl Writer<'_> {
     /// a full circle after rounding, becomes a single line. An arc in a plane that the output does not state becomes chords.
     pub(super) fn arc(&mut self, movement: &Move, course: &Course) -> WriteResult {
         let options = &self.plan.definition.options;
-        let has_plane = course.arc().plane == Plane::Xy || self.plan.has_planes();
+        let has_plane = course.arc().plane == Plane::Xy || self.plan.states_plane();
         if options.arcs_as_lines || options.rotary.wrap || !has_plane {
             return self.chords(movement, course);
         }

@@ -1,4 +1,4 @@
-//! Expands macros to a number or a name of the program, or to words that depend on the state of the machine.
+//! Expands macros to values of the job, such as numbers and names, or to words that depend on the state of the machine.
 
 use pathbuild_diagnostic::{Diagnostic, messages::posts};
 use pathbuild_motion::{Coolant, Plane, Turning};

@@ -541,7 +541,8 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// Returns the limit on the number of bytes written, which depends on the number of moves. Expanding a macro costs an additional byte.
+/// Returns the limit on the number of bytes written, which depends on the number of moves. Each expansion of a macro counts as one more byte, so that
+/// macros that write nothing are limited as well.
 fn output_limit(plan: &Plan<'_>) -> OutputBudget {
     let moves = |operation: &Operation| -> usize {
         let of_steps: usize = operation.steps.iter().map(|step| moves_of(step, plan)).sum();

@@ -418,8 +418,14 @@ fn nesting_and_growth_have_an_end() {
     let doubled: Vec<_> =
         (0..31).map(|index| (format!("Q{index}"), format!("~Q{0}~~Q{0}~", index + 1))).collect();
     let with_end = |end: &str| [doubled.clone(), vec![("Q31".to_owned(), end.to_owned())]].concat();
-    assert!(texts(&run(&with_end("x")).unwrap_err())[0].contains("PB753"));
-    assert!(texts(&run(&with_end("")).unwrap_err())[0].contains("PB753"), "even of nothing");
+    let many = "more than 10000 variables are replaced in this text";
+    assert!(texts(&run(&with_end("x")).unwrap_err())[0].contains(many));
+    assert!(texts(&run(&with_end("")).unwrap_err())[0].contains(many), "even of nothing");
+    let of_length = |bytes: usize| text_with("~Q1~", &[("Q1", &"x".repeat(bytes))]);
+    // A mark of four bytes stands before each variable.
+    assert!(of_length(65_536 - 4).is_ok());
+    let found = texts(&of_length(65_537 - 4).unwrap_err());
+    assert!(found[0].contains("replacing the variables makes the text longer than 65536 bytes"), "{found:?}");
 }
 
 #[test]

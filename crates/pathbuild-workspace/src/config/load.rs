@@ -76,7 +76,7 @@ fn untrusted_repositories(
 pub(super) const MAX_CONFIGURATION_BYTES: u64 = 4 << 20;
 
 /// Checks the text of a configuration and returns its diagnostics.
-pub fn faults(file: &Utf8Path, text: &str) -> Vec<Diagnostic> {
+pub fn check_text(file: &Utf8Path, text: &str) -> Vec<Diagnostic> {
     parse(file, text, None).1
 }
 

@@ -21,7 +21,7 @@ pub mod types;
 
 pub use arguments::{GivenOptions, OptionValues, Overrides, SettingOption, number, positive, regex};
 pub use describe::{schema, settings, show, template};
-pub use load::{UserSettings, faults, load, repository};
+pub use load::{UserSettings, check_text, load, repository};
 pub use origin::{Origin, ResultKind, ShownSetting, SourcedValue};
 pub use pathbuild_db::system::clean;
 pub use settings::{Options, Settings};

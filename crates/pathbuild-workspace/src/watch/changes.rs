@@ -61,7 +61,7 @@ pub(super) enum WaitOutcome {
 const POLL_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Interval at which the configuration and the known files are checked while polling. [`PollWatcher`] does not suffice: it compares modification
-/// times in whole seconds, so it misses a second change within a second. Slightly longer than a second, to be on the safe side.
+/// times in whole seconds, so it misses a further change within the same second. Slightly longer than a second, to be on the safe side.
 const POLL_RESOLUTION: Duration = Duration::from_millis(1100);
 
 /// Interval at which the path of the working directory is checked.

@@ -6,7 +6,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
-use pathbuild_workspace::config::faults;
+use pathbuild_workspace::config::check_text;
 use pathbuild_workspace::files::{self, FILE_NAME};
 use pathbuild_workspace::machine::{self, Change, DescribedValue, Description, EditedConfiguration, Entry};
 use serde_json::json;
@@ -91,7 +91,7 @@ fn compare(
     };
     let edited = machine::edit(&file, &old, values).map_err(|problem| vec![*problem])?;
     let EditedConfiguration { text: new, changes, problems } = edited;
-    let faults = faults(&file, &new);
+    let faults = check_text(&file, &new);
     if faults.iter().any(Diagnostic::is_error) {
         return Err(faults);
     }

@@ -68,7 +68,7 @@ impl<'a> StaleSearch<'a> {
         programs.into_iter()
     }
 
-    /// Returns the names that former files of the jobs would have, outside the searched directories.
+    /// Returns the paths to which earlier runs may have written files of the same jobs, except in `directories`, which are searched anyway.
     pub(super) fn former_files(&self, directories: &[Utf8PathBuf]) -> impl Iterator<Item = Utf8PathBuf> {
         let searched: HashSet<&Utf8Path> = directories.iter().map(|directory| &**directory).collect();
         let stems = self.run.jobs.iter().map(|job| &job.stem);

@@ -52,7 +52,12 @@ pub fn run(context: &Context, args: &DiffArgs) -> Result<ExitStatus, Failure> {
     Ok(finish(context, &output, &comparison))
 }
 
-fn drawings(context: &Context, old: &Drawings, new: &Drawings, pictures: Option<Lang>) -> Comparison {
+fn drawings(
+    context: &Context,
+    old: &ComparedDrawings,
+    new: &ComparedDrawings,
+    pictures: Option<Lang>,
+) -> Comparison {
     let mut sessions = [Session::new(&old.workspace), Session::new(&new.workspace)];
     let [before, after] = &mut sessions;
     let mut before = Tree { session: before, inputs: &old.inputs, root: &old.root };
@@ -113,12 +118,12 @@ fn finish(context: &Context, output: &Output, comparison: &Comparison) -> ExitSt
 }
 
 pub(super) enum Side {
-    Drawings(Box<Drawings>),
+    Drawings(Box<ComparedDrawings>),
     Program(Box<ComparedProgram>),
 }
 
 /// A drawing, or the drawings below a directory, with their configuration.
-pub(super) struct Drawings {
+pub(super) struct ComparedDrawings {
     pub(super) workspace: Workspace,
     pub(super) inputs: Inputs,
     pub(super) root: Utf8PathBuf,
@@ -222,7 +227,7 @@ fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revisio
         refuse_submodules(context, revision, is_library.then_some(&workspace))?;
     }
     let inputs = if is_library { Inputs::default() } else { named };
-    Ok(Side::Drawings(Box::new(Drawings { workspace, inputs, root, revision })))
+    Ok(Side::Drawings(Box::new(ComparedDrawings { workspace, inputs, root, revision })))
 }
 
 /// Refuses to compare with a revision that lacks drawings because they are in a submodule. `library` is the workspace whose library is compared;
@@ -256,7 +261,7 @@ fn refuse_submodules(
     )))
 }
 
-impl Drawings {
+impl ComparedDrawings {
     /// Names the files of a revision in diagnostics as the user knows them. Removes the error that the revision has no drawings: in that case, all
     /// drawings are new.
     pub(super) fn name_files(&self, context: &Context, problems: &mut Vec<Diagnostic>) {
