@@ -148,23 +148,13 @@ impl Emitter<'_> {
         matches: &ArgumentMatches,
     ) -> Result<Run, String> {
         let (task, join) = (self.request.task, self.request.join.as_deref());
-        let mut diagnostics = matches.problems.clone();
         let workspace = session.workspace();
+        let mut diagnostics = matches.problems.clone();
         let selection = TargetSelection::new(session, memo, matches, join.is_some(), &mut diagnostics)
-            .ok_or_else(|| {
-                workspace.choose(
-                    "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml",
-                    "nichts zu schreiben: Zeichnungen, Pfade oder Verzeichnisse nennen oder `library` und `[emit] targets` in pathbuild.toml setzen",
-                )
-            })?;
+            .ok_or_else(|| nothing_to_emit(workspace).to_owned())?;
         let lacks_paths = join.is_some() && diagnostics.iter().any(Diagnostic::is_error);
-        let is_printed = task == Task::Print;
-        if is_printed && join.is_none() && selection.targets.len() > 1 {
-            let reason = workspace.choose(
-                "`-o -` writes a single program: name a single path",
-                "`-o -` schreibt ein einzelnes Programm: nur einen Pfad nennen",
-            );
-            return Err(reason.to_owned());
+        if task == Task::Print && join.is_none() && selection.targets.len() > 1 {
+            return Err(several_programs(workspace).to_owned());
         }
         let sheet = task.sheets(&workspace.settings);
         let builder = JobBuilder { session, post_processor: self.post_processor, join, sheet };
@@ -172,30 +162,37 @@ impl Emitter<'_> {
         if lacks_paths {
             jobs_mut(&mut plans).for_each(Job::leave_out);
         }
-        let are_together = session.out_dir().is_some() && join.is_none();
-        let (db, drawings) = (session.db(), selection.drawings());
-        let twice = leave_out_second_definitions(db, drawings, are_together, jobs_mut(&mut plans));
-        diagnostics.extend(twice);
-        if !matches.is_library && !is_printed {
-            leave_out_files_of_others(&builder, jobs_mut(&mut plans), &mut diagnostics);
-        }
+        self.leave_out_ambiguous(&builder, matches, &selection, &mut plans, &mut diagnostics);
         let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.job.as_ref()).collect();
         diagnostics.extend(warn_of_numbers(session, self.post_processor, &jobs));
         diagnostics.extend(plans.iter().flat_map(|plan| plan.value.problems()).cloned());
-        if is_printed
-            && plans.iter().filter_map(|plan| plan.value.remaining_job()).any(|job| job.files.len() > 1)
-        {
-            let reason = workspace.choose(
-                "`-o -` writes a single file: the program of this path has Z-probes and consists of several files",
-                "`-o -` schreibt eine einzelne Datei: das Programm dieses Pfads hat Z-Proben und besteht aus mehreren Dateien",
-            );
-            return Err(reason.to_owned());
+        let mut remaining = plans.iter().filter_map(|plan| plan.value.remaining_job());
+        if task == Task::Print && remaining.any(|job| job.files.len() > 1) {
+            return Err(several_files(workspace).to_owned());
         }
         build_and_settle(session, jobs_mut(&mut plans), task, self.post_processor);
         for answer in &mut plans {
             complete_inputs(answer, task);
         }
         Ok(Run { selection, plans, diagnostics })
+    }
+
+    /// Leaves out jobs whose paths several drawings define, and those whose files would replace programs of other paths.
+    fn leave_out_ambiguous(
+        &self,
+        builder: &JobBuilder<'_>,
+        matches: &ArgumentMatches,
+        selection: &TargetSelection,
+        plans: &mut [Answer<Plan>],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let Request { task, join, .. } = self.request;
+        let are_together = builder.session.out_dir().is_some() && join.is_none();
+        let (db, drawings) = (builder.session.db(), selection.drawings());
+        diagnostics.extend(leave_out_second_definitions(db, drawings, are_together, jobs_mut(plans)));
+        if !matches.is_library && *task != Task::Print {
+            leave_out_files_of_others(builder, jobs_mut(plans), diagnostics);
+        }
     }
 
     /// Settles the stale programs of earlier runs, writes the dependency file, and caches the results of this run.
@@ -207,43 +204,19 @@ impl Emitter<'_> {
         run: Run,
     ) -> Emission {
         let Run { selection, mut plans, mut diagnostics } = run;
-        let Request { task, join, deps, .. } = self.request;
-        let workspace = session.workspace();
+        let (task, workspace) = (self.request.task, session.workspace());
         report_cached(workspace, &selection, &plans);
         // A dependency file that lacks the rules of a path with errors would keep a build system from building the program of this path again.
         let has_all_rules = !workspace.has_error(&diagnostics)
             && plans.iter().all(|plan| plan.value.remaining_job().is_some());
-        if *task == (Task::Compare { moves_only: true }) {
-            let request = Request { deps: None, removes_stale: false, ..self.request.clone() };
-            let emit = |workspace: &Workspace| {
-                let emission = request.run(&mut Session::new(workspace), self.inputs);
-                emission.map(|emission| emission.delivered).unwrap_or_default()
-            };
-            comparison::add_compatible_notes(workspace, jobs_mut(&mut plans), emit);
-        }
+        self.add_compatible_notes(workspace, &mut plans);
         let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.job.as_ref()).collect();
-        let earlier = EarlierPrograms {
-            session,
-            task: *task,
-            post_processor: self.post_processor,
-            join: join.as_deref(),
-            targets: &selection.targets,
-            arguments: &matches.arguments,
-            named: &selection.named,
-            covered: &|| &selection.covered,
-            directories: &selection.directories,
-            jobs: &jobs,
-        };
-        let StaleOutcome { older, removed, mut outdated, unselected } =
-            earlier.find_and_settle(self.request.removes_stale, &mut diagnostics);
-        let unselected = report_unselected(session, &unselected, &mut HashMap::new());
-        let errors = unselected.iter().filter(|finding| workspace.has_error([*finding]));
-        outdated.extend(errors.filter_map(|finding| finding.file.clone()));
-        diagnostics.extend(unselected);
+        let StaleOutcome { older, removed, outdated, .. } =
+            self.settle_earlier(session, matches, &selection, &jobs, &mut diagnostics);
         diagnostics.extend(plans.iter().filter_map(|plan| plan.value.lowered_error(workspace)));
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
-        if let Some(file) = deps.as_ref().filter(|_| has_all_rules) {
+        if let Some(file) = self.request.deps.as_ref().filter(|_| has_all_rules) {
             let jobs = plans.iter().filter_map(|plan| plan.value.remaining_job());
             diagnostics.extend(deps::write(session, file, jobs, self.post_processor));
         }
@@ -257,6 +230,69 @@ impl Emitter<'_> {
         }
         Emission { delivered, removed, outdated, diagnostics: session.with_hints(diagnostics) }
     }
+
+    /// Adds a note to each problem of a file that equals the program written with `--compatible`, if moves are compared.
+    fn add_compatible_notes(&self, workspace: &Workspace, plans: &mut [Answer<Plan>]) {
+        if self.request.task != (Task::Compare { moves_only: true }) {
+            return;
+        }
+        let request = Request { deps: None, removes_stale: false, ..self.request.clone() };
+        let emit = |workspace: &Workspace| {
+            let emission = request.run(&mut Session::new(workspace), self.inputs);
+            emission.map(|emission| emission.delivered).unwrap_or_default()
+        };
+        comparison::add_compatible_notes(workspace, jobs_mut(plans), emit);
+    }
+
+    /// Settles the stale programs of earlier runs, including those of paths that this run does not select.
+    fn settle_earlier(
+        &self,
+        session: &mut Session<'_>,
+        matches: &ArgumentMatches,
+        selection: &TargetSelection,
+        jobs: &[&Job],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> StaleOutcome {
+        let earlier = EarlierPrograms {
+            session,
+            task: self.request.task,
+            post_processor: self.post_processor,
+            join: self.request.join.as_deref(),
+            targets: &selection.targets,
+            arguments: &matches.arguments,
+            named: &selection.named,
+            covered: &|| &selection.covered,
+            directories: &selection.directories,
+            jobs,
+        };
+        let mut outcome = earlier.find_and_settle(self.request.removes_stale, diagnostics);
+        let unselected = report_unselected(session, &outcome.unselected, &mut HashMap::new());
+        let errors = unselected.iter().filter(|finding| session.workspace().has_error([*finding]));
+        outcome.outdated.extend(errors.filter_map(|finding| finding.file.clone()));
+        diagnostics.extend(unselected);
+        outcome
+    }
+}
+
+fn nothing_to_emit(workspace: &Workspace) -> &str {
+    workspace.choose(
+        "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml",
+        "nichts zu schreiben: Zeichnungen, Pfade oder Verzeichnisse nennen oder `library` und `[emit] targets` in pathbuild.toml setzen",
+    )
+}
+
+fn several_programs(workspace: &Workspace) -> &str {
+    workspace.choose(
+        "`-o -` writes a single program: name a single path",
+        "`-o -` schreibt ein einzelnes Programm: nur einen Pfad nennen",
+    )
+}
+
+fn several_files(workspace: &Workspace) -> &str {
+    workspace.choose(
+        "`-o -` writes a single file: the program of this path has Z-probes and consists of several files",
+        "`-o -` schreibt eine einzelne Datei: das Programm dieses Pfads hat Z-Proben und besteht aus mehreren Dateien",
+    )
 }
 
 /// The results of [`Emitter::perform`], with which [`Emitter::conclude`] goes on.
