@@ -95,13 +95,7 @@ impl Canvas {
 
     /// Hides everything that is already drawn in an area. A clip path for the other areas would cost a renderer the memory of two more images of the page.
     pub(super) fn cover(&mut self, [[x, y], [right, bottom]]: [Point; 2]) {
-        self.raw(&format!(
-            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#fff\"/>",
-            svg_number(x),
-            svg_number(y),
-            svg_number(right - x),
-            svg_number(bottom - y)
-        ));
+        self.rect([x, y], [right - x, bottom - y], "fill=\"#fff\"");
     }
 
     pub(super) fn path(&mut self, data: &str, attributes: &str) {
@@ -120,6 +114,12 @@ impl Canvas {
             }
         }
         self.text.push_str(data);
+    }
+
+    /// Adds a rectangle with this upper left corner and size.
+    pub(super) fn rect(&mut self, at: Point, size: Point, attributes: &str) {
+        let ([x, y], [width, height]) = (at.map(svg_number), size.map(svg_number));
+        self.raw(&format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {attributes}/>"));
     }
 
     pub(super) fn circle(&mut self, [x, y]: Point, radius: f64, attributes: &str) {

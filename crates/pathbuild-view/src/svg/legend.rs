@@ -276,11 +276,7 @@ pub(super) fn draw_depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point
     let mut x = left + 8.0 + 7.0 * high_label.chars().count() as f64;
     for step in 0..DEPTH_STEPS {
         let color = color(f64::from(step) / f64::from(DEPTH_STEPS - 1));
-        canvas.raw(&format!(
-            "<rect x=\"{}\" y=\"{}\" width=\"8.5\" height=\"10\" fill=\"{color}\"/>",
-            svg_number(x),
-            svg_number(y - 9.0)
-        ));
+        canvas.rect([x, y - 9.0], [8.5, 10.0], &format!("fill=\"{color}\""));
         x += 8.0;
     }
     canvas.text([x + 8.0, y], 10.5, Anchor::Start, "", &label(low));

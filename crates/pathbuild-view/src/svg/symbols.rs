@@ -376,13 +376,8 @@ fn draw_number(canvas: &mut Canvas, order: u32, at: Point) {
     let style = format!("fill=\"#fff\" fill-opacity=\"0.85\" stroke=\"{INK_COLOUR}\" stroke-width=\"0.6\"");
     let width = number_width(order);
     if width > 2.0 * NUMBER_RADIUS {
-        canvas.raw(&format!(
-            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{NUMBER_RADIUS}\" {style}/>",
-            svg_number(at[0] - width / 2.0),
-            svg_number(at[1] - NUMBER_RADIUS),
-            svg_number(width),
-            svg_number(2.0 * NUMBER_RADIUS)
-        ));
+        let corner = [at[0] - width / 2.0, at[1] - NUMBER_RADIUS];
+        canvas.rect(corner, [width, 2.0 * NUMBER_RADIUS], &format!("rx=\"{NUMBER_RADIUS}\" {style}"));
     } else {
         canvas.circle(at, NUMBER_RADIUS, &style);
     }
@@ -460,11 +455,7 @@ pub(super) fn draw_ends(
     }
     if let Some(end) = end {
         let [x, y] = place.to_page(end.shape.start());
-        canvas.raw(&format!(
-            "<rect x=\"{}\" y=\"{}\" width=\"9\" height=\"9\" fill=\"{INK_COLOUR}\" stroke=\"#fff\"/>",
-            svg_number(x - 4.5),
-            svg_number(y - 4.5)
-        ));
+        canvas.rect([x - 4.5, y - 4.5], [9.0, 9.0], &format!("fill=\"{INK_COLOUR}\" stroke=\"#fff\""));
         draw_label(canvas, room, [x, y], [-8.0, -11.0], shown.choose("end", "Ende"), INK_COLOUR);
     }
     canvas.close();

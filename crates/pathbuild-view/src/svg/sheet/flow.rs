@@ -1,7 +1,7 @@
 //! Arranges blocks of text in columns and on pages.
 
 use crate::scene::Point;
-use crate::svg::canvas::{Anchor, Canvas, INK_COLOUR, OTHER_COLOUR, svg_number, wrap_text};
+use crate::svg::canvas::{Anchor, Canvas, INK_COLOUR, OTHER_COLOUR, wrap_text};
 
 /// Letter size and line height in units of the page.
 pub(super) const LETTER_SIZE: f64 = 10.0;
@@ -211,11 +211,9 @@ impl Item {
             Self::Rule { from, to } => {
                 canvas.line(*from, *to, &format!("stroke=\"{OTHER_COLOUR}\" stroke-width=\"0.8\""));
             }
-            Self::Tick([x, y]) => canvas.raw(&format!(
-                "<rect x=\"{}\" y=\"{}\" width=\"10\" height=\"10\" fill=\"none\" stroke=\"{INK_COLOUR}\"/>",
-                svg_number(*x),
-                svg_number(*y)
-            )),
+            Self::Tick(at) => {
+                canvas.rect(*at, [10.0, 10.0], &format!("fill=\"none\" stroke=\"{INK_COLOUR}\""));
+            }
         }
     }
 }

@@ -262,16 +262,9 @@ fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corn
     for [from, to] in lines {
         canvas.line(from, to, &style);
     }
-    canvas.raw(&format!(
-        "<text x=\"{}\" y=\"{}\" font-size=\"9\" font-weight=\"bold\">X</text>",
-        svg_number(right + 3.0),
-        svg_number(y + 3.0)
-    ));
-    canvas.raw(&format!(
-        "<text x=\"{}\" y=\"{}\" font-size=\"9\" font-weight=\"bold\">Y</text>",
-        svg_number(x - 3.0),
-        svg_number(top - 2.0)
-    ));
+    for (name, at) in [("X", [right + 3.0, y + 3.0]), ("Y", [x - 3.0, top - 2.0])] {
+        canvas.text(at, 9.0, Anchor::Start, "font-weight=\"bold\"", name);
+    }
     canvas.close();
     lines
 }
@@ -288,13 +281,7 @@ const DIMENSION_DISTANCE: f64 = 22.0;
 fn draw_dimensions(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransform, [left, bottom]: Point) {
     let ([x0, y1], [x1, y0]) = (place.to_page(low), place.to_page(high));
     canvas.open(&format!("id=\"measures\" fill=\"none\" stroke=\"{INK_COLOUR}\" stroke-width=\"0.7\""));
-    canvas.raw(&format!(
-        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" stroke-dasharray=\"5 3\"/>",
-        svg_number(x0),
-        svg_number(y0),
-        svg_number(x1 - x0),
-        svg_number(y1 - y0)
-    ));
+    canvas.rect([x0, y0], [x1 - x0, y1 - y0], "stroke-dasharray=\"5 3\"");
     let y = bottom + DIMENSION_DISTANCE;
     arrows(canvas, [x0, y], [x1, y]);
     draw_extension_line(canvas, [x0, y1], [x0, y + 4.0]);
