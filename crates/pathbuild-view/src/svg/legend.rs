@@ -38,8 +38,16 @@ pub(super) struct Legend<'a> {
 }
 
 impl<'a> Legend<'a> {
-    pub(super) fn new(scene: &'a Scene, frame: &Frame, depths: &'a Depths, shown: VisibleParts) -> Self {
+    /// Lays out the legend of a scene, or of its stock.
+    pub(super) fn new(
+        scene: &'a Scene,
+        stock: Option<&'a MilledStock<'a>>,
+        frame: &Frame,
+        depths: &'a Depths,
+        shown: VisibleParts,
+    ) -> Self {
         let (findings, listed) = first_findings(&scene.findings, shown);
+        let overhang = stock.map_or(0.0, |stock| stock.legend_overhang(shown, [LEFT, 0.0], Frame::WIDTH));
         Self {
             scene,
             depths,
@@ -48,19 +56,9 @@ impl<'a> Legend<'a> {
             top: frame.bottom(),
             findings,
             listed,
-            stock: None,
-            overhang: 0.0,
+            stock,
+            overhang,
         }
-    }
-
-    pub(super) fn of_stock(
-        stock: &'a MilledStock<'a>,
-        frame: &Frame,
-        depths: &'a Depths,
-        shown: VisibleParts,
-    ) -> Self {
-        let overhang = stock.legend_overhang(shown, [LEFT, 0.0], Frame::WIDTH);
-        Self { stock: Some(stock), overhang, ..Self::new(stock.scene, frame, depths, shown) }
     }
 
     /// Returns the lower edge of the page in px.
@@ -71,42 +69,20 @@ impl<'a> Legend<'a> {
     /// Draws the legend. `hidden` are the numbers of the cutting order for which the picture has no room.
     pub(super) fn draw(&self, canvas: &mut Canvas, hidden: &[u32]) {
         canvas.open(&format!("id=\"legend\" fill=\"{INK_COLOUR}\""));
-        canvas.text(
-            [40.0, self.top + LINE_HEIGHT],
-            14.0,
-            Anchor::Start,
-            "font-weight=\"bold\"",
-            &self.scene.title,
-        );
-        canvas.text(
-            [40.0, self.top + 2.0 * LINE_HEIGHT],
-            10.5,
-            Anchor::Start,
-            &format!("fill=\"{TEXT_COLOUR}\""),
-            &self.facts(),
-        );
+        let line = |number: f64| [LEFT, self.top + number * LINE_HEIGHT];
+        canvas.text(line(1.0), 14.0, Anchor::Start, "font-weight=\"bold\"", &self.scene.title);
+        canvas.text(line(2.0), 10.5, Anchor::Start, &format!("fill=\"{TEXT_COLOUR}\""), &self.facts());
         if self.stock.is_none() {
-            draw_line_kinds(
-                canvas,
-                self.scene,
-                self.shown,
-                [40.0, self.top + 3.0 * LINE_HEIGHT],
-                Frame::WIDTH,
-            );
+            draw_line_kinds(canvas, self.scene, self.shown, line(3.0), Frame::WIDTH);
         }
         self.draw_scale_bar(canvas, self.top + 3.0 * LINE_HEIGHT);
         if let Some(stock) = self.stock {
-            stock.legend(canvas, self.shown, [LEFT, self.top + 4.0 * LINE_HEIGHT], Frame::WIDTH);
+            stock.legend(canvas, self.shown, line(4.0), Frame::WIDTH);
         } else {
-            draw_depths(canvas, self.depths, [40.0, self.top + 4.0 * LINE_HEIGHT]);
-            let left = 40.0 + DEPTHS_WIDTH;
-            draw_hidden_numbers(
-                canvas,
-                hidden,
-                self.shown,
-                [left, self.top + 4.0 * LINE_HEIGHT],
-                Frame::WIDTH - left,
-            );
+            let [left, y] = line(4.0);
+            draw_depths(canvas, self.depths, [left, y]);
+            let left = left + DEPTHS_WIDTH;
+            draw_hidden_numbers(canvas, hidden, self.shown, [left, y], Frame::WIDTH - left);
         }
         for (row, (finding, line)) in self.findings.iter().enumerate() {
             let y = self.top + self.overhang + (5.0 + row as f64) * LINE_HEIGHT;
@@ -117,7 +93,7 @@ impl<'a> Legend<'a> {
                 }
                 None => String::new(),
             };
-            canvas.text([40.0, y], LETTER_SIZE, Anchor::Start, &style, line);
+            canvas.text([LEFT, y], LETTER_SIZE, Anchor::Start, &style, line);
         }
         canvas.close();
     }

@@ -25,19 +25,23 @@ pub use sheet::{Sheet, SheetProbe, SheetTool, sheet_html, sheet_pages, sheet_svg
 use stock::MilledStock;
 pub use stock::{StockChange, has_stock, stock_change_svg};
 
-/// Draws a scene: the drawing and its moves, or the stock after all moves.
+/// Draws a scene: the drawing and its moves, or the stock after all moves. If the stock is unknown, its picture has only a legend and the findings.
 pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
-    if shown.stock {
-        return stock_svg(scene, shown);
-    }
-    let frame = Frame::of(scene);
+    let stock = shown.stock.then(|| MilledStock::of(scene));
+    let frame = stock.as_ref().map_or_else(|| Frame::of(scene), |stock| Frame::around(stock.extent()));
     let depths = Depths::of(scene);
-    let legend = legend::Legend::new(scene, &frame, &depths, shown);
+    let legend = legend::Legend::new(scene, stock.as_ref(), &frame, &depths, shown);
     let mut canvas = Canvas::new(Frame::WIDTH, legend.bottom());
     canvas.title(&scene.title);
     canvas.open("id=\"drawing\"");
     let mut room = OccupiedSpace::new(frame.area());
-    let hidden = drawing(&mut canvas, scene, &frame, &depths, shown, &mut room);
+    let hidden = match &stock {
+        None => drawing(&mut canvas, scene, &frame, &depths, shown, &mut room),
+        Some(stock) => {
+            stock.draw(&mut canvas, &frame, "stock");
+            Vec::new()
+        }
+    };
     symbols::draw_findings(&mut canvas, scene, &frame, &mut room, legend.listed);
     canvas.close();
     canvas.cover([[0.0, frame.area()[1][1]], [Frame::WIDTH, legend.bottom()]]);
@@ -73,21 +77,4 @@ fn drawing(
         hidden.extend(symbols::draw_above_moves(canvas, path, &place, shown, room));
     }
     hidden
-}
-
-/// Draws the stock of a scene. If the stock is unknown, the picture has only a legend and the findings.
-fn stock_svg(scene: &Scene, shown: VisibleParts) -> String {
-    let stock = MilledStock::of(scene);
-    let frame = Frame::around(stock.extent());
-    let depths = Depths { range: None };
-    let legend = legend::Legend::of_stock(&stock, &frame, &depths, shown);
-    let mut canvas = Canvas::new(Frame::WIDTH, legend.bottom());
-    canvas.title(&scene.title);
-    canvas.open("id=\"drawing\"");
-    stock.draw(&mut canvas, &frame, "stock");
-    symbols::draw_findings(&mut canvas, scene, &frame, &mut OccupiedSpace::new(frame.area()), legend.listed);
-    canvas.close();
-    canvas.cover([[0.0, frame.area()[1][1]], [Frame::WIDTH, legend.bottom()]]);
-    legend.draw(&mut canvas, &[]);
-    canvas.finish()
 }
