@@ -125,10 +125,10 @@ fn final_depths(path: &ScenePath) -> Vec<Option<f64>> {
 
 /// Returns the cuts of a path, from shallow to deep.
 pub(super) fn cuts(path: &ScenePath) -> Vec<CutLine<'_>> {
-    let mut places: BTreeMap<Vec<i64>, usize> = BTreeMap::new();
+    let mut places: BTreeMap<Line, usize> = BTreeMap::new();
     let mut cuts: Vec<CutLine<'_>> = Vec::new();
     for way in path.moves.iter().filter(|movement| movement.kind.cuts() && movement.is_placed()) {
-        let index = *places.entry(line_of(way)).or_insert(cuts.len());
+        let index = *places.entry(line_of(&way.way)).or_insert(cuts.len());
         let diameter = path.cutter(way).map(|(diameter, _)| diameter);
         match cuts.get_mut(index) {
             Some(cut) => {
@@ -147,23 +147,25 @@ fn deeper(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     a.into_iter().chain(b).reduce(f64::min)
 }
 
-/// Returns a key that is equal for moves along the same line, in either direction. It contains the ends and, for arcs, the centre and the side on
-/// which the arc runs.
-fn line_of(movement: &SceneMove) -> Vec<i64> {
-    let mut ends = [movement.from(), movement.to()].map(|end| end.map(micrometres));
-    ends.sort_unstable();
-    let mut line: Vec<i64> = ends.concat();
-    if let MoveShape::Arc(arc) = movement.way.shape {
-        line.extend(arc.centre.map(micrometres));
-        let goes_up = movement.from().map(micrometres) == ends[0];
+/// A line seen from above, regardless of direction: its ends in micrometres and, for arcs, the centre and the side on which the arc runs.
+pub(super) type Line = ([[i64; 2]; 2], Option<([i64; 2], bool)>);
+
+/// Returns the line along which a move runs.
+pub(super) fn line_of(way: &Move) -> Line {
+    let [from, to] = [way.from, way.to].map(|end| [end.x(), end.y()].map(micrometres));
+    let is_backwards = from > to;
+    let arc = match way.shape {
+        MoveShape::Line => None,
         // Both directions of a full circle are the same line.
-        line.push(i64::from(ends[0] == ends[1] || arc.clockwise == goes_up));
-    }
-    line
+        MoveShape::Arc(arc) => {
+            Some((arc.centre.map(micrometres), from != to && arc.clockwise != is_backwards))
+        }
+    };
+    (if is_backwards { [to, from] } else { [from, to] }, arc)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "saturates")]
-fn micrometres(value: f64) -> i64 {
+pub(super) fn micrometres(value: f64) -> i64 {
     (value * 1000.0).round() as i64
 }
 

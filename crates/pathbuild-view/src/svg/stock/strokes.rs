@@ -4,6 +4,7 @@ use pathbuild_motion::{Move, MoveShape, Position};
 
 use crate::extent::{Corners, with_margin};
 use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath, Tip};
+use crate::svg::moves::{Line, line_of, micrometres};
 
 /// Number of steps into which the deepest slope is divided. Each step has one colour.
 pub(super) const SLOPE_STEPS: f64 = 64.0;
@@ -70,27 +71,13 @@ pub(super) struct Stroke {
 }
 
 impl SweptArea {
-    /// Returns a key that is equal for areas that look the same: the move in micrometres, without heights and regardless of its direction, and the
-    /// diameter.
-    pub(super) fn key(&self) -> [i64; 8] {
-        let Move { from, to, shape, .. } = &self.way;
-        #[expect(clippy::cast_possible_truncation, reason = "saturates")]
-        let micrometres = |value: f64| (value * 1000.0).round() as i64;
-        let [mut first, mut last] = [from, to].map(|end| [end.at[0], end.at[1]].map(micrometres));
-        let is_backwards = first > last;
-        if is_backwards {
-            std::mem::swap(&mut first, &mut last);
-        }
-        let (centre, is_clockwise) = match shape {
-            MoveShape::Arc(arc) => (arc.centre, first != last && arc.clockwise != is_backwards),
-            MoveShape::Line => ([0.0; 2], false),
-        };
-        let [x, y, diameter] = [centre[0], centre[1], self.diameter].map(micrometres);
-        [first[0], first[1], last[0], last[1], x, y, i64::from(is_clockwise), diameter]
+    /// Returns a key that is equal for areas that look the same: the line and the diameter in micrometres.
+    pub(super) fn key(&self) -> (Line, i64) {
+        (line_of(&self.way), micrometres(self.diameter))
     }
 
     /// Returns the keys of the area and of the discs at its ends. A plunge sweeps only such a disc.
-    pub(super) fn keys(&self) -> [[i64; 8]; 3] {
+    pub(super) fn keys(&self) -> [(Line, i64); 3] {
         let disc = |end: Position| {
             let way = Move { from: end, to: end, shape: MoveShape::Line, ..self.way };
             Self { way, diameter: self.diameter }.key()
