@@ -180,6 +180,17 @@ impl ScenePath {
         self.tool_span(movement).map(|tool| (tool.diameter, tool.tip)).or(own)
     }
 
+    /// Returns the lowest Z at each element, reached by moves of these kinds.
+    pub(crate) fn depths(&self, is_such: impl Fn(MoveKind) -> bool) -> Vec<Option<f64>> {
+        let mut depths: Vec<Option<f64>> = vec![None; self.elements.len()];
+        for movement in self.moves.iter().filter(|movement| is_such(movement.kind)) {
+            if let Some(depth) = movement.element.and_then(|element| depths.get_mut(element as usize)) {
+                *depth = (*depth).into_iter().chain(movement.depth()).reduce(f64::min);
+            }
+        }
+        depths
+    }
+
     /// Returns the entry of [`tools`](Self::tools) for a move.
     pub(crate) fn tool_span(&self, movement: &SceneMove) -> Option<&ToolSpan> {
         let line = movement.line.unwrap_or(0);

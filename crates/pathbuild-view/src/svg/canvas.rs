@@ -236,10 +236,15 @@ impl Depths {
 
 /// Returns the colour at a fraction (0 to 1) of the range of depths.
 pub(super) fn color(share: f64) -> String {
-    let last = (DEPTH_COLOURS.len() - 1) as f64;
+    gradient(&DEPTH_COLOURS, share)
+}
+
+/// Returns the colour at a fraction (0 to 1) of a gradient through these colours, given as red, green and blue.
+pub(super) fn gradient(colours: &[[f64; 3]], share: f64) -> String {
+    let last = (colours.len() - 1) as f64;
     let place = share * last;
     let stop = place.floor().min(last - 1.0);
-    let [below, above] = [stop, stop + 1.0].map(|stop| DEPTH_COLOURS[index(stop)]);
+    let [below, above] = [stop, stop + 1.0].map(|stop| colours[index(stop)]);
     let [red, green, blue] =
         [0, 1, 2].map(|part| index((below[part] + (above[part] - below[part]) * (place - stop)).round()));
     format!("#{red:02x}{green:02x}{blue:02x}")

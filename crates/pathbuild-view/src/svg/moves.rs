@@ -68,7 +68,7 @@ pub(super) fn draw(
     canvas.close();
     if shown.arrows {
         canvas.open("id=\"arrows\"");
-        let bottoms = final_depths(path);
+        let bottoms = path.depths(|kind| matches!(kind, MoveKind::Mill | MoveKind::Mark));
         let is_bottom = |movement: &&CutLine<'_>| {
             movement.way.element.is_none_or(|element| movement.depth <= bottoms[element as usize])
         };
@@ -109,18 +109,6 @@ fn hole_radius(cut: &CutLine<'_>, path: &ScenePath, place: &PageTransform) -> Op
         |element: u32| matches!(path.elements[element as usize].shape, crate::scene::Shape::Circle { .. });
     let is_hole = cut.way.kind == MoveKind::Plunge && cut.way.element.is_none_or(is_circle);
     cut.diameter.filter(|_| is_hole).map(|diameter| (diameter / 2.0 * place.scale()).max(2.0))
-}
-
-fn final_depths(path: &ScenePath) -> Vec<Option<f64>> {
-    let mut bottoms: Vec<Option<f64>> = vec![None; path.elements.len()];
-    for movement in
-        path.moves.iter().filter(|movement| movement.kind.cuts() && movement.kind != MoveKind::Plunge)
-    {
-        let (Some(element), Some(z)) = (movement.element, movement.depth()) else { continue };
-        let bottom = &mut bottoms[element as usize];
-        *bottom = deeper(*bottom, Some(z));
-    }
-    bottoms
 }
 
 /// Returns the cuts of a path, from shallow to deep.

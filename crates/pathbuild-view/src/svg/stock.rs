@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::{Code, Lang};
 
-use super::canvas::{Anchor, Canvas, INK_COLOUR, mm, svg_number};
+use super::canvas::{Anchor, Canvas, INK_COLOUR, gradient, mm, svg_number};
 use super::frame::{Frame, LINE_HEIGHT, PageTransform, VisibleParts};
 use super::moves::path_data;
 use super::symbols;
@@ -239,7 +239,7 @@ impl<'s> MilledStock<'s> {
 
     fn color(&self, z: f64) -> String {
         let [top, low] = self.range;
-        depth_color(((top - z) / (top - low).max(1e-6)).clamp(0.0, 1.0))
+        gradient(&DEPTH_COLOURS, ((top - z) / (top - low).max(1e-6)).clamp(0.0, 1.0))
     }
 
     fn each_part(&self, mut each: impl FnMut(&FinishedPart, &ScenePath, usize)) {
@@ -276,10 +276,10 @@ impl<'s> MilledStock<'s> {
         let depths = format!("Z {} … {}", mm(top), mm(low));
         let all = [
             (true, UNTOUCHED_COLOUR.to_owned(), shown.choose("untouched", "unberührt")),
-            (has(StrokeKind::Cut), depth_color(0.0), depths.as_str()),
+            (has(StrokeKind::Cut), gradient(&DEPTH_COLOURS, 0.0), depths.as_str()),
             (
                 has(StrokeKind::Cut),
-                depth_color(1.0),
+                gradient(&DEPTH_COLOURS, 1.0),
                 shown.choose("the darker, the lower Z", "je dunkler, desto kleiner Z"),
             ),
             (
@@ -426,14 +426,4 @@ fn rectangle(place: &PageTransform, corners: Corners) -> String {
     let [[left, bottom], [right, top]] =
         corners.map(|corner| place.to_page(corner)).map(|corner| corner.map(svg_number));
     format!("M{left} {top}H{right}V{bottom}H{left}Z")
-}
-
-fn depth_color(share: f64) -> String {
-    let [red, green, blue] = [0, 1, 2].map(|part| {
-        let value = DEPTH_COLOURS[0][part] + (DEPTH_COLOURS[1][part] - DEPTH_COLOURS[0][part]) * share;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
-        let value = value.round() as u8;
-        value
-    });
-    format!("#{red:02x}{green:02x}{blue:02x}")
 }

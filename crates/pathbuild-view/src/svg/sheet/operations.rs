@@ -3,7 +3,7 @@
 use pathbuild_diagnostic::{Lang, Noun, counted};
 
 use super::data::{Sheet, SheetTool, localized_mm};
-use crate::scene::{Element, ElementKind, ScenePath, Shape};
+use crate::scene::{Element, ElementKind, MoveKind, ScenePath, Shape};
 use crate::svg::canvas::mm;
 
 /// Maximum number of rows. A longer table is of no use on paper.
@@ -62,8 +62,7 @@ fn row(operation: Operation, cutter: String) -> Vec<String> {
 }
 
 fn operations(path: &ScenePath, lang: Lang) -> Vec<Operation> {
-    let depths = depths(path);
-    let numbered = path.elements.iter().zip(depths);
+    let numbered = path.elements.iter().zip(path.depths(MoveKind::cuts));
     let mut numbered: Vec<(u32, ElementOperation)> = numbered
         .filter_map(|(element, depth)| Some((element.order?, element_operation(path, element, depth, lang))))
         .collect();
@@ -76,18 +75,6 @@ fn operations(path: &ScenePath, lang: Lang) -> Vec<Operation> {
         }
     }
     operations
-}
-
-/// Returns the lowest Z of the cuts of each element.
-pub(super) fn depths(path: &ScenePath) -> Vec<Option<f64>> {
-    let mut depths: Vec<Option<f64>> = vec![None; path.elements.len()];
-    for movement in path.moves.iter().filter(|movement| movement.kind.cuts()) {
-        let Some(depth) = movement.element.and_then(|element| depths.get_mut(element as usize)) else {
-            continue;
-        };
-        *depth = (*depth).into_iter().chain(movement.depth()).reduce(f64::min);
-    }
-    depths
 }
 
 fn element_operation(

@@ -3,8 +3,7 @@
 use pathbuild_diagnostic::Lang;
 
 use super::data::{Sheet, distinct, localized_mm};
-use super::operations;
-use crate::scene::{EmbeddedPath, ScenePath};
+use crate::scene::{EmbeddedPath, MoveKind, ScenePath};
 use crate::svg::canvas::mm;
 use crate::svg::legend::ranges;
 
@@ -104,7 +103,7 @@ fn sentence(runs: &[&Run<'_>], [height, top]: [f64; 2], lang: Lang) -> String {
 
 /// Returns the numbers of a path's elements by pieces of material, in ascending order.
 fn runs(path: &ScenePath) -> Vec<Run<'_>> {
-    let elements = path.elements.iter().zip(operations::depths(path));
+    let elements = path.elements.iter().zip(path.depths(MoveKind::cuts));
     let mut numbered: Vec<(u32, &EmbeddedPath, f64)> = elements
         .filter_map(|(element, lowest)| Some((element.order?, piece(path, element.path as usize)?, lowest?)))
         .collect();
