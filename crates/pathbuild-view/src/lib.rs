@@ -16,7 +16,7 @@ mod scene;
 mod svg;
 
 pub use build::{
-    DrawnSource, EmittedText, GcodeSource, IN_PROGRAM, Places, ProgramSource, drawn_path, findings,
+    DrawnSource, GcodeSource, GcodeText, IN_PROGRAM, Places, ProgramSource, drawn_path, findings,
     finished_part, gcode_path, keep_out, other_layers, outline, program_path,
 };
 pub use changes::{Change, ChangeKind, ComparedMove, ComparedMoves, Group, compare, groups, moves, phrase};
@@ -33,5 +33,5 @@ pub use scene::{
 pub use svg::sheet_pdf;
 pub use svg::{
     FindingPlace, Picture, Sheet, SheetProbe, SheetTool, StockChange, VisibleParts, changes_svg, cutout_svg,
-    escaped, has_stock, sheet_html, sheet_pages, sheet_svg, stock_change_svg, stock_cutout_svg, svg,
+    escaped, has_stock, sheet_html, sheet_svg, stock_change_svg, stock_cutout_svg, svg,
 };

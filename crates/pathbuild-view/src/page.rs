@@ -32,7 +32,7 @@ pub fn page(scene: &Scene, lang: Lang) -> String {
         _ => "",
     });
     fill_placeholders(TEMPLATE, &|name| match name {
-        "lang" => lang_code(lang),
+        "lang" => lang.choose("en", "de"),
         "title" => &title,
         "style" => STYLE,
         "viewer" => &viewer,
@@ -46,17 +46,10 @@ pub fn page(scene: &Scene, lang: Lang) -> String {
 pub fn live_page(lang: Lang) -> String {
     let viewer = fill_placeholders(VIEWER, &|_| "");
     fill_placeholders(LIVE_TEMPLATE, &|name| match name {
-        "lang" => lang_code(lang),
+        "lang" => lang.choose("en", "de"),
         "viewer" => &viewer,
         _ => "",
     })
-}
-
-fn lang_code(lang: Lang) -> &'static str {
-    match lang {
-        Lang::De => "de",
-        Lang::En => "en",
-    }
 }
 
 /// Replaces the placeholders `{{name}}` of a template by their values.

@@ -12,7 +12,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Message, Value, shown};
 use crate::scene::{BilingualText, Finding, Label, Point, Scene, ScenePath, Shape};
 
 pub use drawn::{DrawnSource, drawn_path, finished_part, keep_out, other_layers, outline};
-pub use program::{EmittedText, GcodeSource, ProgramSource, gcode_path, program_path};
+pub use program::{GcodeSource, GcodeText, ProgramSource, gcode_path, program_path};
 
 impl Scene {
     /// Sets the findings of a scene. `file` is the drawing shown. A finding about a parameter text is placed at that text; one about a finished part

@@ -25,26 +25,20 @@ pub struct ProgramSource<'a> {
     /// Native text of the program, in which moves are not split for the correction of heights; `None` to omit it.
     pub native: Option<&'a str>,
     /// Text of the program as written by `emit`; `None` to omit it.
-    pub emitted: Option<EmittedText<'a>>,
+    pub emitted: Option<GcodeText<'a>>,
     /// Speed of rapid moves in mm/min (the value of `--rapid`).
     pub rapid: Option<f64>,
 }
 
-/// The emitted text of a program.
+/// The text of a program.
 #[derive(Clone, Copy, Debug)]
-pub struct EmittedText<'a> {
+pub struct GcodeText<'a> {
     /// Path of the file that `emit` writes, if any.
     pub file: Option<&'a str>,
     /// Bytes of the text. Invalid UTF-8 is replaced when it is shown.
     pub bytes: &'a [u8],
     /// Dialect in which the text is read.
     pub dialect: Dialect,
-}
-
-#[derive(Clone, Copy)]
-struct ShownText<'a> {
-    bytes: &'a [u8],
-    dialect: Dialect,
 }
 
 /// Returns the scene of a path with its program.
@@ -56,10 +50,10 @@ pub fn program_path(source: &ProgramSource<'_>) -> ScenePath {
     for occurrence in &trace.occurrences {
         builder.occurrence(occurrence, &parts[occurrence.id]);
     }
-    let native_text = native.map(|text| ShownText { bytes: text.as_bytes(), dialect: Dialect::Native });
-    let emitted_text = emitted.map(|emitted| ShownText { bytes: emitted.bytes, dialect: emitted.dialect });
-    let shown = emitted_text.or(native_text);
-    let lines = |text: ShownText<'_>| lines_of_moves(program, text.bytes, text.dialect);
+    let native_text =
+        native.map(|text| GcodeText { file: None, bytes: text.as_bytes(), dialect: Dialect::Native });
+    let shown = emitted.or(native_text);
+    let lines = |text: GcodeText<'_>| lines_of_moves(program, text.bytes, text.dialect);
     builder.moves(program, trace, &shown.map(lines).unwrap_or_default());
     let native = native_text.filter(|_| emitted.is_some());
     let native = native.map(|text| NativeText { gcode: plain_lines(text.bytes), lines: lines(text) });

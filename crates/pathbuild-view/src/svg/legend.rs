@@ -7,8 +7,7 @@ use super::canvas::{
 use super::frame::{Frame, LINE_HEIGHT, VisibleParts};
 use super::stock::MilledStock;
 use super::symbols::SWEEP_COLOUR;
-use crate::scene::{Finding, MoveKind, Point, Scene};
-use pathbuild_diagnostic::Lang;
+use crate::scene::{BilingualText, Finding, MoveKind, Point, Scene};
 
 /// Left edge of the legend in px.
 const LEFT: f64 = 40.0;
@@ -278,10 +277,7 @@ fn first_findings(findings: &[Finding], shown: VisibleParts) -> (Vec<(Option<&Fi
 
 /// Returns the lines of a finding. Only the first line refers to the finding: it is drawn bold and in the finding's colour.
 fn lines<'a>(finding: &'a Finding, shown: VisibleParts) -> Vec<(Option<&'a Finding>, String)> {
-    let pick = |text: &'a crate::scene::BilingualText| match shown.lang {
-        Lang::En => text.en.as_str(),
-        Lang::De => text.de.as_str(),
-    };
+    let pick = |text: &'a BilingualText| shown.lang.choose(text.en.as_str(), text.de.as_str());
     let mut lines = Vec::new();
     let first = format!("{} · {}: {}", finding.number, finding.code, pick(&finding.message));
     for (row, line) in wrap_text(&first, FINDINGS_WIDTH, LETTER_SIZE).into_iter().enumerate() {

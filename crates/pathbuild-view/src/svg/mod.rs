@@ -19,9 +19,9 @@ pub use frame::VisibleParts;
 use frame::{Frame, OccupiedSpace};
 #[cfg(not(feature = "pictures"))]
 pub use sheet::sheet_pdf;
+pub use sheet::{Sheet, SheetProbe, SheetTool, sheet_html, sheet_svg};
 #[cfg(feature = "pictures")]
-pub(crate) use sheet::xmp;
-pub use sheet::{Sheet, SheetProbe, SheetTool, sheet_html, sheet_pages, sheet_svg};
+pub(crate) use sheet::{sheet_pages, xmp};
 use stock::MilledStock;
 pub use stock::{StockChange, has_stock, stock_change_svg};
 

@@ -11,7 +11,7 @@ use pathbuild_db::{
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_path::{KeepOut, PathName};
-use pathbuild_view::{self as view, BilingualText, EmittedText, Parameter, Scene, ScenePath, Sheet};
+use pathbuild_view::{self as view, BilingualText, GcodeText, Parameter, Scene, ScenePath, Sheet};
 
 use super::build::{BuiltProgram, build};
 use super::options::{self, OutputSettings, write_settings};
@@ -189,7 +189,7 @@ impl Session<'_> {
         let refused: Vec<Diagnostic> = refused.map(with_place).collect();
         let refusal = refused.first().map(|problem| BilingualText::of(|lang| problem.text(lang)));
         refusals.extend(refused);
-        let emitted = emitted.as_ref().map(|emitted| EmittedText {
+        let emitted = emitted.as_ref().map(|emitted| GcodeText {
             file: is_written.then_some(emitted.file.as_str()),
             bytes: &emitted.bytes,
             dialect: emitted.dialect,

@@ -11,7 +11,7 @@ use pathbuild_gcode::provenance::Provenance;
 use pathbuild_path::{ElementParameters, PathName, PathRole};
 use pathbuild_toolpath::{Correction, PlannedMove, Program, ProgramStep};
 use pathbuild_view::{
-    self as view, DrawnSource, EmittedText, Example, FinishedPart, ProgramSource, Scene, ScenePath,
+    self as view, DrawnSource, Example, FinishedPart, GcodeText, ProgramSource, Scene, ScenePath,
 };
 
 use super::work::with_file_and_path;
@@ -128,7 +128,7 @@ pub(crate) struct ProgramDetails<'a> {
     /// Whether to add the native text.
     pub(crate) has_native: bool,
     /// The text as written by `emit`, if it is to be added.
-    pub(crate) emitted: Option<EmittedText<'a>>,
+    pub(crate) emitted: Option<GcodeText<'a>>,
 }
 
 /// Returns the scene of a program, with the elements from which its moves come; `None` if a drawing changed in the meantime. `details` selects the

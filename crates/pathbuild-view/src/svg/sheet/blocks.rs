@@ -203,10 +203,10 @@ pub(super) fn facts(sheet: &Sheet, lang: Lang) -> Vec<Block> {
         facts.fact("spindle", "Spindel", spindle(tool, lang));
     }
     facts.heading("Feeds in mm/min", "Vorschübe in mm/min");
-    let feeds = |is_meant: fn(MoveKind) -> bool| format_numbers(&feeds(sheet, is_meant));
-    facts.fact("milling", "Fräsen", feeds(|kind| kind == MoveKind::Mill));
-    facts.fact("marking", "Markieren", feeds(|kind| kind == MoveKind::Mark));
-    facts.fact("plunging", "Eintauchen", feeds(|kind| kind == MoveKind::Plunge));
+    let feeds = |kind| format_numbers(&feeds(sheet, kind));
+    facts.fact("milling", "Fräsen", feeds(MoveKind::Mill));
+    facts.fact("marking", "Markieren", feeds(MoveKind::Mark));
+    facts.fact("plunging", "Eintauchen", feeds(MoveKind::Plunge));
     facts.fact("rapid", "Eilgang", sheet.rapid.map(mm));
     facts.heading("Toolpath of the cutter's tip", "Weg der Fräserspitze");
     for (axis, extent) in ["X", "Y", "Z"].into_iter().zip(sheet.cutting_box) {

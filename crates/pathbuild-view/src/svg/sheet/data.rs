@@ -107,11 +107,11 @@ pub(super) fn shown_box(sheet: &Sheet) -> Corners {
     bounding_box(removed_box(sheet).into_iter().chain(moves).chain(clamps).chain(points)).unwrap_or_default()
 }
 
-/// Returns the feeds in mm/min of the given kinds of moves, in ascending order without duplicates.
-pub(super) fn feeds(sheet: &Sheet, is_meant: impl Fn(MoveKind) -> bool) -> Vec<f64> {
+/// Returns the feeds in mm/min of a kind of moves, in ascending order without duplicates.
+pub(super) fn feeds(sheet: &Sheet, kind: MoveKind) -> Vec<f64> {
     let moves = sheet.scene.paths.iter().flat_map(|path| &path.moves);
     let mut feeds: Vec<f64> = moves
-        .filter(|movement| is_meant(movement.kind))
+        .filter(|movement| movement.kind == kind)
         .filter_map(|movement| movement.way.pace.feed())
         .collect();
     feeds.sort_by(f64::total_cmp);

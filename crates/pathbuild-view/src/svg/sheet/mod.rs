@@ -20,11 +20,7 @@ use crate::svg::canvas::escaped;
 
 use data::PAPER;
 pub use data::{Sheet, SheetProbe, SheetTool};
-
-/// Returns the pages of a setup sheet, each as an SVG file.
-pub fn sheet_pages(sheet: &Sheet, lang: Lang) -> Vec<String> {
-    page::pages_as_svg(sheet, lang)
-}
+pub(crate) use page::sheet_pages;
 
 /// Returns all pages in one SVG file, stacked vertically.
 pub fn sheet_svg(sheet: &Sheet, lang: Lang) -> String {
@@ -43,10 +39,7 @@ pub fn sheet_svg(sheet: &Sheet, lang: Lang) -> String {
 
 /// Returns all pages in one HTML file, for viewing and printing.
 pub fn sheet_html(sheet: &Sheet, lang: Lang) -> String {
-    let code = match lang {
-        Lang::En => "en",
-        Lang::De => "de",
-    };
+    let code = lang.choose("en", "de");
     let mut text = format!("<!doctype html>\n<html lang=\"{code}\">\n<meta charset=\"utf-8\">\n");
     text.push_str("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n");
     _ = writeln!(text, "<title>{}</title>", escaped(&sheet.title));

@@ -35,7 +35,8 @@ pub(super) struct Page {
     pub(super) picture: Option<PlacedPicture>,
 }
 
-pub(super) fn pages_as_svg(sheet: &Sheet, lang: Lang) -> Vec<String> {
+/// Returns the pages of a setup sheet, each as an SVG file.
+pub(crate) fn sheet_pages(sheet: &Sheet, lang: Lang) -> Vec<String> {
     let pages = pages(sheet, lang);
     let count = pages.len();
     let drawn = pages.iter().enumerate().map(|(index, page)| {
@@ -78,24 +79,16 @@ pub(super) fn pages(sheet: &Sheet, lang: Lang) -> Vec<Page> {
         let column = Column::new([LEFT_EDGE, below + 12.0], [RIGHT_EDGE, BOTTOM_EDGE]);
         rest = lay_out(rest, column, &mut first.items).0;
     }
+    let whole_page = Column::new([LEFT_EDGE, TEXT_TOP], [RIGHT_EDGE, BOTTOM_EDGE]);
     let mut pages = vec![first];
     while !rest.is_empty() {
         let mut page = Page::default();
-        let column = Column::new([LEFT_EDGE, TEXT_TOP], [RIGHT_EDGE, BOTTOM_EDGE]);
-        rest = lay_out(rest, column, &mut page.items).0;
+        rest = lay_out(rest, whole_page, &mut page.items).0;
         pages.push(page);
     }
-    if !is_whole {
-        let area = Column::new([LEFT_EDGE, TEXT_TOP], [RIGHT_EDGE, BOTTOM_EDGE]);
-        pages.extend(
-            picture::larger_picture(sheet, area)
-                .map(|placed| Page { picture: Some(placed), ..Page::default() }),
-        );
-    }
-    let area = Column::new([LEFT_EDGE, TEXT_TOP], [RIGHT_EDGE, BOTTOM_EDGE]);
-    pages.extend(
-        picture::stock_picture(sheet, area).map(|placed| Page { picture: Some(placed), ..Page::default() }),
-    );
+    let larger = if is_whole { None } else { picture::larger_picture(sheet, whole_page) };
+    let pictures = larger.into_iter().chain(picture::stock_picture(sheet, whole_page));
+    pages.extend(pictures.map(|placed| Page { picture: Some(placed), ..Page::default() }));
     pages
 }
 
