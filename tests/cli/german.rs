@@ -190,7 +190,7 @@ fn refusals_in_german() {
         "emit a.dxf",
         "emit",
         "emit a.dxf --join x",
-        "emit a.dxf --date 2026-11-21",
+        "emit a.dxf --dialect grbl",
         "emit a.dxf --date hello",
         "emit . -o - --feed 1 --rapid 1 --sweep-height 20",
         "post",

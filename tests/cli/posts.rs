@@ -433,7 +433,7 @@ fn what_a_post_cannot_do_is_refused() {
             "emit 1234.1P --post lossy.cbpp",
             "emit 1234.1P --post open.cbpp --dialect grbl --format concise",
             "emit 1234.1P --post open.cbpp -o out",
-            "emit 1234.1P --date 2026-11-21",
+            "emit 1234.1P --dialect grbl",
             "emit 1234.1P --run-post-build --check --post grbl",
         ]
     ));

@@ -365,8 +365,25 @@ fn a_table_that_matches_nothing_is_a_warning_where_its_files_were_checked() {
     let wild = entry("reason = \"why\"\n").replace("parts/1235.1P.dxf", "parts/*");
     let place = place.file("pathbuild.toml", wild);
     assert!(is_told(&place, "") && !is_told(&place, "parts/1235.1P.dxf"));
+    let mut place = place;
+    for (code, is_judged) in [("PB115", true), ("PB606", false)] {
+        place = place.file("pathbuild.toml", entry("reason = \"why\"\n").replace("PB114", code));
+        assert_eq!(is_told(&place, ""), is_judged, "only `emit` finds PB606");
+    }
     let place = place.file("pathbuild.toml", entry(""));
     assert!(!is_told(&place, ""), "a table without a reason is a setting, not a waiver");
+}
+
+/// `emit` writes what a waiver accepts on the date of the run, also in native programs, which contain no date.
+#[test]
+fn emit_accepts_until_the_last_day() {
+    let place = place().file("pathbuild.toml", entry("reason = \"why\"\nuntil = 2031-12-31\n"));
+    let run = |date: &str| {
+        place.run(&format!("emit parts/1235.1P.dxf --feed 100 --rapid 1000 --sweep-height 9 --date {date}"))
+    };
+    let (last, after) = (run("2031-12-31"), run("2032-01-01"));
+    assert!(last.status == Some(0) && !last.stderr.contains("PB114"), "{last}");
+    assert!(after.status == Some(0) && after.stderr.contains("warning[PB114]"), "{after}");
 }
 
 #[test]

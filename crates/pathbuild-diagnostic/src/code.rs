@@ -286,6 +286,11 @@ impl Code {
     pub fn can_be_lowered(self) -> bool {
         self.severity() == Severity::Warning || self.number() >= 610
     }
+
+    /// Whether such problems are found in programs, or when programs are written. `check`, which judges drawings, does not search for them.
+    pub fn is_about_programs(self) -> bool {
+        matches!(self.number(), 514 | 520 | 522..=524 | 528 | 530 | 601..=609 | 701..=789 | 791)
+    }
 }
 
 /// Formats the code as `PB203`.

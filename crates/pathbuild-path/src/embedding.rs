@@ -187,12 +187,11 @@ impl StatedHeight {
         Some(Self { origin: probe.origin.clone(), height: probe.height, fault: Some(fault) })
     }
 
-    /// Returns the height of a sweep with its own S.
+    /// Returns the height of a sweep with its own S; `None` if it has the S of the path.
     fn of_own_sweep(path: &Path, segment: &Segment) -> Option<Self> {
         let SegmentKind::Sweep { height: Some(height) } = segment.kind else { return None };
-        let text = path.drawn.text(path.element(segment).text);
-        let fault = text.and_then(|text| text.fault_of(Letter::S));
-        Some(Self { origin: path.origin(segment), height, fault })
+        let fault = path.drawn.text(path.element(segment).text)?.fault_of(Letter::S)?;
+        Some(Self { origin: path.origin(segment), height, fault: Some(fault) })
     }
 }
 

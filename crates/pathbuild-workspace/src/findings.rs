@@ -8,7 +8,7 @@ use std::hash::Hash as Hashed;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::system::FileKind;
+use pathbuild_db::system::{FileKind, is_drawing};
 use pathbuild_diagnostic::messages::{outputs, part};
 use pathbuild_diagnostic::{Code, Diagnostic, Message};
 
@@ -98,17 +98,23 @@ impl Workspace {
         let covered: Vec<String> =
             coverage.files.iter().map(|file| severities.configured_name(file)).collect();
         let entries = self.settings.tables.severity_in.value.iter().filter(|entry| entry.waiver.is_stated());
-        let is_covered = |pattern: &Pattern| match pattern.literal() {
-            Some(file) if covered.iter().any(|covered| covered == file) => true,
-            Some(file) => coverage.has_directories && !self.has_configured(file),
-            None => coverage.is_library && covered.iter().any(|file| pattern.matches(file)),
+        let is_covered = |entry: &FileSeverities, pattern: &Pattern| {
+            let is_judged = |code: Code, file: &str| !is_drawing(file.as_ref()) || !code.is_about_programs();
+            let are_judged = |file: &String| entry.levels.iter().all(|(code, _)| is_judged(*code, file));
+            let is_covered = covered.iter().any(|file| pattern.matches(file) && are_judged(file));
+            match pattern.literal() {
+                Some(file) => is_covered || coverage.has_directories && !self.has_configured(file),
+                None => is_covered && coverage.is_library,
+            }
         };
         let is_used = |entry: &FileSeverities| {
             found.iter().any(|(code, file)| {
                 entry.levels.iter().any(|(known, _)| known == code) && entry.concerns(file)
             })
         };
-        let unused = entries.filter(|entry| !is_used(entry) && entry.files.iter().all(is_covered));
+        let are_covered =
+            |entry: &FileSeverities| entry.files.iter().all(|pattern| is_covered(entry, pattern));
+        let unused = entries.filter(|entry| !is_used(entry) && are_covered(entry));
         unused.map(|entry| entry.waiver.unused_warning(configuration)).collect()
     }
 

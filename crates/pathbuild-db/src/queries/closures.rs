@@ -66,13 +66,9 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
         return closure;
     }
     let mut walk = ClosureWalk::new(db, target.role(db));
-    if missing.is_empty() {
-        walk.visit(root, 0);
-        walk.estimate_moves(root);
-    } else {
-        walk.reached.push(root);
-        walk.report_all(root, &missing);
-    }
+    walk.report_all(root, &missing);
+    walk.visit(root, 0);
+    walk.estimate_moves(root);
     Closure {
         root: Some(root),
         reached: walk.reached,
@@ -100,7 +96,8 @@ fn closure_without_embeddings<'db>(
     (is_lone && is_within).then(closure)
 }
 
-/// Returns a target's path with its values, and errors about missing values. `None` if the file has no such path.
+/// Returns a target's path with its values, and errors about missing values. With these, the values are those of a check, so that the path's other
+/// errors are found as well. `None` if the file has no such path.
 pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Diagnostic>)> {
     let name = NameKey::of(db, &PathName::new(target.name(db)));
     let file = target.file(db);
@@ -110,12 +107,11 @@ pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Dia
         Role::Checked => index.examples.clone(),
         Role::CheckedWith(bindings) => bindings.clone(),
     };
-    let missing = if index.header.is_sound && !bindings.has_all(&index.header.definitions) {
-        raw_path(db, file, name)?.missing_values(&bindings)
-    } else {
-        Vec::new()
-    };
-    Some((Instance::new(db, file, name, bindings), missing))
+    if bindings.has_all(&index.header.definitions) {
+        return Some((Instance::new(db, file, name, bindings), Vec::new()));
+    }
+    let missing = raw_path(db, file, name)?.missing_values(&bindings);
+    Some((Instance::new(db, file, name, index.examples.clone()), missing))
 }
 
 impl Closure<'_> {

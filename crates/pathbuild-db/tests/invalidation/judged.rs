@@ -34,6 +34,20 @@ fn a_path_is_judged_with_the_values_that_it_is_given() {
     assert_eq!(checked(Role::Emitted), ["PB302"]);
 }
 
+/// Without values, the path is judged with the example values, so its other errors and no false ones are found as well.
+#[test]
+fn missing_values_hide_no_other_error() {
+    let with_error = |error: &str| {
+        let drawing = format!(
+            "layer 1114.1P\nstart 0,0 \"T5 O3 I1 Mx :B0,9\"\nmill 0,0 20,0 \"B=B\"\nmill 20,0 40,0 \"{error}\"\n\
+             end 40,0"
+        );
+        codes(&[("lib/1114.1P.dxf", &drawing)], "lib/1114.1P.dxf", "1114.1P", Role::Emitted)
+    };
+    assert_eq!(with_error("B1 X5"), ["PB302", "PB202"]);
+    assert_eq!(with_error("B=C"), ["PB302", "PB303"]);
+}
+
 /// The sweep height depends on the role, and is checked even if a path embeds nothing.
 #[test]
 fn the_sweep_height_of_a_role_is_checked() {
@@ -83,6 +97,9 @@ fn the_s_of_a_sweep_clears_what_the_path_embeds() {
         assert_eq!(checked(path, "S15", role.clone()), ["PB203"]);
         assert_eq!(checked(path, "", role), [""; 0]);
     }
+    // One PB203, at the segment: the sweep has no S that could be removed.
+    assert_eq!(checked("S15", "", Role::Checked), ["PB203"]);
+    assert_eq!(checked("S15", "S15", Role::Checked), ["PB203", "PB203"]);
 }
 
 #[test]

@@ -1,28 +1,23 @@
-//! Builds the files of one program, natively or through a post-processor, and checks programs that are joined into one. This code runs on worker
-//! threads. (book: language/keep-outs)
+//! Builds the files of one program, natively or through a post-processor. This code runs on worker threads. (book: language/keep-outs)
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::{
-    Collision, Database, PlacedKeepOut, Target, check_joined_parts, closure, locate, placed_keep_outs,
-    program, summary, traced_program,
-};
+use pathbuild_db::{Database, Target, check_joined_parts, locate, program, traced_program};
 use pathbuild_diagnostic::messages::gcode::{CUT_IN_HIGHER_MATERIAL, FEED_TOO_HIGH};
-use pathbuild_diagnostic::messages::{files, parameters, paths as messages, posts, probes};
-use pathbuild_diagnostic::{Diagnostic, Lang, Point, Value, words};
+use pathbuild_diagnostic::messages::{files, parameters, posts, probes};
+use pathbuild_diagnostic::{Diagnostic, Lang, Point, Value};
 use pathbuild_gcode::native::{self, probe_name};
 use pathbuild_gcode::read::LONGEST_LINE;
 use pathbuild_gcode::verify::{
     Machine, beyond_machine, rapids_into_joined_material, rapids_into_material, text_beyond_machine,
 };
-use pathbuild_path::approx::near;
-use pathbuild_path::{Curve, KeepOutMap, Letter, Line, TipMove, Xy};
+use pathbuild_path::Letter;
 use pathbuild_post::Job as PostJob;
-use pathbuild_toolpath::{Correction, Program, ProgramStep, UnprobedPoint, kind_of_move, memory, tip_move};
+use pathbuild_toolpath::{Correction, Program, ProgramStep, UnprobedPoint, memory};
 
-use super::options::{OutputSettings, total};
+use super::joined::{joining_doubts, moves_into_clamps, total};
+use super::options::OutputSettings;
 use super::outcome::ProgramOutcome;
 use super::plan::Job;
 use super::sheet;
@@ -321,89 +316,4 @@ fn write_through_post(
 
 fn about_job(problem: Diagnostic, job: &Job) -> Diagnostic {
     if problem.path.is_none() { problem.in_path(&job.path) } else { problem }
-}
-
-/// Returns PB211 for each sign that the paths do not belong in one program: different material or thickness, or a repeated path.
-fn joining_doubts(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
-    let thickness = differing_thickness(db, job, programs);
-    thickness.into_iter().chain(differing_material(db, job)).chain(repeated_path(db, job)).collect()
-}
-
-/// Returns PB211 for the first path whose material name differs from that of the program's first path.
-fn differing_material(db: &Database, job: &Job) -> Option<Diagnostic> {
-    let material =
-        |target: &Target| summary(db, closure(db, *target).root?).signature.as_ref()?.material.clone();
-    let first = job.targets.first()?;
-    let expected = material(first)?;
-    let differing = |target: &&Target| material(target).is_some_and(|material| material != expected);
-    let target = job.targets.iter().find(differing)?;
-    let problem = Diagnostic::new(&parameters::JOINED_MATERIAL).in_path(target.name(db));
-    let problem = problem.quoting("material", material(target)?).quoting("other", expected);
-    Some(problem.quoting("path", &**first.name(db)).in_file(target.file(db).path(db)))
-}
-
-/// Returns PB211 for the first path that the program contains twice.
-fn repeated_path(db: &Database, job: &Job) -> Option<Diagnostic> {
-    let mut targets = job.targets.iter().enumerate();
-    let (_, target) = targets.find(|(number, target)| job.targets[..*number].contains(target))?;
-    let problem = Diagnostic::new(&parameters::JOINED_TWICE).in_path(target.name(db));
-    Some(problem.quoting("path", &**target.name(db)).in_file(target.file(db).path(db)))
-}
-
-/// Returns PB211 for the first path whose material thickness differs from that of the program's first path.
-fn differing_thickness(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Diagnostic> {
-    let first = programs.first()?;
-    let mut targets = programs.iter().zip(&job.targets);
-    let (other, target) = targets.find(|(other, _)| !near(other.thickness, first.thickness))?;
-    let problem = Diagnostic::new(&parameters::JOINED_THICKNESS).in_path(&other.path);
-    let problem = problem.with("thickness", other.thickness).with("other", first.thickness);
-    Some(problem.quoting("path", &*first.path).in_file(target.file(db).path(db)))
-}
-
-/// Returns PB407 for moves of one path into the clamps of another path's drawing, and for rapid moves from one path to the next into any clamp. There
-/// is one diagnostic for each clamp, path and kind of move.
-fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
-    let clamps: Vec<PlacedKeepOut> =
-        job.targets.iter().flat_map(|target| placed_keep_outs(db, *target)).collect();
-    if clamps.is_empty() {
-        return Vec::new();
-    }
-    let outlines = clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline));
-    let map = KeepOutMap::new(outlines);
-    let mut collisions = BTreeMap::new();
-    for (number, (program, traverse)) in programs.iter().zip(traverses(programs)).enumerate() {
-        let own =
-            program.moves().filter_map(|(_, movement)| Some((tip_move(&movement)?, kind_of_move(&movement))));
-        let ways = traverse.into_iter().map(|traverse| (traverse, &words::RAPID_MOVE)).chain(own);
-        for (way, what) in ways {
-            for clamp in map.entered_clamps(&way, program.largest_cutter() / 2.0, 0.0) {
-                let collision = collisions.entry((number, clamp, what.en));
-                collision.or_insert(Collision::new(what)).add(&way);
-            }
-        }
-    }
-    let diagnostic = |((number, clamp, _), collision): (&(usize, usize, _), &Collision)| {
-        let (clamp, program) = (&clamps[*clamp], &programs[*number]);
-        let found = collision.diagnostic(&messages::JOINED_INTO_CLAMP, program.largest_cutter(), clamp, 0.0);
-        let found = found
-            .quoting("drawing", &clamp.drawing)
-            .with("clamp", Point::new(clamp.placed.at.x, clamp.placed.at.y));
-        let found = found.in_path(&program.path);
-        found.in_file(job.targets[*number].file(db).path(db))
-    };
-    collisions.iter().map(diagnostic).collect()
-}
-
-/// Returns, for each program, the rapid move to its start, at the greatest sweep height (S) of all programs; `None` for the first program.
-fn traverses(programs: &[Arc<Program>]) -> impl Iterator<Item = Option<TipMove>> {
-    let clearance = programs.iter().map(|program| program.sweep_height).fold(f64::NEG_INFINITY, f64::max);
-    let ends = programs
-        .iter()
-        .map(|program| program.moves().last().map(|(_, last)| Xy::new(last.to.x(), last.to.y())));
-    let traverse = move |start: Xy| TipMove {
-        curve: Curve::Line(Line { start, end: Xy::origin() }),
-        from_z: clearance,
-        to_z: clearance,
-    };
-    std::iter::once(None).chain(ends.map(move |end| end.map(traverse)))
 }

@@ -5,6 +5,7 @@
 mod build;
 mod comparison;
 mod deps;
+mod joined;
 mod options;
 mod outcome;
 mod plan;
@@ -125,9 +126,11 @@ impl Request {
                 "--join braucht --post (oder `post` in pathbuild.toml): das native Programm hat nur einen Pfad und keine Werkzeugwechsel",
             ));
         }
-        (self.post_arguments != PostArguments::default()).then(|| workspace.choose(
-            "--date, --dialect and --run-post-build apply to post-processors only: give --post, or set `post` in pathbuild.toml",
-            "--date, --dialect und --run-post-build gelten nur für Postprozessoren: --post angeben oder `post` in pathbuild.toml setzen",
+        // The date is also that of waivers.
+        let dated = PostArguments { date: self.post_arguments.date.clone(), ..PostArguments::default() };
+        (self.post_arguments != dated).then(|| workspace.choose(
+            "--dialect and --run-post-build apply to post-processors only: give --post, or set `post` in pathbuild.toml",
+            "--dialect und --run-post-build gelten nur für Postprozessoren: --post angeben oder `post` in pathbuild.toml setzen",
         ))
     }
 }

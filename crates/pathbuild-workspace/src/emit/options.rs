@@ -2,18 +2,15 @@
 
 use std::borrow::Borrow;
 use std::fmt::Debug;
-use std::ops::Add;
-use std::sync::Arc;
 
 use pathbuild_db::MissingOption;
 use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::native::WriteOptions;
 use pathbuild_gcode::provenance::Provenance;
-use pathbuild_gcode::statistics::statistics;
 use pathbuild_gcode::verify::Machine;
 use pathbuild_post::ToolTable;
-use pathbuild_toolpath::{Correction, Program, Total};
+use pathbuild_toolpath::{Correction, Program};
 
 use super::outcome::Task;
 use crate::config::{Settings, types};
@@ -148,11 +145,6 @@ impl SheetSettings {
         let lang = settings.comment_lang();
         Self { lang, tools, configured_tools, starts_spindle, has_manual_changes, selects_g54 }
     }
-}
-
-/// Returns the sum of the programs' lengths and times; `rapid` is the speed of rapid moves in mm/min.
-pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
-    programs.iter().map(|program| statistics(program, rapid).sum()).fold(Total::default(), Add::add)
 }
 
 /// The part of the provenance that is the same for all programs of a run.

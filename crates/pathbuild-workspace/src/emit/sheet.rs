@@ -11,7 +11,8 @@ use pathbuild_motion::Turning;
 use pathbuild_toolpath::Program;
 use pathbuild_view::{self as view, BilingualText, Scene, ScenePath, Sheet, SheetProbe, SheetTool};
 
-use super::options::{OutputSettings, SheetSettings, total};
+use super::joined::total;
+use super::options::{OutputSettings, SheetSettings};
 use super::outcome::write_error;
 use super::plan::Job;
 use crate::config::types::SheetFormat;
