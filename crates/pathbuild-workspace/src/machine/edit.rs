@@ -43,7 +43,7 @@ pub struct EditedConfiguration {
 pub fn edit(
     file: &Utf8Path,
     text: &str,
-    values: &[DescribedValue],
+    values: &[(Target, DescribedValue)],
 ) -> Result<EditedConfiguration, Box<Diagnostic>> {
     let fault = || Box::new(Diagnostic::new(&say::NOT_EDITABLE).in_file(file));
     let mut document: DocumentMut = text.parse().map_err(|_| fault())?;
@@ -51,8 +51,8 @@ pub fn edit(
     // Tools that had no table in the configuration.
     let mut added = FxHashSet::default();
     let mut by_number = tools_by_number(&document);
-    for value in values {
-        let path = table_path(&by_number, &value.target);
+    for (target, value) in values {
+        let path = table_path(&by_number, target);
         let is_added = added.contains(&path);
         if value.is_for_new_tools && !is_added && table(&document, &path).is_some() {
             continue;
@@ -75,10 +75,10 @@ pub fn edit(
         if !is_new {
             continue;
         }
-        if let (Target::Tool { number: Some(number), .. }, "number") = (&value.target, value.key) {
+        if let (Target::Tool { number: Some(number), .. }, "number") = (target, value.key) {
             by_number.entry(i64::from(*number)).or_insert_with(|| path[1].clone());
         }
-        problems.extend(replaced_tool(value, path.last().map_or("", String::as_str), old));
+        problems.extend(replaced_tool(target, value, path.last().map_or("", String::as_str), old));
         match table.get_mut(value.key).and_then(Item::as_value_mut) {
             Some(old) => *old = with_decor_of(new, old),
             None => _ = table.insert(value.key, Item::Value(new)),
@@ -90,8 +90,13 @@ pub fn edit(
 
 /// Returns a warning if a value replaces the diameter in a table that has the tool's number but another name. The machine then has another tool under
 /// this number, and the other keys of the table are still those of the former tool.
-fn replaced_tool(value: &DescribedValue, table: &str, old: Option<&Value>) -> Option<Diagnostic> {
-    let Target::Tool { number: Some(number), name } = &value.target else { return None };
+fn replaced_tool(
+    target: &Target,
+    value: &DescribedValue,
+    table: &str,
+    old: Option<&Value>,
+) -> Option<Diagnostic> {
+    let Target::Tool { number: Some(number), name } = target else { return None };
     let (Some(Quantity::Number(old)), Quantity::Number(new)) = (old.and_then(quantity), &value.value) else {
         return None;
     };

@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Text, Value as Shown};
 use rustc_hash::FxHashMap;
 
-use super::{DescribedValue, Description, Quantity, Target};
+use super::{DescribedValue, Description, Quantity};
 
 /// An entry of a description.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -115,13 +115,8 @@ impl Entries {
     }
 
     pub(super) fn set(&mut self, key: &'static str, value: Quantity, sources: &[&str]) {
-        self.values.push(DescribedValue {
-            target: Target::Machine,
-            key,
-            value,
-            source: sources.join(", "),
-            is_for_new_tools: false,
-        });
+        let source = sources.join(", ");
+        self.values.push(DescribedValue { key, value, source, is_for_new_tools: false });
     }
 
     /// Sets a key to the number of an entry, multiplied by `scale`.
@@ -168,7 +163,8 @@ impl Entries {
     pub(super) fn finish(self, format: &'static str) -> Description {
         let unused = self.list.into_iter().zip(self.is_used).filter(|(_, is_used)| !is_used);
         let unused = unused.map(|(entry, _)| entry).collect();
-        Description { format, values: self.values, tools: Vec::new(), unused, problems: self.problems }
+        let Self { values, problems, .. } = self;
+        Description { values, unused, problems, ..Description::new(format) }
     }
 }
 

@@ -7,15 +7,15 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{DescribedTool, DescribedValue, Description, Target};
 
-/// Combines the values of all descriptions, in the order of the files. Tools with the same number that contradict each other are left out and
-/// reported with both places. Two tools of one file contradict each other unless they are equal.
-pub fn merge(descriptions: &[(&Utf8Path, Description)]) -> (Vec<DescribedValue>, Vec<Diagnostic>) {
+/// Combines the values of all descriptions, in the order of the files, each with its table of the configuration. Tools with the same number that
+/// contradict each other are left out and reported with both places. Two tools of one file contradict each other unless they are equal.
+pub fn merge(descriptions: &[(&Utf8Path, Description)]) -> (Vec<(Target, DescribedValue)>, Vec<Diagnostic>) {
     let mut values = Vec::new();
     let mut tools: Vec<ToolEntry<'_>> = Vec::new();
     let mut by_number: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
     let mut problems = Vec::new();
     for (file, description) in descriptions {
-        values.extend(description.values.iter().cloned());
+        values.extend(description.values.iter().map(|value| (Target::Machine, value.clone())));
         for tool in &description.tools {
             let mut entry = ToolEntry { file, tool, is_taken: true };
             if let Some(number) = tool.number {
@@ -32,12 +32,11 @@ pub fn merge(descriptions: &[(&Utf8Path, Description)]) -> (Vec<DescribedValue>,
     }
     let mut names = ToolNames::default();
     let mut known: FxHashSet<(Target, &str)> =
-        values.iter().map(|value| (value.target.clone(), value.key)).collect();
+        values.iter().map(|(target, value)| (target.clone(), value.key)).collect();
     for entry in tools.iter().filter(|entry| entry.is_taken) {
         let target = Target::Tool { number: entry.tool.number, name: names.unique_name(entry.tool) };
-        let with_target = |value: &DescribedValue| DescribedValue { target: target.clone(), ..value.clone() };
         let new = entry.tool.values.iter().filter(|value| known.insert((target.clone(), value.key)));
-        values.extend(new.map(with_target));
+        values.extend(new.map(|value| (target.clone(), value.clone())));
     }
     (values, problems)
 }

@@ -46,7 +46,7 @@ impl LengthUnit {
 }
 
 /// The values, tools and remaining entries of a description.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Description {
     /// Name of the controller or program that writes this format.
     pub format: &'static str,
@@ -60,8 +60,14 @@ pub struct Description {
     pub problems: Vec<Diagnostic>,
 }
 
+impl Description {
+    fn new(format: &'static str) -> Self {
+        Self { format, ..Self::default() }
+    }
+}
+
 /// A tool of a description.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct DescribedTool {
     /// Number of the tool in the machine.
     pub number: Option<u32>,
@@ -76,9 +82,7 @@ pub struct DescribedTool {
 /// A value from a description, for a key of the configuration.
 #[derive(Clone, Debug)]
 pub struct DescribedValue {
-    /// The table of the configuration to which the value belongs.
-    pub target: Target,
-    /// Name of the key in that table.
+    /// Name of the key in its table of the configuration.
     pub key: &'static str,
     /// The value, in the configuration's units.
     pub value: Quantity,

@@ -5,13 +5,11 @@
 
 use pathbuild_diagnostic::messages::configuration::COUNT;
 use pathbuild_diagnostic::messages::import as say;
-use pathbuild_diagnostic::{Diagnostic, Value as Shown};
+use pathbuild_diagnostic::{Diagnostic, Message, Value as Shown};
 use serde_json::{Map, Value};
 
 use super::entries::rounded;
-use super::{
-    DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quantity, Target, broken_description,
-};
+use super::{DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quantity, broken_description};
 use crate::config::is_too_round;
 
 /// A function that returns the text of a tool bit named in a FreeCAD library.
@@ -33,7 +31,7 @@ fn is_tool(line: &str) -> bool {
 /// Reads a `tool.tbl`. Its lengths are in the unit of the machine, which only the machine's ini file names.
 pub(super) fn read_table(text: &str, unit: Option<LengthUnit>) -> Result<Description, Box<Diagnostic>> {
     let Some(unit) = unit else { return Err(Box::new(Diagnostic::new(&say::TABLE_WITHOUT_UNIT))) };
-    let mut tools = Tools::new("LinuxCNC");
+    let mut description = Description::new("LinuxCNC");
     for (index, line) in text.lines().enumerate() {
         let (words, comment) = line.split_once(';').unwrap_or((line, ""));
         if words.trim().is_empty() {
@@ -49,23 +47,26 @@ pub(super) fn read_table(text: &str, unit: Option<LengthUnit>) -> Result<Descrip
         let words = words.to_ascii_uppercase();
         let place = u32::try_from(index + 1).ok();
         let find = |letter| words.split_whitespace().find_map(|word| number_after(word, letter));
-        let mut tool = ToolDescription::new(comment.trim(), place);
-        tool.number =
-            tools.tool_number("T", words.split_whitespace().find_map(|word| word.strip_prefix('T')), place);
+        let mut tool = DescribedTool::new(comment.trim(), place);
+        tool.number = description.tool_number(
+            "T",
+            words.split_whitespace().find_map(|word| word.strip_prefix('T')),
+            place,
+        );
         match find('D').filter(|diameter| *diameter > 0.0) {
-            Some(diameter) => tool.length("diameter", diameter, unit, "D"),
-            None => tools.report_missing_diameter(&tool),
+            Some(diameter) => tool.set_length("diameter", diameter, unit, "D"),
+            None => description.report_missing_diameter(&tool),
         }
         // A tool table does not contain the shape of the tip.
-        tool.shape(None);
+        tool.set_tip(None);
         let others = words.split_whitespace().filter(|word| !word.starts_with(['T', 'D']));
-        tools.unused.extend(others.map(|word| {
+        description.unused.extend(others.map(|word| {
             let (name, value) = word.split_at(word.chars().next().map_or(0, char::len_utf8));
             Entry { name: name.to_owned(), value: value.to_owned(), line: place }
         }));
-        tools.add(tool);
+        description.add(tool);
     }
-    Ok(tools.finish())
+    Ok(description)
 }
 
 fn number_after(word: &str, letter: char) -> Option<f64> {
@@ -81,9 +82,9 @@ pub(super) fn read_json(text: &str, bit: ReadBit<'_>) -> Result<Description, Box
     } else if let Some(list) = root.get("tools").and_then(Value::as_array) {
         read_freecad_library(list, &object_lines(text), bit)
     } else if root.get("parameter").is_some_and(Value::is_object) {
-        let mut tools = Tools::new("FreeCAD");
-        read_freecad_bit(&root, None, None, &mut tools);
-        Ok(tools.finish())
+        let mut description = Description::new("FreeCAD");
+        read_freecad_bit(&root, None, None, &mut description);
+        Ok(description)
     } else {
         Err(Box::new(Diagnostic::new(&say::UNKNOWN_FORMAT)))
     }
@@ -118,18 +119,18 @@ fn line_of(index: usize, library: &[Value], lines: &[u32]) -> Option<u32> {
 }
 
 fn read_fusion_library(library: &[Value], lines: &[u32]) -> Description {
-    let mut tools = Tools::new("Fusion 360");
+    let mut description = Description::new("Fusion 360");
     for (index, entry) in library.iter().enumerate() {
         let line = line_of(index, library, lines);
         let mut fields = Fields::new(entry);
         let kind = fields.text("type").unwrap_or_default();
         if matches!(&*kind, "holder" | "probe") {
-            tools.unused.extend(fields.unused());
+            description.unused.extend(fields.unused());
             continue;
         }
-        let mut tool = ToolDescription::new(&fields.text("description").unwrap_or_default(), line);
+        let mut tool = DescribedTool::new(&fields.text("description").unwrap_or_default(), line);
         let number = fields.take("post-process/number").map(|number| value_as_text(&number));
-        tool.number = tools.tool_number("post-process/number", number.as_deref(), line);
+        tool.number = description.tool_number("post-process/number", number.as_deref(), line);
         let unit = match fields.text("unit").as_deref() {
             Some("inches") => Some(LengthUnit::Inch),
             Some("millimeters") => Some(LengthUnit::Millimetre),
@@ -138,8 +139,8 @@ fn read_fusion_library(library: &[Value], lines: &[u32]) -> Description {
         let diameter = fields.number("geometry/DC").filter(|diameter| *diameter > 0.0);
         match diameter.zip(unit) {
             Some((diameter, unit)) => {
-                tool.length("diameter", diameter, unit, "geometry/DC");
-                tool.length("length", fields.number("geometry/LCF").unwrap_or(0.0), unit, "geometry/LCF");
+                tool.set_length("diameter", diameter, unit, "geometry/DC");
+                tool.set_length("length", fields.number("geometry/LCF").unwrap_or(0.0), unit, "geometry/LCF");
                 let radius = fields.number("geometry/RE");
                 let radius = match &*kind {
                     "flat end mill" | "face mill" | "slot mill" => Some(radius.unwrap_or(0.0)),
@@ -147,15 +148,15 @@ fn read_fusion_library(library: &[Value], lines: &[u32]) -> Description {
                     "ball end mill" => Some(diameter / 2.0),
                     _ => None,
                 };
-                tool.shape(radius.map(|radius| (radius, unit)));
+                tool.set_tip(radius.map(|radius| (radius, unit)));
             }
-            None => tools.report_missing_diameter(&tool),
+            None => description.report_missing_diameter(&tool),
         }
-        tool.flutes(fields.number("geometry/NOF"), "geometry/NOF");
-        tools.unused.extend(fields.unused());
-        tools.add(tool);
+        tool.set_flutes(fields.number("geometry/NOF"), "geometry/NOF");
+        description.unused.extend(fields.unused());
+        description.add(tool);
     }
-    tools.finish()
+    description
 }
 
 fn read_freecad_library(
@@ -163,14 +164,14 @@ fn read_freecad_library(
     lines: &[u32],
     bit: ReadBit<'_>,
 ) -> Result<Description, Box<Diagnostic>> {
-    let mut tools = Tools::new("FreeCAD");
+    let mut description = Description::new("FreeCAD");
     for (index, entry) in list.iter().enumerate() {
         let line = line_of(index, list, lines);
         let mut fields = Fields::new(entry);
         let number = fields.take("nr").map(|number| value_as_text(&number));
-        let number = tools.tool_number("nr", number.as_deref(), line);
+        let number = description.tool_number("nr", number.as_deref(), line);
         let Some(name) = fields.text("path") else {
-            tools.unused.extend(fields.unused());
+            description.unused.extend(fields.unused());
             continue;
         };
         let unreadable = |reason: Shown| {
@@ -181,19 +182,19 @@ fn read_freecad_library(
             Ok(text) => {
                 let bit: Value = serde_json::from_str(&text)
                     .map_err(|error| Box::new(unreadable(Shown::foreign(error.to_string()))))?;
-                read_freecad_bit(&bit, number, line, &mut tools);
+                read_freecad_bit(&bit, number, line, &mut description);
             }
-            Err(reason) => tools.problems.push(unreadable(reason)),
+            Err(reason) => description.problems.push(unreadable(reason)),
         }
-        tools.unused.extend(fields.unused());
+        description.unused.extend(fields.unused());
     }
-    Ok(tools.finish())
+    Ok(description)
 }
 
-fn read_freecad_bit(bit: &Value, number: Option<u32>, line: Option<u32>, tools: &mut Tools) {
+fn read_freecad_bit(bit: &Value, number: Option<u32>, line: Option<u32>, description: &mut Description) {
     let mut fields = Fields::new(bit);
     let mut tool =
-        ToolDescription { number, ..ToolDescription::new(&fields.text("name").unwrap_or_default(), line) };
+        DescribedTool { number, ..DescribedTool::new(&fields.text("name").unwrap_or_default(), line) };
     let shape = fields.text("shape-type").or_else(|| fields.text("shape")).unwrap_or_default();
     let shape = shape.to_ascii_lowercase();
     let shape = shape.strip_suffix(".fcstd").unwrap_or(&shape);
@@ -201,7 +202,7 @@ fn read_freecad_bit(bit: &Value, number: Option<u32>, line: Option<u32>, tools: 
         |fields: &mut Fields, name: &str| length_with_unit(&fields.text(&format!("parameter/{name}"))?);
     let diameter = length(&mut fields, "Diameter").filter(|(diameter, _)| *diameter > 0.0);
     if let Some((diameter, unit)) = diameter {
-        tool.length("diameter", diameter, unit, "parameter/Diameter");
+        tool.set_length("diameter", diameter, unit, "parameter/Diameter");
         let radius = match shape {
             "endmill" => Some((0.0, unit)),
             "ballend" => Some((diameter / 2.0, unit)),
@@ -209,18 +210,18 @@ fn read_freecad_bit(bit: &Value, number: Option<u32>, line: Option<u32>, tools: 
             "bullnose" => length(&mut fields, "CornerRadius"),
             _ => None,
         };
-        tool.shape(radius);
+        tool.set_tip(radius);
     } else {
-        tools.report_missing_diameter(&tool);
+        description.report_missing_diameter(&tool);
     }
     if let Some((height, unit)) = length(&mut fields, "CuttingEdgeHeight") {
-        tool.length("length", height, unit, "parameter/CuttingEdgeHeight");
+        tool.set_length("length", height, unit, "parameter/CuttingEdgeHeight");
     }
     for name in ["attribute/Flutes", "parameter/Flutes"] {
-        tool.flutes(fields.number(name), name);
+        tool.set_flutes(fields.number(name), name);
     }
-    tools.unused.extend(fields.unused());
-    tools.add(tool);
+    description.unused.extend(fields.unused());
+    description.add(tool);
 }
 
 /// Reads a length with its unit, such as `5.0000 mm` or `0.25 in`.
@@ -283,63 +284,53 @@ fn value_as_text(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
-#[derive(Debug, Default)]
-struct ToolDescription {
-    name: String,
-    number: Option<u32>,
-    line: Option<u32>,
-    values: Vec<(&'static str, Quantity, String)>,
-    /// Value of `shape`, set only for tools that the configuration does not contain yet.
-    shape: Option<Quantity>,
-}
-
-impl ToolDescription {
+impl DescribedTool {
     fn new(name: &str, line: Option<u32>) -> Self {
         Self { name: name.trim().to_owned(), line, ..Self::default() }
     }
 
+    fn set(&mut self, key: &'static str, value: Quantity, source: &str) {
+        self.values.push(DescribedValue { key, value, source: source.to_owned(), is_for_new_tools: false });
+    }
+
     /// Sets a length if it is greater than 0.
-    fn length(&mut self, key: &'static str, length: f64, unit: LengthUnit, source: &str) {
+    fn set_length(&mut self, key: &'static str, length: f64, unit: LengthUnit, source: &str) {
         if length > 0.0 {
-            let millimetres = rounded(length * unit.millimetres());
-            self.values.push((key, Quantity::Number(millimetres), source.to_owned()));
+            self.set(key, Quantity::Number(rounded(length * unit.millimetres())), source);
+        }
+    }
+
+    fn set_flutes(&mut self, flutes: Option<f64>, source: &str) {
+        if let Some(flutes) = flutes.filter(|flutes| *flutes > 0.0 && flutes.fract() == 0.0) {
+            self.set("flutes", Quantity::Number(flutes), source);
+        }
+    }
+
+    /// Sets the corner radius, which is 0 for a flat tip. `None` means that the tip has another shape or is unknown, and sets `shape` to "other" for
+    /// tools that the configuration does not contain yet.
+    fn set_tip(&mut self, radius: Option<(f64, LengthUnit)>) {
+        if let Some((radius, unit)) = radius {
+            self.set_length("corner-radius", radius, unit, "type");
+        } else {
+            let (value, source) = (Quantity::Text("other".to_owned()), "type".to_owned());
+            self.values.push(DescribedValue { key: "shape", value, source, is_for_new_tools: true });
         }
     }
 
     fn number_of(&self, key: &str) -> Option<f64> {
-        self.values.iter().find_map(|(known, quantity, _)| match quantity {
-            Quantity::Number(number) if *known == key => Some(*number),
+        self.values.iter().find_map(|given| match given.value {
+            Quantity::Number(number) if given.key == key => Some(number),
             _ => None,
         })
     }
 
-    fn flutes(&mut self, flutes: Option<f64>, source: &str) {
-        if let Some(flutes) = flutes.filter(|flutes| *flutes > 0.0 && flutes.fract() == 0.0) {
-            self.values.push(("flutes", Quantity::Number(flutes), source.to_owned()));
-        }
-    }
-
-    /// Sets the corner radius, which is 0 for a flat tip. `None` means that the tip has another shape or is unknown, and sets `shape` to "other".
-    fn shape(&mut self, radius: Option<(f64, LengthUnit)>) {
-        match radius {
-            Some((radius, unit)) => self.length("corner-radius", radius, unit, "type"),
-            None => self.shape = Some(Quantity::Text("other".to_owned())),
-        }
+    fn problem(&self, message: &'static Message) -> Diagnostic {
+        let problem = Diagnostic::new(message).quoting("name", self.name.as_str());
+        problem.with("number", u64::from(self.number.unwrap_or_default())).at_line(self.line, None)
     }
 }
 
-struct Tools {
-    format: &'static str,
-    described: Vec<DescribedTool>,
-    unused: Vec<Entry>,
-    problems: Vec<Diagnostic>,
-}
-
-impl Tools {
-    fn new(format: &'static str) -> Self {
-        Self { format, described: Vec::new(), unused: Vec::new(), problems: Vec::new() }
-    }
-
+impl Description {
     /// Reads the number of a tool; 0 means that the tool has no number.
     fn tool_number(&mut self, name: &str, text: Option<&str>, line: Option<u32>) -> Option<u32> {
         let text = text?;
@@ -356,43 +347,23 @@ impl Tools {
     }
 
     /// Reports a tool without a diameter, or with a diameter in an unknown unit.
-    fn report_missing_diameter(&mut self, tool: &ToolDescription) {
-        let problem = Diagnostic::new(&say::NO_DIAMETER).quoting("name", tool.name.as_str());
-        let problem = problem.with("number", u64::from(tool.number.unwrap_or_default()));
-        self.problems.push(problem.at_line(tool.line, None));
+    fn report_missing_diameter(&mut self, tool: &DescribedTool) {
+        self.problems.push(tool.problem(&say::NO_DIAMETER));
     }
 
     /// Adds a tool. Leaves it out if it has an impossible corner radius, or no diameter, which the configuration requires.
-    fn add(&mut self, tool: ToolDescription) {
+    fn add(&mut self, mut tool: DescribedTool) {
         let Some(diameter) = tool.number_of("diameter") else { return };
         let radius = tool.number_of("corner-radius").unwrap_or_default();
         if is_too_round(radius, diameter) {
-            let problem = Diagnostic::new(&say::CORNER_TOO_ROUND).quoting("name", tool.name.as_str());
-            let problem = problem.with("number", u64::from(tool.number.unwrap_or_default()));
-            self.problems
-                .push(problem.with("radius", radius).with("diameter", diameter).at_line(tool.line, None));
+            let problem = tool.problem(&say::CORNER_TOO_ROUND);
+            self.problems.push(problem.with("radius", radius).with("diameter", diameter));
             return;
         }
-        let target = Target::Tool { number: tool.number, name: tool.name.clone() };
-        let value = |key, value, source, is_for_new_tools| DescribedValue {
-            target: target.clone(),
-            key,
-            value,
-            source,
-            is_for_new_tools,
-        };
-        let number = tool
-            .number
-            .map(|number| value("number", Quantity::Number(f64::from(number)), "T".to_owned(), false));
-        let shape = tool.shape.map(|shape| value("shape", shape, "type".to_owned(), true));
-        let values =
-            tool.values.into_iter().map(|(key, quantity, source)| value(key, quantity, source, false));
-        let values = values.chain(number).chain(shape).collect();
-        self.described.push(DescribedTool { number: tool.number, name: tool.name, line: tool.line, values });
-    }
-
-    fn finish(self) -> Description {
-        let Self { format, described: tools, unused, problems } = self;
-        Description { format, values: Vec::new(), tools, unused, problems }
+        if let Some(number) = tool.number {
+            tool.set("number", Quantity::Number(f64::from(number)), "T");
+        }
+        tool.values.sort_by_key(|value| value.is_for_new_tools);
+        self.tools.push(tool);
     }
 }

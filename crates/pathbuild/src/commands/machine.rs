@@ -8,7 +8,9 @@ use pathbuild_diagnostic::messages::import as say;
 use pathbuild_diagnostic::{Diagnostic, Value, shown};
 use pathbuild_workspace::config::check_text;
 use pathbuild_workspace::files::{self, FILE_NAME};
-use pathbuild_workspace::machine::{self, Change, DescribedValue, Description, EditedConfiguration, Entry};
+use pathbuild_workspace::machine::{
+    self, Change, DescribedValue, Description, EditedConfiguration, Entry, Target,
+};
 use serde_json::json;
 
 use crate::args::{MachineArgs, MachineCommand};
@@ -78,7 +80,7 @@ type DescribedFile<'f> = (&'f Utf8Path, Description);
 /// The reasons why the values cannot be written.
 fn compare(
     context: &Context,
-    values: &[DescribedValue],
+    values: &[(Target, DescribedValue)],
     descriptions: &[DescribedFile<'_>],
     write: bool,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
