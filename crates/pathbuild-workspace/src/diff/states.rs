@@ -8,12 +8,14 @@ use pathbuild_motion::{
     Action, Change, Coolant, Corners, Move, Pace, Spindle, Step, ToolLength, Turning, WorkSystem,
 };
 use pathbuild_toolpath::{ProbePoint, Xy, ZModel};
+use serde::Serialize;
 
 use crate::config::types::Choice;
 use crate::program::Program;
 
 /// A kind of state change or event in a program, besides moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum StateKind {
     PostProcessor,
@@ -47,65 +49,33 @@ pub struct StateChange {
 }
 
 impl StateKind {
-    /// All kinds, in the order in which they are shown.
-    pub const ALL: [Self; 15] = [
-        Self::PostProcessor,
-        Self::Tool,
-        Self::Cutter,
-        Self::ToolLength,
-        Self::Spindle,
-        Self::Coolant,
-        Self::WorkOffset,
-        Self::Corners,
-        Self::Peck,
-        Self::Zero,
-        Self::Probe,
-        Self::Correction,
-        Self::Stop,
-        Self::Dwell,
-        Self::OtherLine,
+    /// All kinds with their names in messages, in the order in which they are shown.
+    const ALL: &[(Self, Text)] = &[
+        (Self::PostProcessor, Text { en: "post-processor", de: "Postprozessor" }),
+        (Self::Tool, Text { en: "tool", de: "Werkzeug" }),
+        (Self::Cutter, Text { en: "cutter", de: "Fräser" }),
+        (Self::ToolLength, Text { en: "tool length", de: "Werkzeuglänge" }),
+        (Self::Spindle, Text { en: "spindle", de: "Spindel" }),
+        (Self::Coolant, Text { en: "coolant", de: "Kühlung" }),
+        (Self::WorkOffset, Text { en: "work offset", de: "Nullpunktverschiebung" }),
+        (Self::Corners, Text { en: "corners", de: "Ecken" }),
+        (Self::Peck, Text { en: "peck depth", de: "Tiefe je Bohrstufe" }),
+        (Self::Zero, Text { en: "zero set by the program", de: "vom Programm gesetzter Nullpunkt" }),
+        (Self::Probe, Text { en: "probe", de: "Antasten" }),
+        (Self::Correction, Text { en: "height correction", de: "Höhenkorrektur" }),
+        (Self::Stop, Text { en: "stop", de: "Halt" }),
+        (Self::Dwell, Text { en: "dwell", de: "Wartezeit" }),
+        (Self::OtherLine, Text { en: "line of the program", de: "Zeile des Programms" }),
     ];
+
+    /// Iterates over all kinds, in the order in which they are shown.
+    fn all() -> impl Iterator<Item = Self> {
+        Self::ALL.iter().map(|(kind, _)| *kind)
+    }
 
     /// Returns the name of the kind in messages.
     pub fn text(self) -> &'static Text {
-        match self {
-            Self::PostProcessor => &Text { en: "post-processor", de: "Postprozessor" },
-            Self::Tool => &Text { en: "tool", de: "Werkzeug" },
-            Self::Cutter => &Text { en: "cutter", de: "Fräser" },
-            Self::ToolLength => &Text { en: "tool length", de: "Werkzeuglänge" },
-            Self::Spindle => &Text { en: "spindle", de: "Spindel" },
-            Self::Coolant => &Text { en: "coolant", de: "Kühlung" },
-            Self::WorkOffset => &Text { en: "work offset", de: "Nullpunktverschiebung" },
-            Self::Corners => &Text { en: "corners", de: "Ecken" },
-            Self::Peck => &Text { en: "peck depth", de: "Tiefe je Bohrstufe" },
-            Self::Zero => &Text { en: "zero set by the program", de: "vom Programm gesetzter Nullpunkt" },
-            Self::Probe => &Text { en: "probe", de: "Antasten" },
-            Self::Correction => &Text { en: "height correction", de: "Höhenkorrektur" },
-            Self::Stop => &Text { en: "stop", de: "Halt" },
-            Self::Dwell => &Text { en: "dwell", de: "Wartezeit" },
-            Self::OtherLine => &Text { en: "line of the program", de: "Zeile des Programms" },
-        }
-    }
-
-    /// Returns the name of the kind in JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PostProcessor => "post-processor",
-            Self::Tool => "tool",
-            Self::Cutter => "cutter",
-            Self::ToolLength => "tool-length",
-            Self::Spindle => "spindle",
-            Self::Coolant => "coolant",
-            Self::WorkOffset => "work-offset",
-            Self::Corners => "corners",
-            Self::Peck => "peck",
-            Self::Zero => "zero",
-            Self::Probe => "probe",
-            Self::Correction => "correction",
-            Self::Stop => "stop",
-            Self::Dwell => "dwell",
-            Self::OtherLine => "other-line",
-        }
+        &Self::ALL[self as usize].1
     }
 
     /// Whether words of this kind act once, at their position in the program. Words of other kinds apply to all cuts that follow.
@@ -216,7 +186,7 @@ impl MachineStates {
 
     fn of_steps(steps: &[Step]) -> Self {
         let mut states = Self { cuts: Some(0), ..Self::default() };
-        for kind in StateKind::ALL.into_iter().filter(|kind| kind.is_in_steps()) {
+        for kind in StateKind::all().filter(|kind| kind.is_in_steps()) {
             states.stated[kind as usize] = Some(Vec::new());
         }
         let mut cuts = 0;
@@ -264,7 +234,7 @@ impl MachineStates {
     /// Returns the first difference of each kind that is known on both sides. If the programs have different numbers of cuts, their words are
     /// compared in order, regardless of the cuts to which they apply.
     pub fn changes(&self, new: &Self) -> Vec<StateChange> {
-        StateKind::ALL.into_iter().filter_map(|kind| self.first_change(new, kind)).collect()
+        StateKind::all().filter_map(|kind| self.first_change(new, kind)).collect()
     }
 
     /// Whether the program inserts no tool: in its dialect, T only selects a tool, and it lacks the M6 that the other program has.

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
-use pathbuild_diagnostic::{Code, Lang, shown};
+use pathbuild_diagnostic::{Code, Lang, Text, shown};
 use pathbuild_path::{Bindings, PathName};
 use pathbuild_workspace::session::{Direction, Embedding, EmbeddingEnd, Graph, GraphOutcome, Node, Session};
 use serde_json::{Map, Value, json};
@@ -20,10 +20,10 @@ pub fn graph(context: &Context, args: &GraphArgs) -> ExitStatus {
 
 /// Runs `deps`: shows the paths that the given ones embed, level by level.
 pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
-    show(context, args, |graph, words| tree(graph, Direction::Down, words))
+    show(context, args, |graph, lang| tree(graph, Direction::Down, lang))
 }
 
-fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, &GraphTexts) -> String) -> ExitStatus {
+fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, Lang) -> String) -> ExitStatus {
     let mut session = Session::new(context);
     if args.inputs.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
@@ -42,7 +42,7 @@ pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
         );
     }
     let outcome = Session::new(context).embedding_paths(&args.inputs);
-    print(context, &outcome.graph, |graph, words| tree(graph, Direction::Up, words));
+    print(context, &outcome.graph, |graph, lang| tree(graph, Direction::Up, lang));
     finish(context, outcome)
 }
 
@@ -61,12 +61,12 @@ fn finish(context: &Context, GraphOutcome { diagnostics, incomplete, .. }: Graph
     context.conclude(diagnostics)
 }
 
-fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph, &GraphTexts) -> String) {
+fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph, Lang) -> String) {
     match context.format {
         Format::Dot => context.printer.result(dot(graph)),
         Format::Mermaid => context.printer.result(mermaid(graph)),
         Format::Json => context.row("graph", json(context, graph)),
-        _ => context.printer.result(text(graph, GraphTexts::of(context.lang()))),
+        _ => context.printer.result(text(graph, context.lang())),
     }
 }
 
@@ -98,14 +98,14 @@ fn missing_target(name: Option<&PathName>, code: Code) -> String {
 }
 
 /// Formats a tree for each root.
-fn tree(graph: &Graph, direction: Direction, words: &GraphTexts) -> String {
+fn tree(graph: &Graph, direction: Direction, lang: Lang) -> String {
     let neighbours = graph.neighbours(direction);
     let mut text = String::new();
     let mut is_shown = vec![false; graph.nodes.len()];
     // Avoid recursion, because a library may nest deeper than the stack permits.
     let mut open: Vec<Step> = graph.roots.iter().rev().map(|root| Step::root(*root)).collect();
     while let Some(step) = open.pop() {
-        let (label, mut remarks) = words.line(graph, &step);
+        let (label, mut remarks) = line(graph, &step, lang);
         // A path that only borrows parameters is not affected by what the lending path embeds.
         let is_leaf = step.is_lender && direction == Direction::Down;
         if let EmbeddingEnd::Node(node) = step.to
@@ -117,7 +117,7 @@ fn tree(graph: &Graph, direction: Direction, words: &GraphTexts) -> String {
                     below.map(|index| Step::along(&graph.embeddings[*index], direction, step.level + 1)),
                 );
             } else if !neighbours[node].is_empty() {
-                remarks.push(words.shown.to_owned());
+                remarks.push(lang.choose("as above", "wie oben").to_owned());
             }
         }
         _ = write!(text, "{:indent$}{label}", "", indent = 2 * step.level.min(MAX_INDENTATION));
@@ -153,64 +153,41 @@ impl Step {
     }
 }
 
-/// Texts of lists and trees in one language.
-struct GraphTexts {
-    times: &'static str,
-    lender: &'static str,
-    shown: &'static str,
-    example: &'static str,
-    errors: &'static str,
+/// Returns the text of a line and the remarks about it.
+fn line(graph: &Graph, step: &Step, lang: Lang) -> (String, Vec<String>) {
+    let mut remarks = Vec::new();
+    if step.count > 1 {
+        remarks.push(times(step.count, lang));
+    }
+    if step.is_lender {
+        remarks.push(lang.choose("parameters by @", "Parameter über @").to_owned());
+    }
+    let EmbeddingEnd::Node(node) = step.to else { return (target_text(graph, &step.to), remarks) };
+    let node = &graph.nodes[node];
+    if node.is_example {
+        remarks.push(EXAMPLE.in_lang(lang).to_owned());
+    }
+    if !node.is_sound {
+        remarks.push(lang.choose("has errors", "hat Fehler").to_owned());
+    }
+    (format!("{}  {}", path(node), file(node)), remarks)
 }
 
-impl GraphTexts {
-    fn of(lang: Lang) -> &'static Self {
-        match lang {
-            Lang::En => &Self {
-                times: "times",
-                lender: "parameters by @",
-                shown: "as above",
-                example: "example values",
-                errors: "has errors",
-            },
-            Lang::De => &Self {
-                times: "mal",
-                lender: "Parameter über @",
-                shown: "wie oben",
-                example: "Beispielwerte",
-                errors: "hat Fehler",
-            },
-        }
-    }
+const EXAMPLE: Text = Text { en: "example values", de: "Beispielwerte" };
 
-    /// Returns the text of a line and the remarks about it.
-    fn line(&self, graph: &Graph, step: &Step) -> (String, Vec<String>) {
-        let mut remarks = Vec::new();
-        if step.count > 1 {
-            remarks.push(format!("{} {}", step.count, self.times));
-        }
-        if step.is_lender {
-            remarks.push(self.lender.to_owned());
-        }
-        let EmbeddingEnd::Node(node) = step.to else { return (target_text(graph, &step.to), remarks) };
-        let node = &graph.nodes[node];
-        if node.is_example {
-            remarks.push(self.example.to_owned());
-        }
-        if !node.is_sound {
-            remarks.push(self.errors.to_owned());
-        }
-        (format!("{}  {}", path(node), file(node)), remarks)
-    }
+fn times(count: usize, lang: Lang) -> String {
+    format!("{count} {}", lang.choose("times", "mal"))
 }
 
 /// Formats one line per embedding, such as `8001.1P > 2051.1P :A0,5`, or `2051.2P @ 2051.1P` for borrowed parameters, sorted by the embedding path.
 /// Paths without any embeddings get a line of their own.
-fn list(graph: &Graph, words: &GraphTexts) -> String {
+fn list(graph: &Graph, lang: Lang) -> String {
     let (below, above) = (graph.neighbours(Direction::Down), graph.neighbours(Direction::Up));
     let mut text = String::new();
     for (index, node) in graph.nodes.iter().enumerate() {
         if below[index].is_empty() && above[index].is_empty() {
-            let remark = if node.is_example { format!("  ({})", words.example) } else { String::new() };
+            let remark =
+                if node.is_example { format!("  ({})", EXAMPLE.in_lang(lang)) } else { String::new() };
             _ = writeln!(text, "{}{remark}", path(node));
         }
         for embedding in below[index].iter().map(|embedding| &graph.embeddings[*embedding]) {
@@ -218,7 +195,7 @@ fn list(graph: &Graph, words: &GraphTexts) -> String {
             _ = write!(text, "{} {sign} {}", path(node), target_text(graph, &embedding.to));
             _ = match embedding.count {
                 1 => writeln!(text),
-                count => writeln!(text, "  ({count} {})", words.times),
+                count => writeln!(text, "  ({})", times(count, lang)),
             };
         }
     }

@@ -404,7 +404,7 @@ fn reason_json(reason: &Reason, lang: Lang) -> Value {
 }
 
 fn state_json(change: &StateChange) -> Value {
-    let mut value = json!({ "kind": change.kind.name(), "line": change.line });
+    let mut value = json!({ "kind": change.kind, "line": change.line });
     set_values(&mut value, change.words.each_ref());
     value
 }
