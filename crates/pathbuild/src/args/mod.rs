@@ -136,17 +136,17 @@ impl Command {
     /// Returns the drawings and paths that the command works on; empty for commands without such arguments.
     pub fn inputs(&self) -> Inputs {
         match self {
-            Self::Check(args) => (*args.inputs).clone(),
-            Self::Emit(args) => (*args.inputs).clone(),
-            Self::Watch(args) => (*args.inputs).clone(),
-            Self::Texts(args) => (*args.inputs).clone(),
+            Self::Check(args) => args.inputs.get(),
+            Self::Emit(args) => args.inputs.get(),
+            Self::Watch(args) => args.inputs.get(),
+            Self::Texts(args) => args.inputs.get(),
             Self::View(args) => Inputs { inputs: vec![args.what.clone()] },
             Self::Sheet(args) => Inputs { inputs: vec![args.what.clone()] },
             Self::Graph(args)
             | Self::Deps(args)
             | Self::Rdeps(args)
             | Self::Where(args)
-            | Self::Why(args) => (*args.inputs).clone(),
+            | Self::Why(args) => args.inputs.get(),
             Self::List(args) | Self::Stats(args) => args.inputs(),
             Self::QProject(args) => Inputs::places([&args.drawing]),
             Self::Adjust(args) => Inputs::places(&args.files),
@@ -154,7 +154,7 @@ impl Command {
             Self::Verify(args) => args.inputs(),
             Self::Post(args) => Inputs::places(&args.file),
             Self::Config(args) => match &args.command {
-                ConfigCommand::Show { inputs, .. } => (**inputs).clone(),
+                ConfigCommand::Show { inputs, .. } => inputs.get(),
                 ConfigCommand::Schema => Inputs::default(),
             },
             _ => Inputs::default(),

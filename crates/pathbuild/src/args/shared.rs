@@ -194,42 +194,22 @@ pub(super) fn named_file(text: &str) -> Result<Utf8PathBuf, &'static str> {
 }
 
 /// Drawings, paths and directories given as arguments of a command.
-#[derive(Clone, Debug, Default)]
-pub struct InputArgs(Inputs);
-
-#[derive(Args)]
-struct InputArguments {
+#[derive(Clone, Debug, Default, Args)]
+pub struct InputArgs {
     /// Drawings (.dxf), names of paths or patterns of them (8*.1P), directories
     #[arg(value_name = "DRAWING|PATH|DIRECTORY", add = completions::paths())]
     inputs: Vec<String>,
 }
 
-impl Deref for InputArgs {
-    type Target = Inputs;
-
-    fn deref(&self) -> &Inputs {
-        &self.0
-    }
-}
-
-impl Args for InputArgs {
-    fn augment_args(command: Definition) -> Definition {
-        InputArguments::augment_args(command)
+impl InputArgs {
+    /// Returns the arguments as the inputs of a session.
+    pub fn get(&self) -> Inputs {
+        Inputs { inputs: self.inputs.clone() }
     }
 
-    fn augment_args_for_update(command: Definition) -> Definition {
-        InputArguments::augment_args_for_update(command)
-    }
-}
-
-impl FromArgMatches for InputArgs {
-    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
-        InputArguments::from_arg_matches(matches).map(|InputArguments { inputs }| Self(Inputs { inputs }))
-    }
-
-    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
-        *self = Self::from_arg_matches(matches)?;
-        Ok(())
+    /// Whether there are no arguments.
+    pub fn is_empty(&self) -> bool {
+        self.inputs.is_empty()
     }
 }
 

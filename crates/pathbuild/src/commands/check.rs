@@ -13,11 +13,11 @@ use crate::waivers;
 /// Runs the command: checks the drawings and reports findings. With `--changed-since`, checks only what depends on changed files.
 pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
     let begun = Instant::now();
-    if args.inputs.inputs.is_empty() && !context.has_library() {
+    if args.inputs.is_empty() && !context.has_library() {
         return context.refuse_empty_input();
     }
     let options = options(args);
-    match context.library().and_then(|library| library.check_with(&args.inputs.texts(), &options)) {
+    match context.library().and_then(|library| library.check_with(&args.inputs.get().texts(), &options)) {
         Ok(report) => conclude(context, args, report, begun.elapsed()),
         Err(error) => context.show_request_error(error),
     }

@@ -18,7 +18,7 @@ use crate::text::count;
 /// Runs the command: writes the files, or with `--check` compares them, and reports findings and outcomes.
 pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
     let options = options(args);
-    match context.library().and_then(|library| library.emit(&args.inputs.texts(), &options)) {
+    match context.library().and_then(|library| library.emit(&args.inputs.get().texts(), &options)) {
         Ok(report) => conclude(context, args, report),
         Err(error) => context.show_request_error(error),
     }

@@ -25,10 +25,10 @@ pub fn deps(context: &Context, args: &GraphArgs) -> ExitStatus {
 
 fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, Lang) -> String) -> ExitStatus {
     let mut session = Session::new(context);
-    if args.inputs.inputs.is_empty() && !session.has_library() {
+    if args.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
     }
-    let outcome = session.embedded_paths(&args.inputs);
+    let outcome = session.embedded_paths(&args.inputs.get());
     print(context, &outcome.graph, text);
     finish(context, outcome)
 }
@@ -36,12 +36,12 @@ fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, Lang) -> Stri
 /// Runs `rdeps`: shows the paths that embed the given ones, level by level. All paths of the library are searched; without a library,
 /// those in and below the working directory.
 pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
-    if args.inputs.inputs.is_empty() {
+    if args.inputs.is_empty() {
         return context.usage(
             context.choose("name drawings or paths for rdeps", "für rdeps Zeichnungen oder Pfade nennen"),
         );
     }
-    let outcome = Session::new(context).embedding_paths(&args.inputs);
+    let outcome = Session::new(context).embedding_paths(&args.inputs.get());
     print(context, &outcome.graph, |graph, lang| tree(graph, Direction::Up, lang));
     finish(context, outcome)
 }

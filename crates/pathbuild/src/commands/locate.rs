@@ -16,11 +16,11 @@ use pathbuild_workspace::session::{Selection, Session};
 /// Runs the command. Prints one line per definition: `1234.1P  components/1234.dxf:153  layer 1234.1P, start at (0, 0)`.
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
-    if args.inputs.inputs.is_empty() && !session.has_library() {
+    if args.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
     }
     let (found, problems) = session.with_stable_files(|session| {
-        let matches = session.match_arguments(&args.inputs);
+        let matches = session.match_arguments(&args.inputs.get());
         let names: Vec<PathName> = matches.names().cloned().collect();
         let selection = session.select_matches(matches);
         let mut problems = selection.problems.clone();

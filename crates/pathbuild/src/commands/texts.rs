@@ -30,7 +30,7 @@ pub fn run(context: &Context, args: &TextsArgs) -> ExitStatus {
         Err(fault) => return context.refuse(vec![*fault]),
     };
     let mut session = Session::new(context);
-    if args.inputs.inputs.is_empty() && !session.has_library() {
+    if args.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
     }
     let (texts, problems) =
@@ -59,7 +59,7 @@ fn texts(
     args: &TextsArgs,
     pattern: Option<&Regex>,
 ) -> (Vec<OutputItem>, Vec<Diagnostic>) {
-    let selection = session.select(&args.inputs);
+    let selection = session.select(&args.inputs.get());
     let whole = selection.whole(session).into_iter().map(|file| (file, None));
     let parts = selection.paths.iter().map(|path| (path.file, Some(&path.name)));
     let mut problems = selection.problems;

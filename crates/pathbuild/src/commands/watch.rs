@@ -37,9 +37,9 @@ pub(crate) fn run(
 ) -> Result<ExitStatus, &'static str> {
     let page = server.map(|server| server.page(context));
     // Without a library, show all drawings that `list` would list.
-    let is_everything = page.is_some() && args.inputs.inputs.is_empty() && !context.has_library();
+    let is_everything = page.is_some() && args.inputs.is_empty() && !context.has_library();
     let here = Inputs { inputs: vec![".".to_owned()] };
-    let inputs = if is_everything { &here } else { &*args.inputs };
+    let inputs = if is_everything { &here } else { &args.inputs.get() };
     let request = Request { inputs, emits: args.emit, lists: page.is_some(), polls: args.poll };
     let page = page.unwrap_or_else(|| Box::new(()));
     let wake_handle = OnceCell::new();

@@ -18,7 +18,7 @@ use pathbuild_workspace::session::Session;
 /// changed since then.
 pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     let mut session = Session::new(context);
-    if args.inputs.inputs.is_empty() && !session.has_library() {
+    if args.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
     }
     let Some(memo) = Memo::of_checks(context) else {
@@ -27,7 +27,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
             "why braucht gespeicherte Ergebnisse: ohne pathbuild.toml oder mit --no-cache gibt es keine",
         ));
     };
-    let selection = session.with_stable_files(|session| session.select(&args.inputs));
+    let selection = session.with_stable_files(|session| session.select(&args.inputs.get()));
     let named = selection.named.iter().copied().chain(selection.paths.iter().map(|path| path.file));
     let mut listed = HashSet::new();
     let all = selection.drawings.iter().chain(named.map(|file| file.path(session.db())));
