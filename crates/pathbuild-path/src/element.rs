@@ -1,12 +1,15 @@
 //! The elements of a path: their shapes and their meanings. (book: language/line-types, book: language/markers)
 
 use pathbuild_diagnostic::{Diagnostic, ElementId, EntityKind, Point, Text, words};
+use rstar::AABB;
 use smol_str::SmolStr;
 
 use crate::approx::at_least;
 use crate::geometry::{Curve, Xy};
+use crate::keep_out::widened_box;
 use crate::letter::{ElementClass, Letter};
 use crate::line_type::LineType;
+use crate::part::square;
 use crate::text::TextId;
 
 /// A line, arc or circle on a path's layer that represents a part of the path.
@@ -137,6 +140,14 @@ impl Shape {
         match self {
             Self::Curve(curve) => curve.start(),
             Self::Circle { centre, .. } => *centre,
+        }
+    }
+
+    /// Returns the bounding box, for an arc that of the whole circle, with its sides moved outwards by `margin` mm.
+    pub fn extent(&self, margin: f64) -> AABB<[f64; 2]> {
+        match self {
+            Self::Curve(curve) => widened_box(curve, margin),
+            Self::Circle { centre, radius } => square(*centre, radius + margin),
         }
     }
 

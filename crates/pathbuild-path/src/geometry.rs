@@ -230,7 +230,7 @@ impl Placement {
 const MIN_TURN: f64 = 1e-8;
 
 /// Returns the point of a circle at an angle in degrees. Quarter turns are exact, so that points drawn at 90 degrees stay there.
-pub fn on_circle(centre: Xy, radius: f64, degrees: f64) -> Xy {
+pub(crate) fn on_circle(centre: Xy, radius: f64, degrees: f64) -> Xy {
     centre + direction(degrees) * radius
 }
 

@@ -39,7 +39,7 @@ pub use element::{Cut, END_RADIUS, Element, Marker, Origin, Role, START_RADIUS, 
 pub use element_parameters::{ElementParameters, Parameter, element_parameters};
 pub use embedding::{PathHeader, PathSignature, Restriction, StatedHeight, SubpathCall, SweepLimits};
 pub use embedding::{SubpathChecker, with_near_names};
-pub use geometry::{Arc, Curve, Line, Placement, Xy, direction, on_circle};
+pub use geometry::{Arc, Curve, Line, Placement, Xy, direction};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};
 pub use language::{DoubtThresholds, Language, PathTool, PathTools};
 pub use letter::Letter;
@@ -67,8 +67,9 @@ pub use path::{
 pub use q_project::{Component, QProject, QProjectFindings, QProjectLine, compare_q_project, plan_q_project};
 pub use raw::{DrawnElements, Position, RawFile, RawPath, SourceMap};
 pub use read::{
-    AssignedElement, AssignedText, NearNames, ProxyLine, TextCircle, assigned_texts, has_text_on_part,
-    is_near_clamps_or_parts, keep_outs, may_be_stray_text, parts, proxy_lines, raw_file, stray_findings,
+    AnyText, AssignedElement, AssignedText, NearNames, ProxyLine, TextCircle, assigned_texts,
+    has_text_on_part, is_near_clamps_or_parts, keep_outs, may_be_stray_text, parts, proxy_lines, raw_file,
+    stray_findings,
 };
 pub use text::{LetterValue, ParameterText, ParameterTexts, TextId, as_seen};
 pub use variables::{AllowedValues, Bindings, Combinations, Definition};

@@ -5,11 +5,11 @@ use std::cell::OnceCell;
 
 use pathbuild_diagnostic::messages::{drawing, paths};
 use pathbuild_diagnostic::{Code, Diagnostic, Message, Note, Number, Point, Value};
-use pathbuild_dxf::{Drawing, Entity, Geometry, Point3};
+use pathbuild_dxf::{Drawing, Entity, Geometry};
 use pathbuild_path::approx::{coincide, near};
 use pathbuild_path::{
-    Arc, Curve, END_RADIUS, Language, Letter, Line, LineType, ParameterTexts, PathName, START_RADIUS,
-    TURN_RADIUS, TextCircle, Xy, near_layer, on_circle,
+    AnyText, END_RADIUS, Language, Letter, LineType, ParameterTexts, PathName, START_RADIUS, Shape,
+    TURN_RADIUS, TextCircle, Xy, near_layer,
 };
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -166,12 +166,9 @@ impl<'a> LayerHints<'a> {
             })
         });
         let (layer, entity) = self.all_layers().entity(markers[which]?)?;
-        let Geometry::Circle(circle) = &entity.geometry else { return None };
-        let centre = Point::new(circle.centre.x, circle.centre.y);
-        Some((
-            Note { message, arguments: vec![("layer", Value::quoted(layer)), ("point", centre.into())] },
-            0.0,
-        ))
+        let centre = centre_of(&entity.geometry)?;
+        let point = Point::new(centre.x, centre.y).into();
+        Some((Note { message, arguments: vec![("layer", Value::quoted(layer)), ("point", point)] }, 0.0))
     }
 
     /// Returns the element on another layer that is nearest to a text.
@@ -230,8 +227,7 @@ impl LayerHints<'_> {
                 && ends_of(&entity.geometry).is_some_and(|[begin, _]| coincide(begin, start))
         };
         let (_, segment) = self.all_layers().near(start, MAX_HINT_DISTANCE).find(is_subpath)?;
-        let extent = box_of(&segment.geometry);
-        let names = self.all_layers().texts_in(AABB::from_corners(extent.lower(), extent.upper()));
+        let names = self.all_layers().texts_in(box_of(&segment.geometry)?);
         let mut names = names.filter(|(_, circle, string)| {
             string.trim_start().starts_with('>')
                 && distance_to_text(circle, &segment.geometry).is_some_and(|gap| gap <= 0.0)
@@ -250,8 +246,9 @@ fn text_note(message: &'static Message, layer: &str, string: &str) -> Note {
 
 impl AllLayers {
     fn new(drawing: Drawing) -> Self {
-        let boxes = drawing.entities.iter().map(|entity| box_of(&entity.geometry)).zip(0..);
-        let boxes = boxes.map(|(box_, index)| GeomWithData::new(box_, index));
+        let boxes = drawing.entities.iter().zip(0..).filter_map(|(entity, index)| {
+            Some(GeomWithData::new(Rectangle::from_aabb(box_of(&entity.geometry)?), index))
+        });
         let boxes = RTree::bulk_load(boxes.collect());
         Self { drawing, boxes }
     }
@@ -283,10 +280,8 @@ impl AllLayers {
     }
 
     fn texts_in(&self, searched: AABB<[f64; 2]>) -> impl Iterator<Item = (&str, TextCircle, &str)> {
-        self.touching(searched).filter_map(|(layer, entity)| match &entity.geometry {
-            Geometry::Text(text) => Some((layer, TextCircle::of_text(text), &*text.string)),
-            Geometry::MText(text) => Some((layer, TextCircle::of_mtext(text), &*text.plain)),
-            Geometry::Line(_) | Geometry::Arc(_) | Geometry::Circle(_) => None,
+        self.touching(searched).filter_map(|(layer, entity)| {
+            AnyText::of(&entity.geometry).map(|text| (layer, text.circle(), text.string()))
         })
     }
 }
@@ -309,7 +304,7 @@ fn is_phantom_circle(language: &Language, entity: &Entity, radius: f64) -> bool 
 
 fn centre_of(geometry: &Geometry) -> Option<Xy> {
     let Geometry::Circle(circle) = geometry else { return None };
-    Some(xy(&circle.centre))
+    Some(Xy::new(circle.centre.x, circle.centre.y))
 }
 
 /// Returns the distance in mm that a note gives.
@@ -324,53 +319,24 @@ const END_MARKER: usize = 1;
 
 /// Returns the distance of an element from the circle of a text; `None` for texts.
 fn distance_to_text(text: &TextCircle, geometry: &Geometry) -> Option<f64> {
-    Some(match geometry {
-        Geometry::Line(line) => {
-            text.gap_to(&Curve::Line(Line { start: xy(&line.start), end: xy(&line.end) }))
-        }
-        Geometry::Arc(arc) => {
-            let centre = xy(&arc.centre);
-            let curve = Arc::from_angles(centre, arc.radius, arc.start_angle, arc.end_angle, arc.clockwise);
-            text.gap_to(&Curve::Arc(curve))
-        }
-        Geometry::Circle(circle) => {
-            ((xy(&circle.centre) - text.centre).norm() - text.radius - circle.radius).max(0.0)
-        }
-        Geometry::Text(_) | Geometry::MText(_) => return None,
-    })
+    Shape::of(geometry).map(|shape| text.gap_to(&shape))
 }
 
-fn xy(point: &Point3) -> Xy {
-    Xy::new(point.x, point.y)
+/// Returns the box around a circle.
+fn square(centre: Xy, radius: f64) -> AABB<[f64; 2]> {
+    Shape::Circle { centre, radius }.extent(0.0)
 }
 
-/// Returns the square around a point, with sides `reach` mm away from the point.
-fn square(point: Xy, reach: f64) -> AABB<[f64; 2]> {
-    AABB::from_corners([point.x - reach, point.y - reach], [point.x + reach, point.y + reach])
-}
-
-/// Returns the bounding box of an entity; an arc and a text get that of their whole circle.
-fn box_of(geometry: &Geometry) -> Rectangle<[f64; 2]> {
-    let around = |centre: Xy, radius: f64| Rectangle::from_aabb(square(centre, radius));
-    let around_text = |TextCircle { centre, radius }: TextCircle| around(centre, radius);
-    match geometry {
-        Geometry::Line(line) => {
-            Rectangle::from_corners([line.start.x, line.start.y], [line.end.x, line.end.y])
-        }
-        Geometry::Arc(arc) => around(xy(&arc.centre), arc.radius),
-        Geometry::Circle(circle) => around(xy(&circle.centre), circle.radius),
-        Geometry::Text(text) => around_text(TextCircle::of_text(text)),
-        Geometry::MText(text) => around_text(TextCircle::of_mtext(text)),
-    }
+/// Returns the bounding box of an entity; a text gets that of its circle.
+fn box_of(geometry: &Geometry) -> Option<AABB<[f64; 2]>> {
+    let of_text = || AnyText::of(geometry).map(AnyText::circle);
+    let shape = Shape::of(geometry).map(|shape| shape.extent(0.0));
+    shape.or_else(|| of_text().map(|circle| square(circle.centre, circle.radius)))
 }
 
 fn ends_of(geometry: &Geometry) -> Option<[Xy; 2]> {
-    match geometry {
-        Geometry::Line(line) => Some([xy(&line.start), xy(&line.end)]),
-        Geometry::Arc(arc) => {
-            let centre = xy(&arc.centre);
-            Some([arc.start_angle, arc.end_angle].map(|angle| on_circle(centre, arc.radius, angle)))
-        }
-        Geometry::Circle(_) | Geometry::Text(_) | Geometry::MText(_) => None,
+    match Shape::of(geometry)? {
+        Shape::Curve(curve) => Some([curve.start(), curve.end()]),
+        Shape::Circle { .. } => None,
     }
 }

@@ -9,7 +9,6 @@ use rstar::{AABB, Envelope, RTree};
 use crate::approx::{above, near};
 use crate::element::Shape;
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::widened_box;
 use crate::part::square;
 use crate::read::entities::TextCircle;
 
@@ -129,23 +128,35 @@ pub(crate) fn find(
     if budget.is_exhausted() {
         return None;
     }
-    let mut nearest: Option<(OverlapKind, f64, usize)> = None;
-    boxes.each_touched(circle, |index| {
-        let candidate = &candidates[index];
-        if budget.spend()
-            && !candidate.is_taken
-            && let Some((kind, distance)) = overlap(circle, &candidate.shape)
-            && nearest.is_none_or(|nearest| (kind, distance, index) < nearest)
-        {
-            nearest = Some((kind, distance, index));
-        }
-    });
+    let nearest = nearest_overlap(circle, candidates, boxes, budget, false);
     nearest.filter(|_| !budget.is_exhausted()).map(|(kind, distance, candidate)| AssignedCandidate {
         candidate,
         kind,
         distance,
         visible_distance: visible_distance(circle, &candidates[candidate].shape),
     })
+}
+
+/// Returns the nearest candidate of the first kind that a text overlaps, among those that have a text already, or among the others.
+fn nearest_overlap(
+    circle: &TextCircle,
+    candidates: &[Candidate],
+    boxes: &CandidateIndex,
+    budget: &SearchBudget,
+    is_taken: bool,
+) -> Option<(OverlapKind, f64, usize)> {
+    let mut nearest: Option<(OverlapKind, f64, usize)> = None;
+    boxes.each_touched(circle, |index| {
+        let candidate = &candidates[index];
+        if budget.spend()
+            && candidate.is_taken == is_taken
+            && let Some((kind, distance)) = overlap(circle, &candidate.shape)
+            && nearest.is_none_or(|nearest| (kind, distance, index) < nearest)
+        {
+            nearest = Some((kind, distance, index));
+        }
+    });
+    nearest
 }
 
 /// Returns the rival with the first reason for doubt in the order of [`Doubt`], and the nearest of these, among those for which `is_possible` holds.
@@ -193,7 +204,7 @@ fn doubt(
     }
     let is_alike = (kind == OverlapKind::Circle) == (own.kind == OverlapKind::Circle);
     // A shift by the margin would let the text overlap the candidate.
-    let is_almost_overlapped = gap(circle, &other.shape) <= margin;
+    let is_almost_overlapped = circle.gap_to(&other.shape) <= margin;
     if is_alike && is_almost_overlapped && (near(farther, 0.0) || (0.0..margin).contains(&farther)) {
         return Some((Doubt::HardlyFarther, farther.max(0.0)));
     }
@@ -212,18 +223,7 @@ pub(crate) fn find_taken(
     boxes: &CandidateIndex,
     budget: &SearchBudget,
 ) -> Option<usize> {
-    let mut nearest: Option<(OverlapKind, f64, usize)> = None;
-    boxes.each_touched(circle, |index| {
-        let candidate = &candidates[index];
-        if budget.spend()
-            && candidate.is_taken
-            && let Some((kind, distance)) = overlap(circle, &candidate.shape)
-            && nearest.is_none_or(|nearest| (kind, distance, index) < nearest)
-        {
-            nearest = Some((kind, distance, index));
-        }
-    });
-    nearest.map(|(.., index)| index)
+    nearest_overlap(circle, candidates, boxes, budget, true).map(|(.., index)| index)
 }
 
 /// Returns the position of the shape that a text overlaps and is nearest to. `None` also if the budget is exhausted.
@@ -261,7 +261,7 @@ pub(crate) fn nearest_miss(
         if candidates[candidate].is_taken {
             continue;
         }
-        let distance = gap(circle, &candidates[candidate].shape);
+        let distance = circle.gap_to(&candidates[candidate].shape);
         if nearest.as_ref().is_none_or(|best| (distance, candidate) < (best.distance, best.candidate)) {
             nearest = Some(NearMiss { candidate, distance });
         }
@@ -313,16 +313,6 @@ fn visible_distance(text: &TextCircle, shape: &Shape) -> f64 {
     }
 }
 
-/// Returns the distance in mm between a text's circle and a shape; 0 if they touch.
-fn gap(text: &TextCircle, shape: &Shape) -> f64 {
-    match shape {
-        Shape::Curve(curve) => text.gap_to(curve),
-        Shape::Circle { centre, radius } => {
-            (text.distance_to_centre(*centre) - text.radius - radius).max(0.0)
-        }
-    }
-}
-
 /// A spatial index of the candidates of a layer.
 pub(crate) enum CandidateIndex {
     /// The bounding boxes of a few candidates: scanning all of them is faster than building a tree.
@@ -344,7 +334,7 @@ impl Default for CandidateIndex {
 
 impl CandidateIndex {
     pub(crate) fn new(candidates: &[Candidate]) -> Self {
-        let boxes = candidates.iter().map(|candidate| box_around(&candidate.shape));
+        let boxes = candidates.iter().map(|candidate| candidate.shape.extent(BOX_MARGIN));
         if candidates.len() <= MAX_SCANNED_CANDIDATES {
             return Self::List(boxes.collect());
         }
@@ -380,14 +370,6 @@ impl CandidateIndex {
     }
 }
 
-/// Returns the bounding box of a shape, or of the whole circle for an arc, widened by `BOX_MARGIN`.
-fn box_around(shape: &Shape) -> AABB<[f64; 2]> {
-    match shape {
-        Shape::Circle { centre, radius } => square(*centre, radius + BOX_MARGIN),
-        Shape::Curve(curve) => widened_box(curve, BOX_MARGIN),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     //! Searching near a text gives the same results as comparing everything.
@@ -399,7 +381,7 @@ mod tests {
     use crate::geometry::{Arc, Curve, Line, Xy};
     use crate::read::candidates::Owner;
     use crate::read::candidates::{
-        Candidate, CandidateIndex, Rival, SearchBudget, doubt, find, find_rival, gap, nearest_miss, overlap,
+        Candidate, CandidateIndex, Rival, SearchBudget, doubt, find, find_rival, nearest_miss, overlap,
     };
     use crate::read::entities::TextCircle;
 
@@ -456,7 +438,7 @@ mod tests {
                 let is_other = |rival: &Rival| rival.candidate != own.candidate;
                 prop_assert_eq!(find_rival(&circle, &own, 0.1, (&candidates, &boxes), &budget, is_other), expected);
             }
-            let gaps = free().map(|(index, candidate)| (gap(&circle, &candidate.shape), index));
+            let gaps = free().map(|(index, candidate)| (circle.gap_to(&candidate.shape), index));
             let least = gaps.reduce(|best, other| if other < best { other } else { best });
             prop_assert_eq!(nearest_miss(&circle, &candidates, &boxes, &SearchBudget::new(1000)).map(|miss| (miss.distance, miss.candidate)), least);
         }

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::{Diagnostic, Place};
 use pathbuild_dxf::{Drawing, Geometry, HorizontalAlign, LayoutObstacle, MText, Point3, Text, VerticalAlign};
 
 use crate::approx::above;
-use crate::element::{Source, diagnostic_point};
+use crate::element::{Shape, Source, diagnostic_point};
 use crate::geometry::{Arc, Curve, Line, Xy, direction};
 use crate::text::as_seen;
 
@@ -22,7 +22,8 @@ pub(super) struct FoundText<'d> {
 
 /// A single-line or multi-line text of a drawing.
 #[derive(Clone, Copy)]
-pub(super) enum AnyText<'d> {
+#[expect(missing_docs, reason = "the names say it")]
+pub enum AnyText<'d> {
     Text(&'d Text),
     MText(&'d MText),
 }
@@ -48,7 +49,7 @@ impl<'d> FoundText<'d> {
 
 impl<'d> AnyText<'d> {
     /// Returns the text, if the entity is one.
-    pub(super) fn of(geometry: &'d Geometry) -> Option<Self> {
+    pub fn of(geometry: &'d Geometry) -> Option<Self> {
         match geometry {
             Geometry::Text(text) => Some(Self::Text(text)),
             Geometry::MText(text) => Some(Self::MText(text)),
@@ -57,14 +58,15 @@ impl<'d> AnyText<'d> {
     }
 
     /// Returns the text's string with its `%%` codes, which are not replaced yet.
-    pub(super) fn string(self) -> &'d str {
+    pub fn string(self) -> &'d str {
         match self {
             Self::Text(text) => &text.string,
             Self::MText(text) => &text.plain,
         }
     }
 
-    pub(super) fn circle(self) -> TextCircle {
+    /// Returns the circle that determines the text's element.
+    pub fn circle(self) -> TextCircle {
         match self {
             Self::Text(text) => TextCircle::of_text(text),
             Self::MText(text) => TextCircle::of_mtext(text),
@@ -182,9 +184,13 @@ impl TextCircle {
         (0.0..=length).contains(&foot).then(|| (direction.perp(&out) / length).abs())
     }
 
-    /// Returns the gap between the rim of the circle and a curve, for help; 0 if they touch.
-    pub fn gap_to(&self, curve: &Curve) -> f64 {
-        (self.distance_to_curve(curve) - self.radius).max(0.0)
+    /// Returns the distance in mm between the circle and a shape; 0 if they touch.
+    pub fn gap_to(&self, shape: &Shape) -> f64 {
+        let distance = match shape {
+            Shape::Curve(curve) => self.distance_to_curve(curve) - self.radius,
+            Shape::Circle { centre, radius } => self.distance_to_centre(*centre) - self.radius - radius,
+        };
+        distance.max(0.0)
     }
 
     /// Returns the distance from the circle's centre to the nearest point of a curve.
@@ -283,6 +289,18 @@ pub(super) fn curve(geometry: &Geometry) -> Option<Curve> {
         Geometry::Line(line) => Some(Curve::Line(Line { start: xy(line.start), end: xy(line.end) })),
         Geometry::Arc(arc) => Some(Curve::Arc(plane_arc(arc))),
         Geometry::Circle(_) | Geometry::Text(_) | Geometry::MText(_) => None,
+    }
+}
+
+impl Shape {
+    /// Returns the shape of a line, an arc or a circle.
+    pub fn of(geometry: &Geometry) -> Option<Self> {
+        match geometry {
+            Geometry::Circle(circle) => {
+                Some(Self::Circle { centre: xy(circle.centre), radius: circle.radius })
+            }
+            geometry => curve(geometry).map(Self::Curve),
+        }
     }
 }
 

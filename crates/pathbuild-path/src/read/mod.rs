@@ -29,7 +29,7 @@ use crate::read::assign::check_other_paths;
 use crate::read::collect::PathCollector;
 use crate::read::parameters::{Start, Starts};
 
-pub use entities::TextCircle;
+pub use entities::{AnyText, TextCircle};
 pub use keep_outs::keep_outs;
 pub use likely_parameters::may_be_stray_text;
 pub use listing::{AssignedElement, AssignedText, ProxyLine, assigned_texts, proxy_lines};
