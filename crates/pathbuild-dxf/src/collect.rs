@@ -24,7 +24,7 @@ use crate::names::case_folded;
 use crate::placement::Placement;
 use crate::shapes::Polyline;
 use crate::shapes::curves::{ApproximationFailure, Tolerance};
-use crate::{Circle, Drawing, Entity, Fault, Geometry, Label, Layer, OmittedCurve, Origin, Point3};
+use crate::{Circle, Drawing, Entity, Fault, Geometry, Label, Layer, OmittedCurve, Options, Origin, Point3};
 
 pub(crate) struct Collector<'d> {
     drawing: &'d mut Drawing,
@@ -44,7 +44,7 @@ pub(crate) struct Collector<'d> {
     far: BTreeMap<u32, CountedNote>,
     groups: u32,
     has_ignored: bool,
-    limits: Limits,
+    options: &'d Options<'d>,
 }
 
 /// A finding about entities of a layer that is reported once, for the first of them.
@@ -77,14 +77,6 @@ const MAX_CHEAP_FAULTS: usize = 10_000;
 /// Weight of each fault beyond [`MAX_CHEAP_FAULTS`]: about that many entities take the same memory.
 const FAULT_WEIGHT: usize = 20;
 
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Limits {
-    pub(crate) entities: usize,
-    pub(crate) text: usize,
-    /// Tolerance in mm for approximating curves other than arcs.
-    pub(crate) curves: f64,
-}
-
 /// An entity and its place in the drawing.
 #[derive(Clone, Copy)]
 pub(crate) struct PlacedEntity<'p> {
@@ -114,7 +106,7 @@ impl PlacedEntity<'_> {
 
 impl<'d> Collector<'d> {
     /// Creates a collector that fills this empty drawing.
-    pub(crate) fn new(drawing: &'d mut Drawing, limits: Limits) -> Self {
+    pub(crate) fn new(drawing: &'d mut Drawing, options: &'d Options<'d>) -> Self {
         drawing.entities.reserve(RESERVED_ENTITIES);
         drawing.origins.reserve(RESERVED_ENTITIES);
         Self {
@@ -128,7 +120,7 @@ impl<'d> Collector<'d> {
             far: BTreeMap::new(),
             groups: 0,
             has_ignored: false,
-            limits,
+            options,
         }
     }
 
@@ -172,7 +164,8 @@ impl<'d> Collector<'d> {
         shape: Shape<'_>,
     ) -> Result<(), FatalError> {
         let placement = placed.placement.unwrap_or(&Placement::IDENTITY);
-        let tolerance = Tolerance { distance: self.limits.curves, most_pieces: self.limits.entities };
+        let tolerance =
+            Tolerance { distance: self.options.approximate_curves, most_pieces: self.options.max_entities };
         let parts = match shape {
             Shape::Polyline(Polyline { mut pieces, is_wide }) => {
                 if is_wide {
@@ -242,7 +235,7 @@ impl<'d> Collector<'d> {
             }
             EntityError::TooManyParts => return Err(self.entity_limit_error()),
             EntityError::TextTooLong => {
-                let diagnostic = exceeded(&TEXT_LENGTH, self.limits.text, "text-length");
+                let diagnostic = exceeded(&TEXT_LENGTH, self.options.max_text, "text-length");
                 return Err(Box::new(self.located(diagnostic, placed, layer)));
             }
         };
@@ -415,7 +408,7 @@ impl<'d> Collector<'d> {
         let troubles = drawing.faults.len() + drawing.left_out.len();
         let surcharge = (FAULT_WEIGHT - 1) * troubles.saturating_sub(MAX_CHEAP_FAULTS);
         if drawing.entities.len() + drawing.hatches.len() + drawing.labels.len() + troubles + surcharge
-            < self.limits.entities
+            < self.options.max_entities
         {
             return Ok(());
         }
@@ -424,7 +417,7 @@ impl<'d> Collector<'d> {
 
     #[cold]
     fn entity_limit_error(&self) -> FatalError {
-        too_many_entities(self.limits.entities)
+        too_many_entities(self.options.max_entities)
     }
 }
 

@@ -14,7 +14,7 @@ use crate::encoding::Decoder;
 use crate::faults::{EntityError, first_point};
 use crate::fields::{Fields, FillDecision, Value};
 use crate::groups::Records;
-use crate::layers::{LayerId, Layers, LineType, LineTypes};
+use crate::layers::{LayerId, LayerTable, Layers, LineType, LineTypes};
 use crate::pairs::{Pair, Pairs, Stop};
 use crate::shapes::{self, Ellipse, Insert, Polyline, PolylineBuilder, Spline};
 use crate::{Circle, Geometry, Options, Origin};
@@ -42,7 +42,7 @@ pub(crate) enum Space {
 }
 
 /// Returns the largest number of repeated groups that is kept per entity.
-pub(crate) fn max_repeated_groups(options: &Options<'_>) -> usize {
+fn max_repeated_groups(options: &Options<'_>) -> usize {
     options.max_entities.saturating_mul(GROUPS_PER_ENTITY).max(options.max_text)
 }
 
@@ -50,21 +50,19 @@ pub(crate) fn max_repeated_groups(options: &Options<'_>) -> usize {
 const GROUPS_PER_ENTITY: usize = 5;
 
 impl<'a, 'o> EntityReader<'a, 'o> {
-    /// Creates a reader without cached names. `blocks` is the BLOCKS section.
+    /// Creates a reader without cached names. `tables` and `blocks` are the sections of these names.
     pub(crate) fn new(
         options: &'o Options<'o>,
         decoder: Decoder<'a>,
-        layers: Layers<'a, 'o>,
-        fields: Fields<'a>,
+        tables: Option<Pairs<'a>>,
         blocks: Option<Pairs<'a>>,
     ) -> Self {
-        let line_types = LineTypes::default();
         Self {
             options,
             decoder,
-            layers,
-            line_types,
-            fields,
+            layers: Layers::new(options.keep_layer, LayerTable::new(tables)),
+            line_types: LineTypes::default(),
+            fields: Fields::new(max_repeated_groups(options)),
             unnoted_blocks: blocks.filter(|_| !options.compatible),
             last_insertion: None,
             has_noted_text: false,

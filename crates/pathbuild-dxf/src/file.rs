@@ -7,14 +7,12 @@ use pathbuild_diagnostic::messages::files::{EMPTY_FILE, LFS_POINTER, NOT_DXF};
 use pathbuild_diagnostic::{Diagnostic, Text};
 
 use crate::binary::to_ascii;
-use crate::collect::{Collector, Limits};
+use crate::collect::Collector;
 use crate::encoding::Decoder;
-use crate::entities::{EntityReader, max_repeated_groups};
+use crate::entities::EntityReader;
 use crate::faults::{FatalError, missing_end_error, pair_error, stop_error, value_excerpt};
-use crate::fields::Fields;
 use crate::groups::Records;
 use crate::header::{Header, millimetres};
-use crate::layers::{LayerTable, Layers};
 use crate::model::Model;
 use crate::pairs::{Pair, Pairs, SectionEnd, Stop, ends_with_eof};
 use crate::placement::Placement;
@@ -150,20 +148,8 @@ impl<'a> File<'a> {
     fn read_entities(self, drawing: &mut Drawing, options: &Options<'_>) -> Result<(), FatalError> {
         let scale = millimetres(&self.header, options.units)?;
         let decoder = Decoder::new(self.bytes, &self.header, self.has_bom);
-        let layers = Layers::new(options.keep_layer, LayerTable::new(self.tables));
-        let mut reader = EntityReader::new(
-            options,
-            decoder,
-            layers,
-            Fields::new(max_repeated_groups(options)),
-            self.blocks,
-        );
-        let limits = Limits {
-            entities: options.max_entities,
-            text: options.max_text,
-            curves: options.approximate_curves,
-        };
-        let mut model = Model::new(&mut reader, Collector::new(drawing, limits), self.blocks, self.pairs);
+        let mut reader = EntityReader::new(options, decoder, self.tables, self.blocks);
+        let mut model = Model::new(&mut reader, Collector::new(drawing, options), self.blocks, self.pairs);
         let mut records = Records::new(self.pairs).map_err(|stop| stop_error(stop, "ENTITIES"))?;
         model.add_all(&mut records, (scale != 1.0).then(|| Placement::scaled(scale)))?;
         if !records.head.is("ENDSEC") {

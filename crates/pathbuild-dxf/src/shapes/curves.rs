@@ -7,6 +7,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use nalgebra::{Vector2, Vector3};
 use pathbuild_diagnostic::messages::drawing::{SPLINE_BY_FIT_POINTS, SPLINE_NOT_UNDERSTOOD};
 use pathbuild_motion::is_full_turn;
 
@@ -17,62 +18,34 @@ use crate::shapes::{is_mirrored, repeated_number};
 use crate::{Arc, Geometry, Line, Point3};
 
 /// A point or vector of the plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Vector {
-    pub(crate) x: f64,
-    pub(crate) y: f64,
+type Vector = Vector2<f64>;
+
+fn length(vector: Vector) -> f64 {
+    libm::hypot(vector.x, vector.y)
 }
 
-impl Vector {
-    pub(crate) fn plus(self, other: Self) -> Self {
-        Self { x: self.x + other.x, y: self.y + other.y }
-    }
+/// Whether both coordinates are at most [`MAX_COORDINATE`] in absolute value.
+fn is_near(vector: Vector) -> bool {
+    vector.iter().all(|coordinate| coordinate.abs() <= MAX_COORDINATE)
+}
 
-    pub(crate) fn minus(self, other: Self) -> Self {
-        Self { x: self.x - other.x, y: self.y - other.y }
-    }
-
-    pub(crate) fn times(self, factor: f64) -> Self {
-        Self { x: self.x * factor, y: self.y * factor }
-    }
-
-    fn dot(self, other: Self) -> f64 {
-        self.x * other.x + self.y * other.y
-    }
-
-    pub(crate) fn length(self) -> f64 {
-        libm::hypot(self.x, self.y)
-    }
-
-    /// Whether both coordinates are at most [`MAX_COORDINATE`] in absolute value.
-    pub(crate) fn is_near(self) -> bool {
-        self.x.abs() <= MAX_COORDINATE && self.y.abs() <= MAX_COORDINATE
-    }
-
-    /// Returns the vector turned by a quarter turn, counterclockwise.
-    pub(crate) fn left(self) -> Self {
-        Self { x: -self.y, y: self.x }
-    }
-
-    /// Returns the vector scaled to length 1; `None` if its length is 0.
-    pub(crate) fn unit(self) -> Option<Self> {
-        let length = self.length();
-        (length > 0.0).then(|| self.times(1.0 / length))
-    }
+/// Returns the vector turned by a quarter turn, counterclockwise.
+fn left(vector: Vector) -> Vector {
+    Vector::new(-vector.y, vector.x)
 }
 
 /// A point of a curve with the unit vector of the curve's direction.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ray {
-    pub(crate) point: Vector,
-    pub(crate) direction: Vector,
+struct Ray {
+    point: Vector,
+    direction: Vector,
 }
 
 /// A line or arc of less than a turn.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct CurvePiece {
-    pub(crate) start: Vector,
-    pub(crate) end: Vector,
+struct CurvePiece {
+    start: Vector,
+    end: Vector,
     bend: PieceShape,
 }
 
@@ -87,21 +60,21 @@ const MAX_LINE_HEIGHT: f64 = 1e-7;
 
 /// Returns the biarc between two rays; `None` if there is none, for example between opposite directions along their chord.
 fn biarc(from: Ray, to: Ray) -> Option<[CurvePiece; 2]> {
-    let chord = to.point.minus(from.point);
+    let chord = to.point - from.point;
     let reach = control_distance(chord, from.direction, to.direction)?;
-    let bend = from.direction.minus(to.direction).times(reach);
-    let joint = from.point.plus(to.point).plus(bend).times(0.5);
+    let bend = (from.direction - to.direction) * reach;
+    let joint = (from.point + to.point + bend) * 0.5;
     let first = piece(from.point, joint, from.direction);
     // Construct the second piece backwards from the end, where its direction is known.
-    let second = piece(to.point, joint, to.direction.times(-1.0)).reversed();
+    let second = piece(to.point, joint, -to.direction).reversed();
     Some([first, second])
 }
 
 /// Returns the distance of the control polygon's corners from the ends; `None` if there is no such polygon.
 fn control_distance(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
-    let along = chord.dot(from.plus(to));
-    let turn = 2.0 * (1.0 - from.dot(to)).max(0.0);
-    let square = chord.dot(chord);
+    let along = chord.dot(&(from + to));
+    let turn = 2.0 * (1.0 - from.dot(&to)).max(0.0);
+    let square = chord.dot(&chord);
     let root = libm::sqrt(along * along + turn * square);
     // The two forms are equal; the one that does not subtract nearly equal numbers is used.
     let reach = if along > 0.0 { square / (root + along) } else { (root - along) / turn };
@@ -110,15 +83,15 @@ fn control_distance(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
 
 /// Returns the arc that leaves a point in a given direction and reaches another point.
 fn piece(start: Vector, end: Vector, direction: Vector) -> CurvePiece {
-    let chord = end.minus(start);
-    let aside = chord.dot(direction.left());
-    let square = chord.dot(chord);
+    let chord = end - start;
+    let aside = chord.dot(&left(direction));
+    let square = chord.dot(&chord);
     // The height over the chord is about a quarter of the distance of the end from the tangent.
-    if aside.abs() < 4.0 * MAX_LINE_HEIGHT && chord.dot(direction) >= 0.0 {
+    if aside.abs() < 4.0 * MAX_LINE_HEIGHT && chord.dot(&direction) >= 0.0 {
         return CurvePiece { start, end, bend: PieceShape::Straight };
     }
     let to_centre = square / (2.0 * aside);
-    let centre = start.plus(direction.left().times(to_centre));
+    let centre = start + left(direction) * to_centre;
     CurvePiece {
         start,
         end,
@@ -127,7 +100,7 @@ fn piece(start: Vector, end: Vector, direction: Vector) -> CurvePiece {
 }
 
 impl CurvePiece {
-    pub(crate) fn line(start: Vector, end: Vector) -> Self {
+    fn line(start: Vector, end: Vector) -> Self {
         Self { start, end, bend: PieceShape::Straight }
     }
 
@@ -141,20 +114,20 @@ impl CurvePiece {
         Self { start: self.end, end: self.start, bend }
     }
 
-    pub(crate) fn distance(&self, point: Vector) -> f64 {
-        let to_ends = point.minus(self.start).length().min(point.minus(self.end).length());
+    fn distance(&self, point: Vector) -> f64 {
+        let to_ends = length(point - self.start).min(length(point - self.end));
         match self.bend {
             PieceShape::Straight => {
-                let chord = self.end.minus(self.start);
-                let along = point.minus(self.start).dot(chord);
-                if along <= 0.0 || along >= chord.dot(chord) {
+                let chord = self.end - self.start;
+                let along = (point - self.start).dot(&chord);
+                if along <= 0.0 || along >= chord.dot(&chord) {
                     return to_ends;
                 }
-                (point.minus(self.start).dot(chord.left()) / chord.length()).abs()
+                ((point - self.start).dot(&left(chord)) / length(chord)).abs()
             }
             PieceShape::Round { centre, radius, .. } => {
                 if self.spans(point) {
-                    (point.minus(centre).length() - radius).abs()
+                    (length(point - centre) - radius).abs()
                 } else {
                     to_ends
                 }
@@ -174,7 +147,7 @@ impl CurvePiece {
     }
 
     /// Returns the piece as the geometry of an entity; `None` if it has no length.
-    pub(crate) fn geometry(&self, z: f64) -> Option<Geometry> {
+    fn geometry(&self, z: f64) -> Option<Geometry> {
         let point = |vector: Vector| Point3 { x: vector.x, y: vector.y, z };
         if self.start == self.end {
             return None;
@@ -193,7 +166,7 @@ impl CurvePiece {
 }
 
 /// A curve that is smooth over the interval in question.
-pub(crate) trait Curve {
+trait Curve {
     /// Returns the point at a parameter, and the derivative there.
     fn at(&self, parameter: f64) -> (Vector, Vector);
 }
@@ -224,7 +197,7 @@ const MARGIN: f64 = 0.9;
 const MAX_HALVINGS: u32 = 24;
 
 /// Appends the pieces of a curve between two parameters.
-pub(crate) fn approximate(
+fn approximate(
     curve: &impl Curve,
     [from, to]: [f64; 2],
     z: f64,
@@ -271,10 +244,11 @@ fn ray(curve: &impl Curve, parameter: f64, inwards: f64) -> Option<Ray> {
     /// Derivatives shorter than this fraction of the difference quotient are treated as zero.
     const ZERO_DERIVATIVE: f64 = 1e-6;
     let (point, derivative) = curve.at(parameter);
-    let quotient = curve.at(parameter + inwards * STEP).0.minus(point).times(1.0 / (inwards * STEP));
-    let has_direction = derivative.length() > ZERO_DERIVATIVE * quotient.length();
+    let quotient = (curve.at(parameter + inwards * STEP).0 - point) * (1.0 / (inwards * STEP));
+    let has_direction = length(derivative) > ZERO_DERIVATIVE * length(quotient);
     let direction = if has_direction { derivative } else { quotient };
-    Some(Ray { point, direction: direction.unit()? })
+    let length = length(direction);
+    (length > 0.0).then(|| Ray { point, direction: direction * (1.0 / length) })
 }
 
 /// An ellipse or elliptical arc.
@@ -307,8 +281,8 @@ impl Ellipse {
         let end = fields.number(42)?.unwrap_or(TAU);
         Ok(Self {
             centre: fields.point(10)?,
-            major: Vector { x: major.x, y: major.y },
-            minor: Vector { x: -major.y * side, y: major.x * side },
+            major: Vector::new(major.x, major.y),
+            minor: Vector::new(-major.y * side, major.x * side),
             start,
             end: start + sweep(start, end),
         })
@@ -340,13 +314,13 @@ impl Ellipse {
     /// Whether the coordinates of the centre and of both half axes are at most [`MAX_COORDINATE`].
     fn is_near(&self) -> bool {
         let Point3 { x, y, .. } = self.centre;
-        [Vector { x, y }, self.major, self.minor].into_iter().all(Vector::is_near)
+        [Vector::new(x, y), self.major, self.minor].into_iter().all(is_near)
     }
 
     fn placed(&self, placement: &Placement) -> Self {
         let axis = |axis: Vector| {
             let (x, y) = placement.direction(axis.x, axis.y);
-            Vector { x, y }
+            Vector::new(x, y)
         };
         Self {
             centre: placement.point(self.centre),
@@ -369,9 +343,9 @@ fn sweep(start: f64, end: f64) -> f64 {
 impl Curve for Ellipse {
     fn at(&self, parameter: f64) -> (Vector, Vector) {
         let (sin, cos) = libm::sincos(parameter);
-        let centre = Vector { x: self.centre.x, y: self.centre.y };
-        let point = centre.plus(self.major.times(cos)).plus(self.minor.times(sin));
-        (point, self.minor.times(cos).minus(self.major.times(sin)))
+        let centre = Vector::new(self.centre.x, self.centre.y);
+        let point = centre + self.major * cos + self.minor * sin;
+        (point, self.minor * cos - self.major * sin)
     }
 }
 
@@ -398,7 +372,7 @@ struct Span<'s> {
 }
 
 /// Point and weight in homogeneous coordinates.
-type Homogeneous = [f64; 3];
+type Homogeneous = Vector3<f64>;
 
 /// Degree of a spline that states none.
 const CUBIC: i64 = 3;
@@ -448,13 +422,13 @@ impl Spline {
 
     /// Whether no coordinate of the spline exceeds [`MAX_COORDINATE`]. The spline lies within the hull of its control points, so these are tested.
     fn is_near(&self) -> bool {
-        self.points.iter().all(|control| control.point.is_near())
+        self.points.iter().all(|control| is_near(control.point))
     }
 
     fn placed(&self, placement: &Placement) -> Self {
         let place = |control: &ControlPoint| {
             let point = placement.point(Point3 { x: control.point.x, y: control.point.y, z: self.z });
-            ControlPoint { point: Vector { x: point.x, y: point.y }, weight: control.weight }
+            ControlPoint { point: Vector::new(point.x, point.y), weight: control.weight }
         };
         let z = placement.point(Point3 { x: 0.0, y: 0.0, z: self.z }).z;
         Self {
@@ -507,7 +481,7 @@ impl Groups {
         }
         let weights = self.weights.iter().copied().chain(std::iter::repeat(1.0));
         let control_point = |(point, weight): (&[Option<f64>; 3], f64)| match *point {
-            [Some(x), Some(y), _] => Ok(ControlPoint { point: Vector { x, y }, weight }),
+            [Some(x), Some(y), _] => Ok(ControlPoint { point: Vector::new(x, y), weight }),
             _ => Err(BadGroup::Missing { code: 20 }),
         };
         self.points.iter().zip(weights).map(control_point).collect()
@@ -516,9 +490,9 @@ impl Groups {
 
 impl Curve for Span<'_> {
     fn at(&self, parameter: f64) -> (Vector, Vector) {
-        let ([x, y, w], [dx, dy, dw]) = self.homogeneous(parameter);
-        let point = Vector { x: x / w, y: y / w };
-        let derivative = Vector { x: (dx - point.x * dw) / w, y: (dy - point.y * dw) / w };
+        let (value, derivative) = self.homogeneous(parameter);
+        let point = value.xy() / value.z;
+        let derivative = (derivative.xy() - point * derivative.z) / value.z;
         (point, derivative)
     }
 }
@@ -528,22 +502,20 @@ impl Span<'_> {
     fn homogeneous(&self, parameter: f64) -> (Homogeneous, Homogeneous) {
         let Spline { degree, knots, points, .. } = self.spline;
         let first = self.knot - degree;
-        let mut mixed = [[0.0; 3]; HIGHEST_DEGREE + 1];
+        let mut mixed = [Homogeneous::zeros(); HIGHEST_DEGREE + 1];
         for (mixed, ControlPoint { point, weight }) in mixed.iter_mut().zip(&points[first..=self.knot]) {
-            *mixed = [point.x * weight, point.y * weight, *weight];
+            *mixed = point.push(1.0) * *weight;
         }
-        let mut derivative = [0.0; 3];
+        let mut derivative = Homogeneous::zeros();
         for level in 1..=*degree {
             if level == *degree {
                 let speed = *degree as f64 / (knots[self.knot + 1] - knots[self.knot]);
-                derivative =
-                    std::array::from_fn(|axis| (mixed[*degree][axis] - mixed[degree - 1][axis]) * speed);
+                derivative = (mixed[*degree] - mixed[degree - 1]) * speed;
             }
             for index in (level..=*degree).rev() {
                 let [from, to] = [knots[first + index], knots[first + index + degree + 1 - level]];
                 let part = (parameter - from) / (to - from);
-                let (before, here) = (mixed[index - 1], mixed[index]);
-                mixed[index] = std::array::from_fn(|axis| before[axis] * (1.0 - part) + here[axis] * part);
+                mixed[index] = mixed[index - 1] * (1.0 - part) + mixed[index] * part;
             }
         }
         (mixed[*degree], derivative)
