@@ -4,7 +4,7 @@
 use std::iter;
 
 use pathbuild_diagnostic::messages::{parameters, paths as messages};
-use pathbuild_diagnostic::{Diagnostic, TextFault, Value, is_slip};
+use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value, is_slip};
 use regex::Regex;
 use smol_str::SmolStr;
 
@@ -43,8 +43,8 @@ pub struct PathSignature {
     pub thickness: f64,
     /// Sweep height (S), if the path gives it.
     pub sweep_height: Option<f64>,
-    /// The upper faces of the material that S must clear.
-    pub sweep_limits: SweepLimits,
+    /// The upper faces of the material that S must clear. Empty if the path gives its own S, which is checked together with its other values.
+    upper_faces: Box<[StatedHeight]>,
     /// Name of the material (M).
     pub material: Option<SmolStr>,
     /// Suffix of the output file's name (R).
@@ -58,11 +58,11 @@ pub struct PathSignature {
     /// Whether the path has Z-probes of its own.
     pub has_probes: bool,
     /// The probes raised by H.
-    pub raised_probes: Vec<StatedHeight>,
+    raised_probes: Vec<StatedHeight>,
     /// T + H of the highest probe; 0 without probes.
     pub highest_probe: f64,
     /// The sweeps with their own S.
-    pub own_sweeps: Vec<StatedHeight>,
+    own_sweeps: Vec<StatedHeight>,
     /// Letters with values that are hidden by errors.
     pub(crate) unknown: Letters,
     /// The path's subpath segments in order.
@@ -119,7 +119,7 @@ impl PathSignature {
             tool: path.tool,
             thickness: path.thickness,
             sweep_height: path.sweep_height,
-            sweep_limits: SweepLimits::of(path),
+            upper_faces: StatedHeight::upper_faces(path),
             material: path.material.clone(),
             output_suffix: path.output_suffix.clone(),
             embeds_only: path.embeds_only.clone(),
@@ -172,9 +172,10 @@ impl SubpathCall {
     }
 }
 
-/// A height that a text of the path states, in mm above the plane of the path: the top of a raised Z-probe, or the height of a sweep.
+/// A height that a text of the path states, in mm above the plane of the path: the top of a raised Z-probe, the height of a sweep, or the upper face
+/// of the material.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StatedHeight {
+struct StatedHeight {
     origin: Origin,
     height: f64,
     fault: Option<TextFault>,
@@ -193,6 +194,30 @@ impl StatedHeight {
         let fault = path.drawn.text(path.element(segment).text)?.fault_of(Letter::S)?;
         Some(Self { origin: path.origin(segment), height, fault: Some(fault) })
     }
+
+    /// Returns the upper faces that the path's sweeps must clear: T of the path itself, of its probes and of its subpath segments.
+    fn upper_faces(path: &Path) -> Box<[Self]> {
+        let Some(surface) = &path.surface else { return Box::default() };
+        let face = |origin: Origin, height: f64, text: Option<TextId>| {
+            let fault = path.drawn.text(text).and_then(|text| text.fault_of(Letter::T));
+            Self { origin, height, fault }
+        };
+        let own = iter::once(surface).chain(&path.probe_surfaces);
+        let own = own.map(|surface| face(surface.origin.clone(), surface.thickness, surface.text));
+        let of_segment = |segment: &Segment| match &segment.kind {
+            SegmentKind::Subpath(subpath) if path.drawn.text(subpath.text)?.letters.contains(Letter::T) => {
+                Some(face(path.origin(segment), subpath.thickness, subpath.text))
+            }
+            _ => None,
+        };
+        own.chain(path.segments.iter().filter_map(of_segment)).collect()
+    }
+
+    /// Returns PB203 at this height: `value` is not above `limit`, and one of the two is this height.
+    fn problem(&self, message: &'static Message, value: f64, limit: f64) -> Diagnostic {
+        let problem = Diagnostic::new(message).with("value", value).with("limit", limit);
+        self.origin.at(problem.with_text(self.fault.clone()))
+    }
 }
 
 impl PathSignature {
@@ -201,15 +226,21 @@ impl PathSignature {
     pub fn own_sweep_problems(&self, top: f64) -> Vec<Diagnostic> {
         let top = top.max(self.highest_probe);
         let too_low = self.own_sweeps.iter().filter(|sweep| !is_written_above(sweep.height, top));
-        let problem = |sweep: &StatedHeight| {
-            let mut problem = Diagnostic::new(&parameters::SWEEP_BELOW_RAISED)
-                .with("value", sweep.height)
-                .with("limit", top)
-                .in_path(self.name.as_str());
-            problem.text.clone_from(&sweep.fault);
-            sweep.origin.at(problem)
+        let problem =
+            |sweep: &StatedHeight| sweep.problem(&parameters::SWEEP_BELOW_RAISED, sweep.height, top);
+        too_low.map(|sweep| problem(sweep).in_path(self.name.as_str())).collect()
+    }
+
+    /// Returns PB203 for each upper face that a sweep height in mm does not clear. The path gives no S of its own; `role` is the use for which it gets
+    /// this height.
+    pub fn low_sweep_problems(&self, height: f64, role: PathRole) -> Vec<Diagnostic> {
+        let message = match role {
+            PathRole::Emitted => &parameters::DEFAULT_SWEEP_TOO_LOW,
+            PathRole::Embedded => &parameters::EMBEDDED_SWEEP_TOO_LOW,
         };
-        too_low.map(problem).collect()
+        let too_high = self.upper_faces.iter().filter(|face| !is_written_above(height, face.height));
+        let problem = |face: &StatedHeight| face.problem(message, height, face.height);
+        too_high.map(|face| problem(face).in_path(self.name.as_str())).collect()
     }
 
     /// Returns the height in mm, above the path's plane, of the highest point of its own material and raised probes.
@@ -226,10 +257,7 @@ impl PathSignature {
     pub fn raised_probe_problems(&self, sweep_height: f64) -> Vec<Diagnostic> {
         let too_high =
             self.raised_probes.iter().filter(|probe| !is_written_above(sweep_height, probe.height));
-        let problem = |probe: &StatedHeight| {
-            self.reached_problem(sweep_height, probe.height, probe.fault.clone(), &probe.origin)
-        };
-        too_high.map(problem).collect()
+        too_high.map(|probe| self.reached_problem(sweep_height, probe)).collect()
     }
 
     /// Returns PB203 if the path embedded by a segment reaches the sweep height. `top` is the height in mm of the highest point of that path and
@@ -241,81 +269,13 @@ impl PathSignature {
         top: f64,
     ) -> Option<Diagnostic> {
         let fault = call.fault(Letter::H).or_else(|| call.fault(Letter::Embed)).cloned();
-        (!is_written_above(sweep_height, top))
-            .then(|| self.reached_problem(sweep_height, top, fault, &call.origin))
+        let reached = StatedHeight { origin: call.origin.clone(), height: top, fault };
+        (!is_written_above(sweep_height, top)).then(|| self.reached_problem(sweep_height, &reached))
     }
 
-    fn reached_problem(
-        &self,
-        sweep_height: f64,
-        top: f64,
-        fault: Option<TextFault>,
-        origin: &Origin,
-    ) -> Diagnostic {
-        let mut problem = Diagnostic::new(&parameters::RAISED_INTO_SWEEPS)
-            .with("value", sweep_height)
-            .with("limit", top)
-            .in_path(self.name.as_str());
-        problem.text = fault;
-        origin.at(problem)
-    }
-}
-
-/// The upper faces that a path's sweeps must clear. Empty if the path gives its own S, which is checked together with its other values.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SweepLimits {
-    path: CaseSensitiveName,
-    faces: Box<[UpperFace]>,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-struct UpperFace {
-    /// The element that gives T.
-    origin: Origin,
-    /// Thickness of the material (T) in mm.
-    thickness: f64,
-    fault: Option<TextFault>,
-}
-
-impl SweepLimits {
-    /// Creates the limits of a path: T of the path itself, of its probes and of its subpath segments.
-    pub fn of(path: &Path) -> Self {
-        let Some(surface) = &path.surface else {
-            return Self { path: path.name.clone(), faces: Box::default() };
-        };
-        let face = |origin: Origin, thickness: f64, text: Option<TextId>| {
-            let fault = path.drawn.text(text).and_then(|text| text.fault_of(Letter::T));
-            UpperFace { origin, thickness, fault }
-        };
-        let own = iter::once(surface).chain(&path.probe_surfaces);
-        let own = own.map(|surface| face(surface.origin.clone(), surface.thickness, surface.text));
-        let of_segment = |segment: &Segment| match &segment.kind {
-            SegmentKind::Subpath(subpath) if path.drawn.text(subpath.text)?.letters.contains(Letter::T) => {
-                Some(face(path.origin(segment), subpath.thickness, subpath.text))
-            }
-            _ => None,
-        };
-        let faces = own.chain(path.segments.iter().filter_map(of_segment)).collect();
-        Self { path: path.name.clone(), faces }
-    }
-
-    /// Returns PB203 for each face that a sweep height in mm does not clear. The path gives no S of its own; `role` is the use for which it gets this
-    /// height.
-    pub fn check(&self, height: f64, role: PathRole) -> Vec<Diagnostic> {
-        let message = match role {
-            PathRole::Emitted => &parameters::DEFAULT_SWEEP_TOO_LOW,
-            PathRole::Embedded => &parameters::EMBEDDED_SWEEP_TOO_LOW,
-        };
-        let too_high = self.faces.iter().filter(|face| !is_written_above(height, face.thickness));
-        let problem = |face: &UpperFace| {
-            let mut problem = Diagnostic::new(message)
-                .with("value", height)
-                .with("limit", face.thickness)
-                .in_path(self.path.as_str());
-            problem.text.clone_from(&face.fault);
-            face.origin.at(problem)
-        };
-        too_high.map(problem).collect()
+    fn reached_problem(&self, sweep_height: f64, reached: &StatedHeight) -> Diagnostic {
+        let problem = reached.problem(&parameters::RAISED_INTO_SWEEPS, sweep_height, reached.height);
+        problem.in_path(self.name.as_str())
     }
 }
 

@@ -10,6 +10,7 @@ use smol_str::SmolStr;
 
 use crate::approx::{above, is_negligible};
 use crate::geometry::{Arc, Curve, Line, Placement, Xy};
+use crate::part::BoxIndex;
 
 /// A clamp: an area that the tool must not enter below a given height.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +60,7 @@ pub struct TipMove {
 #[derive(Clone, Debug)]
 pub struct KeepOutMap {
     clamps: Vec<Clamp>,
-    boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+    boxes: BoxIndex,
 }
 
 #[derive(Clone, Debug)]
@@ -73,11 +74,7 @@ impl KeepOutMap {
     pub fn new<'k>(clamps: impl IntoIterator<Item = (f64, &'k [Curve])>) -> Self {
         let clamp = |(height, outline)| Clamp { height, outline: Outline::new(outline) };
         let clamps: Vec<Clamp> = clamps.into_iter().map(clamp).collect();
-        let boxes = clamps
-            .iter()
-            .zip(0..)
-            .map(|(clamp, number)| GeomWithData::new(Rectangle::from_aabb(clamp.outline.extent()), number));
-        Self { boxes: RTree::bulk_load(boxes.collect()), clamps }
+        Self { boxes: BoxIndex::new(clamps.iter().map(|clamp| clamp.outline.extent())), clamps }
     }
 
     /// Whether there are no clamps.
@@ -89,15 +86,12 @@ impl KeepOutMap {
     /// near or too low does not count as hitting a clamp, since that may be a rounding error.
     pub fn entered_clamps(&self, way: &TipMove, radius: f64, slack: f64) -> Vec<usize> {
         let radius = (radius - slack).max(0.0);
-        let near = self.boxes.locate_in_envelope_intersecting(widened_box(&way.curve, radius));
         let is_entered = |number: &usize| {
             let clamp = &self.clamps[*number];
             let below = way.part_below(clamp.height - slack);
             below.is_some_and(|curve| clamp.outline.is_entered(&curve, radius))
         };
-        let mut entered: Vec<usize> = near.map(|clamp| clamp.data).filter(is_entered).collect();
-        entered.sort_unstable();
-        entered
+        self.boxes.near(widened_box(&way.curve, radius)).filter(is_entered).collect()
     }
 }
 

@@ -37,8 +37,7 @@ pub use changes::{DrawnChange, DrawnChanges, DrawnSide, ElementChange, ElementKi
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
 pub use element::{Cut, END_RADIUS, Element, Marker, Origin, Role, START_RADIUS, Shape, Source, TURN_RADIUS};
 pub use element_parameters::{ElementParameters, Parameter, element_parameters};
-pub use embedding::{PathHeader, PathSignature, Restriction, StatedHeight, SubpathCall, SweepLimits};
-pub use embedding::{SubpathChecker, with_near_names};
+pub use embedding::{PathHeader, PathSignature, Restriction, SubpathCall, SubpathChecker, with_near_names};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction};
 pub use keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};
 pub use language::{DoubtThresholds, Language, PathTool, PathTools};

@@ -310,7 +310,7 @@ impl<'db> ClosureWalk<'db> {
             self.record_missing_option(MissingOption::SweepHeight);
             return Cow::default();
         };
-        Cow::Owned(signature.sweep_limits.check(height, PathRole::Emitted))
+        Cow::Owned(signature.low_sweep_problems(height, PathRole::Emitted))
     }
 
     /// Checks the feed that a path without F of its own gets in an emitted program, and records `--feed` as missing if there is none.

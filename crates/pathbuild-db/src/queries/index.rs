@@ -385,7 +385,7 @@ impl PathSummary {
         }
         Self {
             problems,
-            sweep_problems: signature.sweep_limits.check(path.embedded_sweep_height(), PathRole::Embedded),
+            sweep_problems: signature.low_sweep_problems(path.embedded_sweep_height(), PathRole::Embedded),
             walk_problems,
             moves,
             signature: Some(signature),

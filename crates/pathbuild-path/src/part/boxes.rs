@@ -12,6 +12,7 @@ use crate::keep_out::widened_box;
 type IndexedBox = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
 /// A spatial index of boxes, which are numbered from 0.
+#[derive(Clone, Debug)]
 pub(crate) enum BoxIndex {
     /// The boxes themselves, if they are so few that comparing all of them takes less time than building and searching a tree.
     Few(GroupedBoxes),
@@ -19,6 +20,7 @@ pub(crate) enum BoxIndex {
 }
 
 /// Boxes in the order of their numbers. Neighbours often belong to one segment or outline, so the boxes around groups of them exclude most.
+#[derive(Clone, Debug)]
 pub(crate) struct GroupedBoxes {
     boxes: Vec<AABB<[f64; 2]>>,
     /// The box around each group.

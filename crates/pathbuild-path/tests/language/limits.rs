@@ -1,7 +1,7 @@
 //! Tests that values are checked against their limits: PB203. (book: language/letters)
 
 use pathbuild_diagnostic::{Code, Diagnostic, Lang};
-use pathbuild_path::{Path, PathRole, SweepLimits};
+use pathbuild_path::{Path, PathRole, PathSignature};
 
 use crate::support::{codes, compile, path, wrong};
 
@@ -226,7 +226,9 @@ fn the_default_sweep_height_is_above_every_t() {
         let statements = format!("subpath 0,0 40,0 \">1111.1P\"\nprobe 20,40 \"{text}\"\nend 40,0");
         compile(&path("T5 O3 I1 B0", &statements)).path.unwrap()
     };
-    let check = |path: &Path, height: f64| codes(&SweepLimits::of(path).check(height, PathRole::Emitted));
+    let check = |path: &Path, height: f64| {
+        codes(&PathSignature::of(path).low_sweep_problems(height, PathRole::Emitted))
+    };
     assert_eq!(check(&path_of("Lx"), 5.1), [""; 0]);
     assert_eq!(check(&path_of("Lx"), 5.0), ["PB203"]);
     assert_eq!(check(&path_of("T7"), 7.1), [""; 0]);

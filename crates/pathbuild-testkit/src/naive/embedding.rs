@@ -2,8 +2,8 @@
 
 use pathbuild_path::approx::coincide;
 use pathbuild_path::{
-    AllowedValues, Bindings, Definition, ExaminedPath, Letter, Path, PathName, PathRole, ProxyLine, Segment,
-    SegmentKind, Subpath, SubpathName, SweepLimits, parse_number, walk,
+    AllowedValues, Bindings, Definition, ExaminedPath, Letter, Path, PathName, PathRole, PathSignature,
+    ProxyLine, Segment, SegmentKind, Subpath, SubpathName, parse_number, walk,
 };
 use regex::Regex;
 
@@ -67,7 +67,8 @@ impl<'m> Visit<'m> {
         is_wrong |= path.has_faults();
         if !path.has_faults() {
             let height = path.embedded_sweep_height();
-            is_wrong |= self.report(instance, &SweepLimits::of(&path).check(height, PathRole::Embedded));
+            is_wrong |= self
+                .report(instance, &PathSignature::of(&path).low_sweep_problems(height, PathRole::Embedded));
         }
         is_wrong |= self.report(instance, &walk(&path, self.model.language.join_tolerance).diagnostics);
         self.open.push(instance.clone());
