@@ -22,6 +22,14 @@ impl Severity {
             Self::Warning => "warning",
         }
     }
+
+    /// Returns the word for the severity in messages.
+    pub fn word(self, lang: Lang) -> &'static str {
+        match self {
+            Self::Error => lang.choose("error", "Fehler"),
+            Self::Warning => lang.choose("warning", "Warnung"),
+        }
+    }
 }
 
 /// Includes a file of the directory `pages` as text: the page or the example of a code.

@@ -134,6 +134,11 @@ impl Diagnostic {
         self
     }
 
+    /// Sets the name of the milling path, unless the diagnostic already has one.
+    pub fn or_in_path(self, path: &str) -> Self {
+        if self.path.is_none() { self.in_path(path) } else { self }
+    }
+
     /// Sets the line and the column, both counted from 1, as far as they are known.
     pub fn at_line(mut self, line: impl Into<Option<u32>>, column: Option<u32>) -> Self {
         if let Some(line) = line.into() {

@@ -99,11 +99,8 @@ fn table_by_code(context: &Context, findings: &Findings) -> String {
     let mut counts: Vec<_> = counts.into_iter().collect();
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     let rows = counts.into_iter().map(|((code, severity), number)| {
-        let severity = match severity {
-            Severity::Error => context.choose("error", "Fehler"),
-            Severity::Warning => context.choose("warning", "Warnung"),
-        };
-        vec![count(number, context.lang()), severity.to_owned(), code.to_string(), code.name().to_owned()]
+        let severity = severity.word(context.lang()).to_owned();
+        vec![count(number, context.lang()), severity, code.to_string(), code.name().to_owned()]
     });
     table(&[(context.choose("count", "Anzahl"), true), ("", false), ("", false), ("", false)], rows)
 }

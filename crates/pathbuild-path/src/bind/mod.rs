@@ -296,11 +296,7 @@ impl<'a> Binder<'a> {
     /// Reports a problem with the path's own values.
     fn report_at_start(&mut self, problem: Diagnostic) {
         let problem = self.raw.at_parameters(problem);
-        self.problems.push(if problem.path.is_none() {
-            problem.in_path(self.raw.name.as_str())
-        } else {
-            problem
-        });
+        self.problems.push(problem.or_in_path(self.raw.name.as_str()));
     }
 
     /// Returns the bottom of a cut, from its own text or the path's. Reports doubtful marks, and cuts deeper than the cutting edges of the tool.

@@ -255,9 +255,7 @@ impl PathCollector<'_> {
     }
 
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
-        let name = self.name.as_str();
-        let is_placed = diagnostic.path.is_some();
-        self.diagnostics.push(if is_placed { diagnostic } else { diagnostic.in_path(name) });
+        self.diagnostics.push(diagnostic.or_in_path(self.name.as_str()));
     }
 
     fn next_id(&mut self, position: Position) -> ElementId {

@@ -142,9 +142,7 @@ impl PathCheck<'_> {
             let problems = drawn.text(probe.text).map(|text| text.problems(ElementClass::Probe));
             problems.into_iter().flatten().map(|problem| probe.origin.at(problem))
         });
-        for problem in problems.collect::<Vec<_>>() {
-            self.report(problem);
-        }
+        self.report_all(problems.collect());
     }
 
     fn define_variables(&mut self) {
@@ -176,9 +174,7 @@ impl PathCheck<'_> {
         }
         self.raw.definitions = definitions;
         self.raw.uncertainty.variables = faulty;
-        for problem in problems {
-            self.report(problem);
-        }
+        self.report_all(problems);
     }
 }
 
@@ -207,9 +203,7 @@ impl PathCheck<'_> {
             let problem = Diagnostic::new(&parameters::UNUSED_VARIABLE).with("variable", name);
             is_unused.then(|| self.raw.at_parameters(problem.with_text(parameters.fault(piece))))
         });
-        for problem in unused.collect::<Vec<_>>() {
-            self.report(problem);
-        }
+        self.report_all(unused.collect());
     }
 }
 
@@ -249,9 +243,7 @@ impl PathCheck<'_> {
             let problem = Diagnostic::new(message).with("letter", letter.as_char()).with_text(Some(fault));
             Some(self.raw.at_parameters(problem))
         });
-        for problem in unused.collect::<Vec<_>>() {
-            self.report(problem);
-        }
+        self.report_all(unused.collect());
     }
 }
 
@@ -298,9 +290,13 @@ pub(super) struct PathCheck<'r> {
 
 impl PathCheck<'_> {
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
-        let name = self.raw.name.as_str();
-        let is_placed = diagnostic.path.is_some();
-        self.raw.diagnostics.push(if is_placed { diagnostic } else { diagnostic.in_path(name) });
+        self.raw.diagnostics.push(diagnostic.or_in_path(self.raw.name.as_str()));
+    }
+
+    fn report_all(&mut self, diagnostics: Vec<Diagnostic>) {
+        for diagnostic in diagnostics {
+            self.report(diagnostic);
+        }
     }
 
     /// Reports PB121 for lines without length, milled lines and arcs of almost no length, and circles that lie on others of their kind.
@@ -347,9 +343,7 @@ impl PathCheck<'_> {
                 found.push(at(second, problem));
             }
         }
-        for problem in found {
-            self.report(problem);
-        }
+        self.report_all(found);
     }
 
     /// Reports missing markers.

@@ -91,6 +91,18 @@ pub enum Outcome {
     Changed(Box<ProgramDiff>),
 }
 
+impl Outcome {
+    /// Returns the outcome if the old or the new side has errors; `None` if neither has.
+    pub fn of_errors(has_errors: [bool; 2]) -> Option<Self> {
+        match has_errors {
+            [false, false] => None,
+            [false, true] => Some(Self::Broken),
+            [true, false] => Some(Self::Mended),
+            [true, true] => Some(Self::StillBroken),
+        }
+    }
+}
+
 /// Differences between the old and the new program of a path.
 #[derive(Debug, Default)]
 pub struct ProgramDiff {
@@ -303,24 +315,18 @@ impl PathPair {
     ) -> Option<PathDiff> {
         let Self { old, new } = self;
         let outcome = match (&old, &new) {
-            (Some(old_path), Some(new_path)) => match (&old_path.moves, &new_path.moves) {
-                (Some(before), Some(after)) => {
-                    let is_same = is_written_alike && before == after;
-                    let changed = if is_same {
-                        None
-                    } else {
-                        compare_programs(sides, [old_path, new_path], pictures, problems)
-                    };
-                    match changed {
-                        Some(outcome) => outcome,
-                        None if old_path.place == new_path.place => return None,
-                        None => Outcome::OtherDrawing,
-                    }
+            (Some(old_path), Some(new_path)) => {
+                let paths = [old_path, new_path];
+                let is_same = is_written_alike && old_path.moves == new_path.moves;
+                let changed = Outcome::of_errors(paths.map(|path| path.moves.is_none())).or_else(|| {
+                    if is_same { None } else { compare_programs(sides, paths, pictures, problems) }
+                });
+                match changed {
+                    Some(outcome) => outcome,
+                    None if old_path.place == new_path.place => return None,
+                    None => Outcome::OtherDrawing,
                 }
-                (Some(_), None) => Outcome::Broken,
-                (None, Some(_)) => Outcome::Mended,
-                (None, None) => Outcome::StillBroken,
-            },
+            }
             (None, Some(path)) if path.moves.is_none() => Outcome::Broken,
             (None, Some(path)) => {
                 let refusals = sides[1].refusals(path);
@@ -368,12 +374,7 @@ fn compare_programs(
     for (problems, program) in problems.iter_mut().zip(programs) {
         problems.extend(program.map_or_else(|errors| errors, |compiled| compiled.refusals));
     }
-    changed.or(match has_errors {
-        [false, false] => None,
-        [false, true] => Some(Outcome::Broken),
-        [true, false] => Some(Outcome::Mended),
-        [true, true] => Some(Outcome::StillBroken),
-    })
+    changed.or_else(|| Outcome::of_errors(has_errors))
 }
 
 /// Returns the reasons why the moves of a path changed; `None`, with diagnostics, if the drawings could not be compared.

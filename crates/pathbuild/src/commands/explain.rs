@@ -1,6 +1,6 @@
 //! `pathbuild explain`: shows the page about a code, or a list of all codes.
 
-use pathbuild_diagnostic::{Code, Lang, Severity};
+use pathbuild_diagnostic::{Code, Lang};
 
 use super::refuse;
 use crate::args::ExplainArgs;
@@ -41,11 +41,8 @@ fn unknown_code_error(context: &Context, name: &str) -> String {
 }
 
 fn list(context: &Context) -> String {
-    let severity = |code: Code| match code.severity() {
-        Severity::Error => context.choose("error", "Fehler"),
-        Severity::Warning => context.choose("warning", "Warnung"),
-    };
     let width = Code::ALL.iter().map(|code| code.name().len()).max().unwrap_or_default();
-    let line = |code: &Code| format!("{code}  {:width$}  {}", code.name(), severity(*code));
+    let severity = |code: &Code| code.severity().word(context.lang());
+    let line = |code: &Code| format!("{code}  {:width$}  {}", code.name(), severity(code));
     Code::ALL.iter().map(line).chain([String::new()]).collect::<Vec<_>>().join("\n")
 }

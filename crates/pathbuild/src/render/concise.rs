@@ -12,7 +12,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
 pub(super) fn line(diagnostic: &Diagnostic, view: &View) -> String {
     let location =
         view::location(diagnostic, view).map(|location| format!("{location}: ")).unwrap_or_default();
-    let severity = view::severity(diagnostic.severity, view);
+    let severity = diagnostic.severity.word(view.lang);
     let element = view::element(diagnostic, view);
     let element = if element.is_empty() { element } else { format!(" ({element})") };
     format!("{location}{severity}[{}] {}{element}\n", diagnostic.code(), diagnostic.text(view.lang))

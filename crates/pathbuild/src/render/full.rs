@@ -103,7 +103,7 @@ fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
 const EXCERPT_BYTES: usize = 400;
 
 fn header(diagnostic: &Diagnostic, view: &View) -> String {
-    let severity = view::severity(diagnostic.severity, view);
+    let severity = diagnostic.severity.word(view.lang);
     let mut header = format!("{severity}[{}] {}", diagnostic.code(), diagnostic.code().name());
     let element = view::element(diagnostic, view);
     for part in view::location(diagnostic, view).into_iter().chain((!element.is_empty()).then_some(element)) {

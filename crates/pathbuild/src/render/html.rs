@@ -80,7 +80,7 @@ fn summary(findings: &Findings, view: &View) -> String {
 
 /// Adds one finding: picture, code, message, help, place.
 fn add_finding(text: &mut String, diagnostic: &Diagnostic, picture: Option<&str>, view: &View) {
-    let severity = view::severity(diagnostic.severity, view);
+    let severity = diagnostic.severity.word(view.lang);
     let class = if diagnostic.is_error() { "error" } else { "warning" };
     let (code, name) = (diagnostic.code(), diagnostic.code().name());
     _ = writeln!(text, "<article class=\"{class}\">");

@@ -3,7 +3,7 @@ use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::or_current_directory;
-use pathbuild_diagnostic::{Diagnostic, Lang, Severity, TraceStep, Value, shown};
+use pathbuild_diagnostic::{Diagnostic, Lang, TraceStep, Value, shown};
 use pathbuild_workspace::config::clean;
 
 /// Properties of an output device: language, colours, width, and form of file names.
@@ -121,12 +121,4 @@ pub(super) fn embedding(step: &TraceStep, view: &View) -> String {
         Value::from(step.point).render(view.lang),
         view.name(&step.file)
     )
-}
-
-/// Returns the word `error` or `warning` in the view's language.
-pub(super) fn severity(severity: Severity, view: &View) -> &'static str {
-    match severity {
-        Severity::Error => view.choose("error", "Fehler"),
-        Severity::Warning => view.choose("warning", "Warnung"),
-    }
 }

@@ -71,19 +71,16 @@ fn drawings(
 
 /// Compares two programs, or a program and a path.
 fn compare_two_programs(old: ComparedProgram, new: ComparedProgram, pictures: Option<Lang>) -> Comparison {
-    let outcome = match [&old, &new].map(|seen| seen.are_moves_known) {
-        [true, true] => {
-            let changed = compare_moves(&old.path, &new.path, pictures);
-            let mut states = old.states.changes(&new.states);
-            // Corrections by measured heights show as changed moves, so they are listed separately only if no move has changed.
-            states.retain(|state| state.kind != StateKind::Correction || changed.groups.is_empty());
-            let is_same = changed.groups.is_empty() && states.is_empty();
-            (!is_same).then(|| Outcome::Changed(Box::new(ProgramDiff { states, ..changed })))
-        }
-        [true, false] => Some(Outcome::Broken),
-        [false, true] => Some(Outcome::Mended),
-        [false, false] => Some(Outcome::StillBroken),
+    let changed = || {
+        let changed = compare_moves(&old.path, &new.path, pictures);
+        let mut states = old.states.changes(&new.states);
+        // Corrections by measured heights show as changed moves, so they are listed separately only if no move has changed.
+        states.retain(|state| state.kind != StateKind::Correction || changed.groups.is_empty());
+        let is_same = changed.groups.is_empty() && states.is_empty();
+        (!is_same).then(|| Outcome::Changed(Box::new(ProgramDiff { states, ..changed })))
     };
+    let has_errors = [&old, &new].map(|program| !program.are_moves_known);
+    let outcome = Outcome::of_errors(has_errors).or_else(changed);
     let files = [&old, &new].map(|seen| Some(seen.path.file.clone().into()));
     let name = new.path.name.clone();
     let paths =
