@@ -103,24 +103,73 @@ fn a_subprogram_is_checked_with_the_only_tool_wherever_it_stands() {
     assert!(crash.stderr.contains("PB740"), "{crash}");
 }
 
-/// Which of several tools cuts in a subprogram is not known, so no groove is shown with the width of another tool.
+/// A program in which two tools cut in O2000 and move back in O3000, the second one beside the middle of the first one's groove.
+fn two_tools([first, second]: [&str; 2], beside: &str, is_linuxcnc: bool) -> String {
+    let change = |tool: &str| format!("T{tool} M6\nS6000 M3\nG43 H{tool}\nG0 Z30\n");
+    let subs = "O2000\nG91 G1 X40 F300\nG90\nM99\nO3000\nG91 G0 X-40\nG90\nM99\n";
+    let main = format!(
+        "{}G0 X0 Y0\nZ2\nG1 Z-2 F100\nM98 P2000\nM98 P3000\nG0 Z30\n{}G0 X40 Y{beside}\nZ2\nG1 Z-2 F100\n\
+         M98 P3000\nG0 Z30\nG0 X0 Y30\nZ2\nG1 Z-2 F100\nM98 P2000\nG0 Z30\nM5\nM30\n",
+        change(first),
+        change(second)
+    );
+    let head = "(T2 D=6. CR=0. - FLAT END MILL)\n(T5 D=2. CR=0. - FLAT END MILL)\nG21 G90 G94 G17\n";
+    if !is_linuxcnc {
+        return format!("%\nO1000\n{head}{main}{subs}%\n");
+    }
+    let subs = subs.replace("M99", "endsub").replace("O2000", "o2000 sub").replace("O3000", "o3000 sub");
+    let (cut, back) = subs.split_once("endsub\n").unwrap();
+    let back = back.replace("endsub", "o3000 endsub");
+    let main = main.replace("M98 P2000", "o2000 call").replace("M98 P3000", "o3000 call");
+    format!("{head}{cut}o2000 endsub\n{back}{main}")
+}
+
+/// The tool of a move in a subprogram is the one that is in the spindle during the call.
 #[test]
-fn a_page_shows_no_cutter_for_the_subprograms_of_several_tools() {
-    let change =
-        |tool: u32| format!("T{tool} M6\nS6000 M3\nG43 H{tool}\nG0 Z30\nG0 X0 Y0\nZ2\nG1 Z-2 F100\n");
-    let program = |second: &str| {
-        let tools = format!("(T2 D=6. CR=0. - FLAT END MILL)\n(T5 D={second} CR=0. - FLAT END MILL)\n");
-        let main = format!("{}M98 P2000\nG0 Z30\n{}G1 X5\nG0 Z30\nM5\nM30\n", change(2), change(5));
-        format!("%\nO1000\n{tools}G21 G90 G94 G17\n{main}O2000\nG1 X40 F300\nM99\n%\n")
+fn a_subprogram_is_checked_with_the_tool_of_each_call() {
+    let cases = [(["2", "5"], "2", 0), (["2", "5"], "2.1", 1), (["5", "2"], "0", 1)];
+    for (dialect, is_linuxcnc) in [("haas", false), ("linuxcnc", true)] {
+        for (tools, beside, status) in cases {
+            let place = Place::new().file("a.nc", two_tools(tools, beside, is_linuxcnc));
+            let run = place.run(&format!("verify a.nc --dialect {dialect} --surface 0 --format concise"));
+            assert_eq!((run.status, run.stderr.contains("PB740")), (Some(status), status == 1), "{run}");
+            assert!(run.stderr.contains("rapid moves against a cutter of"), "{run}");
+        }
+    }
+}
+
+/// Each tool is compared with its own limits. A line of a subprogram is reported once, a tool change for each use of the tool.
+#[test]
+fn limits_of_tools_apply_to_their_own_calls() {
+    let config = |flutes: u32, direction: &str| {
+        format!(
+            "[tool.a]\ndiameter = 6\nnumber = 2\nflutes = 2\nchip-load = [0.01, 0.1]\n\
+             [tool.b]\ndiameter = 2\nnumber = 5\nflutes = {flutes}\nchip-load = [0.01, 0.1]\ndirection = \"{direction}\"\n"
+        )
     };
-    let place = Place::new().file("other.nc", program("2.")).file("equal.nc", program("6."));
-    let tools = |name: &str| {
-        let run = place.run(&format!("view {name}.nc --dialect haas --surface 0 -o {name}.json"));
-        assert_eq!(run.status, Some(0), "{run}");
-        let scene: serde_json::Value = serde_json::from_str(&place.read(&format!("{name}.json"))).unwrap();
-        let path = &scene["paths"][0];
-        (path["tool"].clone(), path.get("tools").is_some())
+    let found = |flutes, direction| {
+        let program = two_tools(["2", "5"], "2", false);
+        let twice =
+            program.replace("M5\n", &program[program.find("T5 M6").unwrap()..program.find("M5\n").unwrap()]);
+        let place =
+            Place::of(&format!("== pathbuild.toml ==\n{}", config(flutes, direction))).file("a.nc", twice);
+        let run = place.run("verify a.nc --dialect haas --surface 0 --format concise");
+        ["PB790", "PB783"].map(|code| run.stderr.matches(code).count())
     };
-    assert_eq!(tools("other"), (serde_json::Value::Null, false));
-    assert_eq!(tools("equal").0, 6.0);
+    assert_eq!(found(2, "cw"), [0, 0]);
+    assert_eq!(found(6, "ccw"), [1, 2]);
+}
+
+#[test]
+fn a_page_shows_each_call_of_a_subprogram_with_its_own_tool() {
+    let place = Place::new().file("a.nc", two_tools(["2", "5"], "2", false));
+    let run = place.run("view a.nc --dialect haas --surface 0 -o a.json");
+    assert_eq!(run.status, Some(0), "{run}");
+    let scene: serde_json::Value = serde_json::from_str(&place.read("a.json")).unwrap();
+    let path = &scene["paths"][0];
+    let diameter = |movement: &serde_json::Value| {
+        path["tools"][usize::try_from(movement["tool"].as_u64()?).ok()?]["diameter"].as_f64()
+    };
+    let cuts = path["moves"].as_array().unwrap().iter().filter(|movement| movement["kind"] == "mill");
+    assert_eq!(cuts.map(diameter).collect::<Vec<_>>(), [Some(6.0), Some(2.0)]);
 }

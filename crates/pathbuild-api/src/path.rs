@@ -181,7 +181,7 @@ impl Parameter {
 
 impl Move {
     fn new(scene_move: &SceneMove) -> Self {
-        let SceneMove { kind, way, length, element, line } = scene_move;
+        let SceneMove { kind, way, length, element, line, tool: _ } = scene_move;
         let point =
             |end: &Position| [0, 1, 2].map(|axis| end.known.has(Axes::of(axis)).then_some(end.at[axis]));
         let arc = match way.shape {

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
-use pathbuild_motion::{Action, Group, Pace, StatedWord, Step, WordEffect};
+use pathbuild_motion::{Action, Group, Pace, StatedWord, Step};
 
 use crate::interpret::INCH;
 use crate::native::announces_probe;
@@ -168,14 +168,16 @@ pub fn parse_comment(
 /// Collector of a program's tool changes and of the data in its comments. The program's steps are passed to it one by one.
 #[derive(Debug, Default)]
 pub struct HeaderReader {
-    events: Vec<(u32, Event)>,
+    events: Vec<TimedEvent>,
     signatures: Vec<&'static str>,
-    has_calls: bool,
     /// Whether comments announce probes, as those of pathbuild's probing programs do.
     announces_probes: bool,
     /// Whether the program stops without a message that names the tool to insert. The operator may change the tool there.
     has_unnamed_stop: bool,
 }
+
+/// An event, with the line of its step and the position in the order of execution.
+type TimedEvent = (u32, u32, Event);
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Event {
@@ -201,25 +203,21 @@ impl HeaderReader {
             Action::ChangeTool(number) => Event::Insert(number.unwrap_or(0)),
             Action::SelectTool(number) => Event::Select(*number),
             Action::Word(StatedWord { group: Some(Group::Units), code, .. }) => Event::Unit(*code),
-            Action::Word(word) => {
-                self.has_calls |= word.effect == WordEffect::Call;
-                return;
-            }
-            Action::Comment(text) => return self.comment(step.line, text),
+            Action::Comment(text) => return self.comment(step.line, step.order, text),
             Action::Stop { .. } => {
                 let names_tool =
                     |event: &Event| matches!(event, Event::Statement(Statement { change: Some(_), .. }));
                 let last = self.events.last();
                 self.has_unnamed_stop |=
-                    !last.is_some_and(|(line, event)| *line == step.line && names_tool(event));
+                    !last.is_some_and(|(line, _, event)| *line == step.line && names_tool(event));
                 return;
             }
             _ => return,
         };
         let is_repeated = matches!(event, Event::Cut | Event::Probe)
-            && self.events.last().is_some_and(|(_, last)| *last == event);
+            && self.events.last().is_some_and(|(.., last)| *last == event);
         if !is_repeated {
-            self.events.push((step.line, event));
+            self.events.push((step.line, step.order, event));
         }
     }
 
@@ -227,11 +225,11 @@ impl HeaderReader {
     /// steps contain no comments.
     pub fn read_head_comments(&mut self, text: &[u8]) {
         let steps = std::mem::take(&mut self.events);
-        head_remarks(text).for_each(|remark| self.comment(0, &remark));
+        head_remarks(text).for_each(|remark| self.comment(0, 0, &remark));
         self.events.extend(steps);
     }
 
-    fn comment(&mut self, line: u32, text: &str) {
+    fn comment(&mut self, line: u32, order: u32, text: &str) {
         self.announces_probes |= announces_probe(text);
         let signed = FORMS.iter().filter_map(|form| form.signature);
         // Some posts write only upper case.
@@ -241,43 +239,40 @@ impl HeaderReader {
         };
         self.signatures.extend(signed.filter(begins));
         let found = parse_comment(text, &|signature| self.signatures.contains(&signature));
-        self.events.extend(found.map(|(_, statement)| (line, Event::Statement(statement))));
+        self.events.extend(found.map(|(_, statement)| (line, order, Event::Statement(statement))));
     }
 
     /// Returns the tools and the stock that all comments of the program describe. `inch` is ten times the G code that selects inches (200 for G20).
     pub fn finish(mut self, inch: u16) -> Header {
-        let has = |searched: Event| self.events.iter().any(|(_, event)| *event == searched);
+        let has = |searched: Event| self.events.iter().any(|(.., event)| *event == searched);
         let is_probing = self.announces_probes || has(Event::Probe) && !has(Event::Cut);
         if !is_probing {
-            self.events.retain(|(_, event)| *event != Event::Probe);
+            self.events.retain(|(.., event)| *event != Event::Probe);
         }
-        let has_insertions = self.events.iter().any(|(_, event)| matches!(event, Event::Insert(_)));
-        let has_selections = self.events.iter().any(|(_, event)| matches!(event, Event::Select(_)));
+        let has_insertions = self.events.iter().any(|(.., event)| matches!(event, Event::Insert(_)));
+        let has_selections = self.events.iter().any(|(.., event)| matches!(event, Event::Select(_)));
         let changed = |event: &Event| match event {
             Event::Insert(number) => Some(*number),
             Event::Select(number) if !has_insertions => Some(*number),
             Event::Statement(statement) if !has_insertions && !has_selections => statement.change,
             _ => None,
         };
-        let changes = self.events.iter().filter_map(|(line, event)| Some((*line, changed(event)?)));
+        let changes = self.events.iter().filter_map(|(line, _, event)| Some((*line, changed(event)?)));
         let first = self.first_tool().filter(|_| !has_insertions && !has_selections);
-        let mut header = Header {
-            changes: first.into_iter().chain(changes).collect(),
-            has_calls: self.has_calls,
-            is_probing,
-            ..Header::default()
-        };
+        let mut header =
+            Header { changes: first.into_iter().chain(changes).collect(), is_probing, ..Header::default() };
         let mut collector =
             Collector { in_inches: starts_in_inches(&self.events, inch), ..Collector::default() };
         collector.number = first.map(|(_, number)| number);
         collector.read_numbered_tools(&self.events, inch);
-        for (line, event) in &self.events {
-            collector.event(*line, event, changed(event), inch);
+        for (line, order, event) in &self.events {
+            collector.event((*line, *order), event, changed(event), inch);
         }
         if header.changes.is_empty() {
             collector.assign_only_tool();
         }
-        if !header.has_calls {
+        // A program with subprograms, loops and branches need not execute all of its lines.
+        if self.events.iter().all(|(line, order, _)| line == order) {
             collector.report_unselected_tools(&header.changes);
         }
         header.tools = collector.tools;
@@ -290,7 +285,7 @@ impl HeaderReader {
     /// Returns the line and the number of the tool that is in the spindle at the beginning of a program of pathbuild without T words: the first of
     /// several tools in its list, which are listed in the order in which they cut. `None` if the program also stops where no tool is named.
     fn first_tool(&self) -> Option<(u32, u32)> {
-        let number = |(line, event): &(u32, Event)| match event {
+        let number = |(line, _, event): &TimedEvent| match event {
             Event::Statement(Statement {
                 tool: Some(StatedTool { scope: Scope::Number(number), .. }),
                 ..
@@ -305,9 +300,9 @@ impl HeaderReader {
 }
 
 /// Whether the program's first unit word selects inches. It also applies to comments above it: Fusion writes its list of tools above G20 or G21.
-fn starts_in_inches(events: &[(u32, Event)], inch: u16) -> bool {
+fn starts_in_inches(events: &[TimedEvent], inch: u16) -> bool {
     let unit = |event: &Event| if let Event::Unit(code) = event { Some(*code == inch) } else { None };
-    events.iter().find_map(|(_, event)| unit(event)).unwrap_or(false)
+    events.iter().find_map(|(.., event)| unit(event)).unwrap_or(false)
 }
 
 /// The tools and the stock of a program, as its comments describe them.
@@ -316,11 +311,9 @@ pub struct Header {
     /// Line and number of each tool that the program inserts (M6); if it inserts none, of each tool that it selects (T); if it has neither word, of
     /// each tool change in a comment.
     pub changes: Vec<(u32, u32)>,
-    /// Whether the program has calls, loops or branches, so that its lines are executed out of order.
-    pub has_calls: bool,
     /// Whether the program only probes the material, and never cuts, or should do so according to its comments.
     pub is_probing: bool,
-    /// The tools that cut, or that probe if none cuts, with the lines from which they apply.
+    /// The tools that cut, or that probe if none cuts, in the order of execution.
     pub tools: Vec<CuttingTool>,
     /// The height of the stock's upper face in mm.
     pub surface: Option<f64>,
@@ -330,11 +323,13 @@ pub struct Header {
     pub problems: Vec<Diagnostic>,
 }
 
-/// A tool that cuts, and the line from which it is in use.
+/// A tool that cuts, and the step from which it is in use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CuttingTool {
-    /// The line from which the tool is in use.
+    /// The line of the step from which the tool is in use.
     pub line: u32,
+    /// Position of that step in the order of execution.
+    pub order: u32,
     /// The tool's T number.
     pub number: Option<u32>,
     /// The tool's widths, if comments state them.
@@ -419,9 +414,9 @@ struct Collector {
     /// The description of the tool in use, and whether that tool has cut.
     current_tool: Option<(StatedCutter, bool)>,
     number: Option<u32>,
-    /// The line of the last tool change since the last cut, or else of the first description of a tool since then. The next cut begins another entry
-    /// of `tools` at this line.
-    new_tool_line: Option<u32>,
+    /// The line and the order of the last tool change since the last cut, or else of the first description of a tool since then. The next cut begins
+    /// another entry of `tools` there.
+    new_tool: Option<(u32, u32)>,
     tools: Vec<CuttingTool>,
     corners: [Option<(u32, [f64; 3])>; 2],
     surface: Option<f64>,
@@ -431,9 +426,9 @@ struct Collector {
 
 impl Collector {
     /// Reads the descriptions of numbered tools, which may be anywhere in the program.
-    fn read_numbered_tools(&mut self, events: &[(u32, Event)], inch: u16) {
+    fn read_numbered_tools(&mut self, events: &[TimedEvent], inch: u16) {
         let mut in_inches = self.in_inches;
-        for (line, event) in events {
+        for (line, _, event) in events {
             match event {
                 Event::Unit(code) => in_inches = *code == inch,
                 Event::Statement(Statement { tool: Some(tool), .. }) => {
@@ -465,21 +460,22 @@ impl Collector {
         }
     }
 
-    fn event(&mut self, line: u32, event: &Event, change: Option<u32>, inch: u16) {
+    fn event(&mut self, place: (u32, u32), event: &Event, change: Option<u32>, inch: u16) {
         if let Some(number) = change {
             self.number = Some(number);
-            self.new_tool_line = Some(line);
+            self.new_tool = Some(place);
             self.current_tool = self.current_tool.filter(|(_, has_cut)| !has_cut);
         }
         match event {
             Event::Unit(code) => self.in_inches = *code == inch,
             Event::Cut | Event::Probe => self.assign_tool_to_cut(),
-            Event::Statement(statement) => self.statement(line, statement),
+            Event::Statement(statement) => self.statement(place, statement),
             Event::Select(_) | Event::Insert(_) => {}
         }
     }
 
-    fn statement(&mut self, line: u32, statement: &Statement) {
+    fn statement(&mut self, place: (u32, u32), statement: &Statement) {
+        let (line, _) = place;
         if let Some(tool) = &statement.tool {
             let cutter = StatedCutter::new(line, tool, self.in_inches);
             match tool.scope {
@@ -487,13 +483,13 @@ impl Collector {
                 Scope::Program => {
                     // A second header belongs to a program that was appended to the first one.
                     if self.program_tool.replace(cutter).is_some() {
-                        self.new_tool_line.get_or_insert(line);
+                        self.new_tool.get_or_insert(place);
                     }
                 }
                 Scope::Following => {
                     let known = self.current_tool.filter(|(_, has_cut)| !has_cut).map(|(known, _)| known);
                     self.current_tool = Some((self.combine(known, cutter, None), false));
-                    self.new_tool_line.get_or_insert(line);
+                    self.new_tool.get_or_insert(place);
                 }
             }
         }
@@ -545,9 +541,9 @@ impl Collector {
         if let Some((_, has_cut)) = &mut self.current_tool {
             *has_cut = true;
         }
-        let line = match self.new_tool_line.take() {
-            Some(line) => line,
-            None if self.tools.is_empty() => 0,
+        let (line, order) = match self.new_tool.take() {
+            Some(place) => place,
+            None if self.tools.is_empty() => (0, 0),
             None => return,
         };
         let before =
@@ -558,7 +554,7 @@ impl Collector {
         let current_tool = self.current_tool.map(|(cutter, _)| cutter);
         let stated = [program_tool, numbered_tool, current_tool].into_iter().flatten();
         let cutter = stated.fold(None, |known, next| Some(self.combine(known, next, self.number)));
-        self.tools.push(CuttingTool { line, number: self.number, cutter });
+        self.tools.push(CuttingTool { line, order, number: self.number, cutter });
     }
 
     /// Assigns the only listed tool to the cuts of a program without tool changes.

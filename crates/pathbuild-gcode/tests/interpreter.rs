@@ -1478,6 +1478,20 @@ fn subprograms_run_where_they_are_called() {
 }
 
 #[test]
+fn steps_are_numbered_as_they_are_executed() {
+    let places = |dialect, program: &str| {
+        let steps = interpret(program.as_bytes(), dialect, &Options::default()).steps;
+        let moves = steps.iter().filter(|step| step.as_move().is_some());
+        moves.map(|step| (step.line, step.order)).collect::<Vec<_>>()
+    };
+    assert_eq!(places(LinuxCnc, "G0 X1\n\n(a)\nG0 X2\nM2"), [(1, 1), (4, 4)]);
+    let program = "o1 sub\nG0 X1\no1 endsub\n\n\nG0 X2\no1 call\no1 call\nG0 X3\nM2";
+    assert_eq!(places(LinuxCnc, program), [(6, 2), (2, 4), (2, 7), (9, 9)]);
+    let program = "G0 X1.\nM98 P2000 L2\nG0 X9.\nM30\n\nO2000\nG0 X2.\nM99";
+    assert_eq!(places(Fanuc, program), [(1, 1), (7, 4), (7, 7), (3, 9)]);
+}
+
+#[test]
 fn calls_that_cannot_be_followed_are_reported() {
     let sub = |name: u32, body: &str| format!("o{name} sub\n{body}\no{name} endsub\n");
     let nested = |depth: u32| {

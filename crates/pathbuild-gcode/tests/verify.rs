@@ -211,7 +211,7 @@ fn the_centre_of_a_small_helix_may_be_reached_by_rapid() {
 
 #[test]
 fn the_surface_is_that_of_the_line() {
-    let piece = |line, surface| StockSpan { line, surface, cutter: Cutter::flat(2.0) };
+    let piece = |order, surface| StockSpan { order, surface, cutter: Cutter::flat(2.0) };
     let program = "G0 X0 Y0 Z10\nG0 Z5\nG1 Z1\nG0 Z10\nG0 X50\nG0 Z5\nG1 Z1\nG0 Z10";
     let verified = |pieces: Vec<StockSpan>| wrong(program, Some(&Stock::of_pieces(pieces)));
     assert_eq!(verified(vec![piece(1, 5.0)]), FINE);
@@ -223,7 +223,7 @@ fn the_surface_is_that_of_the_line() {
 fn the_surface_of_native_text_is_where_plunges_hand_over() {
     let program = "G0 X0 Y0 Z10\nG0 Z5\nG1 Z1\nG0 Z10\n(START Subpath 1)\nG0 X50\nG0 Z2\nG1 Z1\nG0 Z10\n(END Subpath 1)\nG0 X0";
     let stock = Stock::of_native_text(&run(program).steps, Cutter::flat(2.0)).expect("plunges");
-    let piece = |line, surface| StockSpan { line, surface, cutter: Cutter::flat(2.0) };
+    let piece = |order, surface| StockSpan { order, surface, cutter: Cutter::flat(2.0) };
     assert_eq!(stock, Stock::of_pieces(vec![piece(0, 5.0), piece(6, 2.0)]));
     assert_eq!(Stock::of_native_text(&run("G0 Z5\nG0 X1 Y1").steps, Cutter::flat(2.0)), None);
 }

@@ -13,6 +13,8 @@ use crate::geometry::{Arc, Axes, Course, Plane, Position};
 pub struct Step {
     /// Line number, counted from 1, or the step number for a program that does not exist as text.
     pub line: u32,
+    /// Position in the order of execution: the line, or a number that counts on from there once a call, a loop or a branch has been executed.
+    pub order: u32,
     pub action: Action,
     /// The axes for which the program has stated a position since the last tool change. The machine may have moved the other axes during the change.
     pub stated: Axes,
@@ -24,7 +26,8 @@ pub struct Step {
 impl Step {
     /// Creates a move in a program without tool changes and stops.
     pub fn of_move(line: u32, movement: Move) -> Self {
-        Self { line, action: Action::Move(movement), stated: Axes::ALL, stated_since_stop: Axes::ALL }
+        let action = Action::Move(movement);
+        Self { line, order: line, action, stated: Axes::ALL, stated_since_stop: Axes::ALL }
     }
 
     /// Returns the line and the move, if the step is a move.

@@ -244,7 +244,7 @@ fn rapids_with_other_length(steps: &[Step], reader: Dialect) -> impl Iterator<It
     found.filter(|problem| problem.message == &gcode::RAPID_WITH_OTHER_LENGTH).map(as_finding_of_post)
 }
 
-/// Returns the stock by line of a text with these cuts; `None` if a cutter or the surface is unknown.
+/// Returns the stock of a text with these cuts, whose order is that of the lines; `None` if a cutter or the surface is unknown.
 fn stock(job: &Job, cuts: &[MatchedCut]) -> Option<Stock> {
     let operations = job.operations_by_step();
     let mut pieces: Vec<StockSpan> = Vec::new();
@@ -256,10 +256,10 @@ fn stock(job: &Job, cuts: &[MatchedCut]) -> Option<Stock> {
         }
         let is_same = |last: &StockSpan| last.surface == surface && last.cutter.diameter == diameter;
         if !pieces.last().is_some_and(is_same) {
-            pieces.push(StockSpan { line: *line, surface, cutter: Cutter::flat(diameter) });
+            pieces.push(StockSpan { order: *line, surface, cutter: Cutter::flat(diameter) });
         }
     }
-    pieces.first_mut()?.line = 0;
+    pieces.first_mut()?.order = 0;
     Some(Stock::of_pieces(pieces))
 }
 

@@ -100,7 +100,7 @@ pub struct ScenePath {
     /// Shape of the tip of that cutter.
     #[serde(skip_serializing_if = "Tip::is_flat")]
     pub tip: Tip,
-    /// Cutters of a program that uses several, each with the line at which it is inserted; otherwise empty.
+    /// Cutters of a program that was read, if it uses several or its material is known; otherwise empty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tools: Vec<ToolSpan>,
     /// Z in mm of the upper face of the material (T).
@@ -145,11 +145,14 @@ pub struct ScenePath {
     pub examples: Vec<Example>,
 }
 
-/// A range of lines of a program during which one cutter is used.
+/// A part of a program during which one cutter is used.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ToolSpan {
     /// Line from which the cutter is in the spindle.
     pub line: u32,
+    /// Position in the order of execution from which the cutter is in the spindle.
+    #[serde(skip)]
+    pub order: u32,
     /// Diameter of the cutter in mm.
     pub diameter: f64,
     /// Shape of the cutter's tip.
@@ -193,9 +196,7 @@ impl ScenePath {
 
     /// Returns the entry of [`tools`](Self::tools) for a move.
     pub(crate) fn tool_span(&self, movement: &SceneMove) -> Option<&ToolSpan> {
-        let line = movement.line.unwrap_or(0);
-        let later = self.tools.partition_point(|tool| tool.line <= line);
-        later.checked_sub(1).map(|index| &self.tools[index])
+        self.tools.get(movement.tool? as usize)
     }
 }
 
@@ -668,6 +669,8 @@ pub struct SceneMove {
     pub element: Option<u32>,
     /// Line of the move in the G-code, counted from 1.
     pub line: Option<u32>,
+    /// Cutter of the move, as an index into [`ScenePath::tools`](crate::scene::ScenePath::tools).
+    pub tool: Option<u32>,
 }
 
 /// The purpose of a move.
@@ -691,7 +694,7 @@ pub enum MoveKind {
 impl SceneMove {
     /// Creates a move of which only the geometry is known.
     pub fn new(way: motion::Move, line: Option<u32>) -> Self {
-        Self { kind: MoveKind::of(&way), length: way.length(), way, element: None, line }
+        Self { kind: MoveKind::of(&way), length: way.length(), way, element: None, line, tool: None }
     }
 
     /// Whether both ends are known in the plane, and the program does not name the target (G28, G30, G53).
@@ -754,6 +757,8 @@ struct MoveJson {
     element: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tool: Option<u32>,
 }
 
 /// The JSON form of an arc: the axes of its plane, its centre on these axes, and the angle it covers.
@@ -796,6 +801,7 @@ impl Serialize for SceneMove {
             length: rounded(self.length),
             element: self.element,
             line: self.line,
+            tool: self.tool,
         };
         written.serialize(serializer)
     }

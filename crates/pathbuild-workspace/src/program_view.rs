@@ -7,6 +7,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{CuttingTool, Header};
 use pathbuild_gcode::statistics::Summary;
 use pathbuild_gcode::verify::StockSpan;
+use pathbuild_motion::Step;
 use pathbuild_view::{BilingualText, ProgramRecord, Scene, ScenePath, ShownCheck, ToolSpan};
 use serde::Deserialize;
 
@@ -82,15 +83,13 @@ pub fn program_scene(
     // The surface with which rapid moves were checked, if it is level.
     let checked_surface = rapids.filter(|values| values.is_level).map(|values| values.surface);
     let mut path = program.scene_path(workspace);
-    // If the cutter of a move may be unknown, show none: with the cutter of another tool, grooves would have a wrong width. A tool may state no
-    // cutter, and a subprogram may be called with any of the tools.
-    let are_stated = header.tools.iter().all(|tool| tool.cutter.is_some());
-    let are_equal = cutters.windows(2).all(|pair| pair[0].diameter == pair[1].diameter);
-    let are_known = are_stated && (are_equal || !header.has_calls);
+    // If a tool states no cutter, show none: with the cutter of another tool, its grooves would have a wrong width.
+    let are_known = cutters.len() == header.tools.len();
     set_cutters(&mut path, cutter, if are_known { &cutters } else { &[] }, rapids);
     if let Some(stock) = verifier.stock(program, &header) {
-        path.tools = stock.spans().iter().map(tool_span).collect();
+        path.tools = stock.spans().iter().map(|span| tool_span(span, &header)).collect();
     }
+    set_tools(&mut path, &program.read.steps);
     let mut scene = Scene::new(file_name(&program.file));
     scene.paths.push(path);
     let summary = Summary::of(&program.read.steps, program.dialect == Dialect::Xpertmill);
@@ -138,13 +137,11 @@ fn file_name(file: &Utf8Path) -> &str {
     file.file_name().unwrap_or(file.as_str())
 }
 
-fn tool_span(span: &StockSpan) -> ToolSpan {
-    ToolSpan {
-        line: span.line,
-        diameter: span.cutter.diameter,
-        tip: span.cutter.into(),
-        surface: Some(span.surface),
-    }
+fn tool_span(span: &StockSpan, header: &Header) -> ToolSpan {
+    let StockSpan { order, surface, cutter } = *span;
+    let tool = header.tools.binary_search_by_key(&order, |tool| tool.order);
+    let line = tool.map_or(order, |index| header.tools[index].line);
+    ToolSpan { line, order, diameter: cutter.diameter, tip: cutter.into(), surface: Some(surface) }
 }
 
 impl Assumptions {
@@ -168,8 +165,8 @@ impl Assumptions {
 /// Returns the cutters that the header of a program states.
 fn stated_cutters(header: &Header) -> Vec<ToolSpan> {
     let span = |tool: &CuttingTool| {
-        let cutter = tool.cutter?.widths();
-        Some(ToolSpan { line: tool.line, diameter: cutter.diameter, tip: cutter.into(), surface: None })
+        let (CuttingTool { line, order, .. }, cutter) = (*tool, tool.cutter?.widths());
+        Some(ToolSpan { line, order, diameter: cutter.diameter, tip: cutter.into(), surface: None })
     };
     header.tools.iter().filter_map(span).collect()
 }
@@ -190,6 +187,15 @@ fn set_cutters(path: &mut ScenePath, cutter: Option<f64>, stated: &[ToolSpan], r
             path.tip = stated.first().filter(|_| cutter.is_none()).map(|tool| tool.tip).unwrap_or_default();
         }
         _ => path.tools = stated.to_vec(),
+    }
+}
+
+/// Sets the tool of each move of a program to the one that is in the spindle when the move is executed.
+fn set_tools(path: &mut ScenePath, steps: &[Step]) {
+    let moves = steps.iter().filter(|step| step.as_move().is_some());
+    for (step, movement) in moves.zip(&mut path.moves) {
+        let later = path.tools.partition_point(|tool| tool.order <= step.order);
+        movement.tool = later.checked_sub(1).and_then(|index| u32::try_from(index).ok());
     }
 }
 

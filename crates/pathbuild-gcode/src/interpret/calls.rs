@@ -124,6 +124,7 @@ impl<'r, 'i> Runner<'r, 'i> {
                     return RunEnd::Ended;
                 }
             }
+            self.interpreter.has_jumped |= self.interpreter.jump.is_some();
             let outcome = match self.interpreter.jump.take() {
                 None => continue,
                 Some(Jump::Return | Jump::EndRepeat) if self.depth == 0 => {

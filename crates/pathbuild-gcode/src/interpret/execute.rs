@@ -29,6 +29,9 @@ pub(super) struct Interpreter<'i> {
     pub(super) ended: bool,
     /// The place where execution continues after the last block, if not in the next line.
     pub(super) jump: Option<Jump>,
+    /// Position of the block in the order of execution, which is its line until the first jump.
+    order: u32,
+    pub(super) has_jumped: bool,
     /// Whether the next block is the first one of a subprogram.
     pub(super) begins_subprogram: bool,
     /// The number of the program, from its O word.
@@ -49,6 +52,8 @@ impl<'i> Interpreter<'i> {
             out: Vec::new(),
             ended: false,
             jump: None,
+            order: 0,
+            has_jumped: false,
             begins_subprogram: false,
             main_number: None,
         }
@@ -77,6 +82,7 @@ impl<'i> Interpreter<'i> {
 
     /// Executes a block and appends its steps to `out`.
     pub(super) fn block(&mut self, block: &Block<'_>) {
+        self.order = if self.has_jumped { self.order + 1 } else { block.line };
         for comment in &block.comments {
             self.check_active(block, comment.text);
             self.take_stated(block, comment.text);
@@ -108,7 +114,7 @@ impl<'i> Interpreter<'i> {
 
     pub(super) fn step(&mut self, block: &Block<'_>, action: Action) {
         let (stated, stated_since_stop) = (self.state.stated_axes, self.state.stated_since_stop);
-        self.out.push(Step { line: block.line, action, stated, stated_since_stop });
+        self.out.push(Step { line: block.line, order: self.order, action, stated, stated_since_stop });
     }
 
     pub(super) fn emit_move(&mut self, block: &Block<'_>, movement: Move) {

@@ -41,7 +41,7 @@ impl<'c> BentRapidRules<'c> {
     pub fn step(&mut self, step: &Step) {
         self.frames.step(step);
         let Action::Move(movement) = &step.action else { return };
-        let surface = self.stock.at(step.line).map(|piece| piece.surface);
+        let surface = self.stock.at(step.order).map(|piece| piece.surface);
         let height = movement.from.z().max(movement.to.z());
         if is_slanting_rapid(movement) && surface.is_some_and(|surface| height < surface - RESIDUE_HEIGHT) {
             self.found.insert(self.moves);

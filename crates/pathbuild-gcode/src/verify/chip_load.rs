@@ -43,15 +43,15 @@ impl ChipLoadRules {
                 let Pace::Feed(feed) = motion.pace else { return };
                 // Moves that change the height are not checked, because feeds into the material are lower on purpose.
                 if feed > 0.0 && motion.axis_shares()[2] == 0.0 && motion.length() > 0.0 {
-                    self.check(step.line, feed);
+                    self.check(step, feed);
                 }
             }
             _ => {}
         }
     }
 
-    fn check(&mut self, line: u32, feed: f64) {
-        let Some(tool) = tool_at(&self.tools, line) else { return };
+    fn check(&mut self, step: &Step, feed: f64) {
+        let Some(tool) = tool_at(&self.tools, step.order) else { return };
         let cut = (tool, feed.to_bits(), self.speed.map(f64::to_bits));
         if self.last.replace(cut) == Some(cut) {
             return;
@@ -60,7 +60,7 @@ impl ChipLoadRules {
             return;
         };
         if self.reported.insert(cut) {
-            self.problems.add_at_line(problem.message, line, |_| problem);
+            self.problems.add_at_line(problem.message, step.line, |_| problem);
         }
     }
 

@@ -4,6 +4,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::{Action, Step, check_cutting_length};
 
 use super::{ByTool, Stock, tool_at};
+use crate::read::Problems;
 
 /// Rule that finds cuts deeper than the cutting edges of their tools are long: pass every step of a program, then call [`finish`](Self::finish). The
 /// deepest cut of each tool is reported.
@@ -36,8 +37,8 @@ impl<'s> CuttingLengthRules<'s> {
         let (true, [.., Some((bottom, _))]) = (movement.pace.feed().is_some(), movement.extent()) else {
             return;
         };
-        let tool = tool_at(&self.tools, step.line);
-        let surface = self.stock.and_then(|stock| stock.at(step.line)).map(|span| span.surface);
+        let tool = tool_at(&self.tools, step.order);
+        let surface = self.stock.and_then(|stock| stock.at(step.order)).map(|span| span.surface);
         let (Some(tool), Some(surface)) = (tool, surface) else { return };
         let deepest = &mut self.deepest[tool];
         if deepest.is_none_or(|deepest| surface - bottom > deepest.surface - deepest.bottom) {
@@ -47,10 +48,13 @@ impl<'s> CuttingLengthRules<'s> {
 
     /// Returns all findings, ordered by line.
     pub fn finish(self) -> Vec<Diagnostic> {
-        let found = self.tools.into_iter().zip(self.deepest).filter_map(|((_, length), deepest)| {
-            let DeepestCut { line, bottom, surface } = deepest?;
-            Some(check_cutting_length(length?, bottom, surface)?.at_line(line, None))
-        });
-        found.collect()
+        let mut problems = Problems::default();
+        for ((_, length), deepest) in self.tools.into_iter().zip(self.deepest) {
+            let Some((length, DeepestCut { line, bottom, surface })) = length.zip(deepest) else { continue };
+            if let Some(problem) = check_cutting_length(length, bottom, surface) {
+                problems.add_at_line(problem.message, line, |_| problem);
+            }
+        }
+        problems.into_diagnostics()
     }
 }

@@ -5,23 +5,26 @@ use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_motion::{Action, Step, Turning};
 
 use super::{ByTool, tool_at};
+use crate::read::Problems;
 
 /// Rule that finds cuts during which the spindle turns against the direction of the tool, and programs that cut without ever starting the spindle:
 /// pass every step of a program, then call [`finish`](Self::finish). Each tool is reported at most once.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct DirectionRules {
     tools: ByTool<Option<Turning>>,
     turning: Turning,
     has_speed: bool,
     /// The lines of the first cut, and of the first cut of a tool with a direction, before the program switches the spindle.
     unstarted: [Option<u32>; 2],
-    found: Vec<(usize, Diagnostic)>,
+    /// The last tool that was reported.
+    reported: Option<usize>,
+    problems: Problems,
 }
 
 impl DirectionRules {
     /// Creates the rule for the directions of the tools.
     pub fn new(tools: ByTool<Option<Turning>>) -> Self {
-        Self { tools, turning: Turning::Unstated, has_speed: false, unstarted: [None; 2], found: Vec::new() }
+        Self { tools, ..Self::default() }
     }
 
     /// Processes the next step of the program.
@@ -32,36 +35,35 @@ impl DirectionRules {
                 self.has_speed |= spindle.speed.is_some_and(|speed| speed > 0.0);
             }
             Action::Move(motion) if motion.is_cut() => {
-                self.check(step.line);
+                self.check(step);
             }
             _ => {}
         }
     }
 
-    fn check(&mut self, line: u32) {
+    fn check(&mut self, step: &Step) {
         if self.turning == Turning::Unstated {
-            self.unstarted[0].get_or_insert(line);
+            self.unstarted[0].get_or_insert(step.line);
         }
-        let Some(tool) = tool_at(&self.tools, line) else { return };
+        let Some(tool) = tool_at(&self.tools, step.order) else { return };
         let Some(required) = self.tools[tool].1 else { return };
         if self.turning == Turning::Unstated {
-            self.unstarted[1].get_or_insert(line);
+            self.unstarted[1].get_or_insert(step.line);
         }
-        let is_known = self.found.iter().any(|(known, _)| *known == tool);
-        if self.turning.is_on() && self.turning != required && !is_known {
+        if self.turning.is_on() && self.turning != required && self.reported.replace(tool) != Some(tool) {
             let (found, expected, direction) = match required {
                 Turning::CounterClockwise => ("M3", "M4", "ccw"),
                 _ => ("M4", "M3", "cw"),
             };
-            let problem = Diagnostic::new(&say::SPINDLE_DIRECTION).quoting("direction", direction);
-            let problem = problem.quoting("found", found).quoting("expected", expected);
-            self.found.push((tool, problem.at_line(line, None)));
+            self.problems.add_at_line(&say::SPINDLE_DIRECTION, step.line, |d| {
+                d.quoting("direction", direction).quoting("found", found).quoting("expected", expected)
+            });
         }
     }
 
-    /// Returns all findings about directions.
-    pub fn finish(self) -> impl Iterator<Item = Diagnostic> {
-        self.found.into_iter().map(|(_, problem)| problem)
+    /// Returns all findings about directions, ordered by line.
+    pub fn finish(self) -> Vec<Diagnostic> {
+        self.problems.into_diagnostics()
     }
 
     /// Reports a program that cuts but never switches the spindle, although the direction of a tool or an S shows that it should. Only for programs

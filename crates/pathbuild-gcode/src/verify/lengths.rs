@@ -120,7 +120,7 @@ impl<'c> LengthRules<'c> {
                 }
             }
             Action::Move(movement) => {
-                self.check_move(step.line, movement);
+                self.check_move(step, movement);
                 let states_z = step.stated_since_stop.has(Axes::Z) && movement.to.known.has(Axes::Z);
                 if states_z && movement.pace == Pace::Rapid && movement.named.is_none() {
                     self.check_rapid(step.line);
@@ -137,14 +137,14 @@ impl<'c> LengthRules<'c> {
         self.problems.append(std::mem::take(&mut self.wrong_rapid));
     }
 
-    fn check_move(&mut self, line: u32, movement: &Move) {
-        if is_cut_in_stock(line, movement, self.stock) {
+    fn check_move(&mut self, step: &Step, movement: &Move) {
+        if is_cut_in_stock(step.order, movement, self.stock) {
             self.waiting.iter_mut().for_each(|waiting| waiting.has_cut = true);
             self.has_cut_since_change = true;
             self.check_stop();
         }
         if !self.is_cut_checked {
-            self.check_cut(line, movement);
+            self.check_cut(step, movement);
         }
     }
 
@@ -210,29 +210,29 @@ impl<'c> LengthRules<'c> {
         self.is_rapid_checked = true;
     }
 
-    fn check_cut(&mut self, line: u32, movement: &Move) {
+    fn check_cut(&mut self, step: &Step, movement: &Move) {
         let rises = movement.keeps_xy() && movement.to.z() > movement.from.z();
-        if movement.named.is_some() || rises || !is_cut_in_stock(line, movement, self.stock) {
+        if movement.named.is_some() || rises || !is_cut_in_stock(step.order, movement, self.stock) {
             return;
         }
         self.is_cut_checked = true;
-        let (tool, set) = (self.tools.inserted(), self.tools.length_line().unwrap_or(line));
+        let (tool, set) = (self.tools.inserted(), self.tools.length_line().unwrap_or(step.line));
         match (self.tools.length_fit(), tool, self.first) {
             (LengthFit::Outdated, ..) => {
                 self.forgive_rapid();
                 let change = change_word(tool);
-                self.problems.add_at_line(&say::LENGTH_BEFORE_CHANGE, line, |d| {
+                self.problems.add_at_line(&say::LENGTH_BEFORE_CHANGE, step.line, |d| {
                     d.quoting("change", change).with("set", u64::from(set))
                 });
             }
             (LengthFit::Off, _, Some(first)) => {
                 self.forgive_rapid();
-                self.problems.add_at_line(&say::LENGTH_SWITCHED_OFF, line, |d| {
+                self.problems.add_at_line(&say::LENGTH_SWITCHED_OFF, step.line, |d| {
                     d.with("set", u64::from(set)).with("first", u64::from(first))
                 });
             }
             (LengthFit::Off | LengthFit::Unstated, Some(tool), _) => {
-                self.bare.get_or_insert((line, tool));
+                self.bare.get_or_insert((step.line, tool));
             }
             (LengthFit::OfEntry(entry), Some(tool), _) => {
                 add_once(&mut self.cuts_with_other_entry, OtherEntry { line: set, tool, entry });

@@ -5,7 +5,7 @@
 
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Message, Point};
-use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Plane, Position, widest_chord};
+use pathbuild_motion::{Action, Axes, Move, MoveShape, Pace, Plane, Position, Step, widest_chord};
 use pathbuild_toolpath as toolpath;
 use pathbuild_toolpath::{Comment, ProgramStep as Emitted};
 
@@ -43,12 +43,12 @@ const VISITS_PER_CELL: f64 = 3.0;
 
 /// Applies the moves of a program to the stock and reports rapid moves that hit material, and cuts through material above their own surface.
 pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: &mut Problems) {
-    apply_moves(program, stock, problems, &mut |material, line, movement, problems| {
-        material.check_excursion(line, movement, problems);
+    apply_moves(program, stock, problems, &mut |material, step, movement, problems| {
+        material.check_excursion(step, movement, problems);
         if movement.pace == Pace::Rapid {
-            material.check_rapid(line, movement, problems);
+            material.check_rapid(step, movement, problems);
         } else {
-            material.check_cut(line, movement, problems);
+            material.check_cut(step, movement, problems);
         }
     });
 }
@@ -57,9 +57,9 @@ pub(super) fn check(program: &(impl Program + ?Sized), stock: &Stock, problems: 
 /// incomplete.
 pub fn rapid_hits(program: &(impl Program + ?Sized), stock: &Stock) -> Vec<u32> {
     let mut lines = Vec::new();
-    apply_moves(program, stock, &mut Problems::default(), &mut |material, line, movement, _| {
-        if movement.pace == Pace::Rapid && material.first_hit(line, movement).is_some() {
-            lines.push(line);
+    apply_moves(program, stock, &mut Problems::default(), &mut |material, step, movement, _| {
+        if movement.pace == Pace::Rapid && material.first_hit(step.order, movement).is_some() {
+            lines.push(step.line);
         }
     });
     lines
@@ -71,10 +71,10 @@ fn apply_moves(
     program: &(impl Program + ?Sized),
     stock: &Stock,
     problems: &mut Problems,
-    look: &mut dyn FnMut(&mut KnownMaterial<'_>, u32, &Move, &mut Problems),
+    look: &mut dyn FnMut(&mut KnownMaterial<'_>, &Step, &Move, &mut Problems),
 ) {
     let mut extent = MaterialEstimate::default();
-    each_followed_move(program, stock, &mut |line, movement| extent.add(line, movement, stock));
+    each_followed_move(program, stock, &mut |step, movement| extent.add(step, movement, stock));
     if extent.pieces > stock.most_pieces {
         let (line, limit) = (extent.line, stock.most_pieces);
         return problems.add_at_line(&say::TOO_MANY_PIECES, line, |d| {
@@ -86,22 +86,22 @@ fn apply_moves(
     };
     let mut material = KnownMaterial::new(stock, resolution, stock.cells());
     let mut reached = 0;
-    let mut each = |take: &mut dyn FnMut(&mut KnownMaterial<'_>, u32, &Move)| {
-        each_followed_move(program, stock, &mut |line, movement| {
+    let mut each = |take: &mut dyn FnMut(&mut KnownMaterial<'_>, &Step, &Move)| {
+        each_followed_move(program, stock, &mut |step, movement| {
             if !material.map.is_exhausted() {
-                reached = line;
-                take(&mut material, line, movement);
+                reached = step.line;
+                take(&mut material, step, movement);
             }
         });
     };
-    each(&mut |material, line, movement| material.add_material(line, movement));
+    each(&mut |material, step, movement| material.add_material(step.order, movement));
     if !stock.is_level() {
-        each(&mut |material, line, movement| material.raise_material(line, movement));
+        each(&mut |material, step, movement| material.raise_material(step.order, movement));
     }
-    each(&mut |material, line, movement| {
-        look(material, line, movement, problems);
+    each(&mut |material, step, movement| {
+        look(material, step, movement, problems);
         if matches!(movement.pace, Pace::Feed(_)) {
-            material.remove_material(line, movement);
+            material.remove_material(step.order, movement);
         }
     });
     if material.map.is_exhausted() {
@@ -116,46 +116,44 @@ fn report_too_large(line: u32, stock: &Stock, problems: &mut Problems) {
 }
 
 /// Whether those of the given cuts that are entirely below a rapid move have cleared its path, assuming material up to `surface` all around. Returns
-/// false as well if the number of cells does not suffice.
+/// false as well if the number of cells does not suffice. The moves have the numbers of their steps, which are also their order.
 pub(super) fn have_cleared_path<'c>(
-    line: u32,
+    order: u32,
     movement: &Move,
     surface: f64,
     cuts: impl IntoIterator<Item = &'c (u32, Move)>,
     stock: &Stock,
     cells: u64,
 ) -> bool {
-    let Some(piece) = stock.at(line) else { return true };
+    let Some(piece) = stock.at(order) else { return true };
     let mut material = KnownMaterial::new(stock, stock.resolution(), cells);
     for part in material.parts(movement) {
         material.map.add(&capsule(&part, piece.cutter.diameter / 2.0), surface);
     }
     let height = movement.from.z().min(movement.to.z()) + RESIDUE_HEIGHT;
-    for (line, cut) in cuts.into_iter().filter(|(_, cut)| cut.from.z().max(cut.to.z()) <= height) {
-        material.remove_material(*line, cut);
+    for (order, cut) in cuts.into_iter().filter(|(_, cut)| cut.from.z().max(cut.to.z()) <= height) {
+        material.remove_material(*order, cut);
     }
-    let mut problems = Problems::default();
-    material.check_rapid(line, movement, &mut problems);
-    problems.into_diagnostics().is_empty() && !material.map.is_exhausted()
+    material.first_hit(order, movement).is_none() && !material.map.is_exhausted()
 }
 
-/// Passes each move to `take`. A move whose end is unknown only ends an excursion. A rapid move whose start is unknown is replaced by a vertical one
+/// Passes each move to `take`, with its step. A move whose end is unknown only ends an excursion. A rapid move whose start is unknown is replaced by a vertical one
 /// to its end: whether that end is in the material does not depend on where the tool comes from.
-fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &mut dyn FnMut(u32, &Move)) {
+fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &mut dyn FnMut(&Step, &Move)) {
     let highest = stock.highest().filter(|highest| highest.is_finite());
     program.each(&mut |step| {
         let Action::Move(movement) = &step.action else { return };
         if movement.is_known() {
-            return take(step.line, movement);
+            return take(step, movement);
         }
         if let Some(highest) =
             highest.filter(|_| movement.pace == Pace::Rapid && movement.to.known == Axes::ALL)
         {
             let [x, y, z] = movement.to.at;
             let from = Position::known(x, y, z.max(highest));
-            take(step.line, &Move { from, shape: MoveShape::Line, named: None, ..*movement });
+            take(step, &Move { from, shape: MoveShape::Line, named: None, ..*movement });
         } else {
-            take(step.line, movement);
+            take(step, movement);
         }
     });
 }
@@ -180,13 +178,13 @@ struct MaterialEstimate {
 }
 
 impl MaterialEstimate {
-    fn add(&mut self, line: u32, movement: &Move, stock: &Stock) {
-        if let Some(piece) = stock.at(line).filter(|_| is_low_rapid(movement, stock)) {
+    fn add(&mut self, step: &Step, movement: &Move, stock: &Stock) {
+        if let Some(piece) = stock.at(step.order).filter(|_| is_low_rapid(movement, stock)) {
             self.passed += covered_area(movement, piece.cutter.diameter);
             self.passes += 1.0;
         }
-        let Some(piece) = cutting_piece(line, movement, stock) else { return };
-        self.line = line;
+        let Some(piece) = cutting_piece(step.order, movement, stock) else { return };
+        self.line = step.line;
         self.area += covered_area(movement, piece.cutter.diameter);
         self.pieces += u64::from(part_count(movement, stock.resolution() / CELL_PER_SAGITTA)) - 1;
         let parts = f64::from(part_count(movement, FINE_RESOLUTION / CELL_PER_SAGITTA));
@@ -237,9 +235,9 @@ impl<'s> KnownMaterial<'s> {
     }
 
     /// Adds the material within O of a cutting move. Where the surface is unknown, material is only added along the rapid moves to be checked.
-    fn add_material(&mut self, line: u32, movement: &Move) {
+    fn add_material(&mut self, order: u32, movement: &Move) {
         let is_unknown = |piece: &StockSpan| piece.surface == f64::INFINITY;
-        if self.stock.at(line).is_some_and(is_unknown) {
+        if self.stock.at(order).is_some_and(is_unknown) {
             if movement.pace == Pace::Rapid && movement.is_known() {
                 for part in self.parts(movement) {
                     self.map.add(&capsule(&part, self.resolution), f64::INFINITY);
@@ -247,7 +245,7 @@ impl<'s> KnownMaterial<'s> {
             }
             return;
         }
-        let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
+        let Some(piece) = cutting_piece(order, movement, self.stock) else { return };
         for part in self.parts(movement) {
             if part.lowest() < piece.surface {
                 self.map.add(&capsule(&part, piece.cutter.diameter), piece.surface);
@@ -257,8 +255,9 @@ impl<'s> KnownMaterial<'s> {
 
     /// Raises the material in a cutting move's own way, so that the highest surface of all cuts that go through a place applies there, in any order.
     /// Beside a cut, where a lower sheet may lie, the lowest one applies.
-    fn raise_material(&mut self, line: u32, movement: &Move) {
-        let Some(piece) = cutting_piece(line, movement, self.stock).filter(|piece| piece.surface.is_finite())
+    fn raise_material(&mut self, order: u32, movement: &Move) {
+        let Some(piece) =
+            cutting_piece(order, movement, self.stock).filter(|piece| piece.surface.is_finite())
         else {
             return;
         };
@@ -269,14 +268,14 @@ impl<'s> KnownMaterial<'s> {
 
     /// Reports rapid moves down and up again without any other move between them, as if a hole were drilled or a slot milled with them. Where the
     /// material is known, the map decides instead.
-    fn check_excursion(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
-        let Some(piece) = self.stock.at(line) else { return };
+    fn check_excursion(&mut self, step: &Step, movement: &Move, problems: &mut Problems) {
+        let Some(piece) = self.stock.at(step.order) else { return };
         let is_unknown = |descent: &Move| {
             let place = [descent.to.x(), descent.to.y()];
             let tip = Capsule::new(place, place, piece.cutter.diameter / 2.0);
             self.map.highest_above(&tip, f64::NEG_INFINITY).is_none()
         };
-        if let Some(ended) = self.excursions.step(line, movement, self.lowest, is_unknown) {
+        if let Some(ended) = self.excursions.step(step.line, movement, self.lowest, is_unknown) {
             problems.add_at_line(&say::RAPID_DIP, ended.line, |d| {
                 d.with("z", ended.z()).with("surface", ended.surface).at_point(ended.place())
             });
@@ -284,8 +283,8 @@ impl<'s> KnownMaterial<'s> {
     }
 
     /// Removes the material along a cutting move, in a strip at least two cells wide, so that a cut of unknown width removes material as well.
-    fn remove_material(&mut self, line: u32, movement: &Move) {
-        let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
+    fn remove_material(&mut self, order: u32, movement: &Move) {
+        let Some(piece) = cutting_piece(order, movement, self.stock) else { return };
         let highest = self.stock.highest().unwrap_or(piece.surface);
         for part in self.parts(movement).filter(|part| part.lowest() < highest) {
             let radius = (piece.cutter.removed / 2.0 + self.slack()).max(self.resolution);
@@ -293,13 +292,13 @@ impl<'s> KnownMaterial<'s> {
         }
     }
 
-    fn check_rapid(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
-        let hit = self.first_hit(line, movement);
+    fn check_rapid(&mut self, step: &Step, movement: &Move, problems: &mut Problems) {
+        let hit = self.first_hit(step.order, movement);
         self.has_hit = hit.is_some();
         let Some(Hit { message, z, height, at: [x, y] }) = hit else { return };
         // A strip of material of this width contains the centres of cells, wherever it is.
         let resolution = self.resolution + 2.0 * self.slack();
-        problems.add_at_line(message, line, |diagnostic| {
+        problems.add_at_line(message, step.line, |diagnostic| {
             diagnostic
                 .with("z", z)
                 .with("height", height)
@@ -310,8 +309,8 @@ impl<'s> KnownMaterial<'s> {
     }
 
     /// Reports cuts through material that is above their own surface, because another cut of the program goes through it from higher up.
-    fn check_cut(&mut self, line: u32, movement: &Move, problems: &mut Problems) {
-        let Some(piece) = cutting_piece(line, movement, self.stock) else { return };
+    fn check_cut(&mut self, step: &Step, movement: &Move, problems: &mut Problems) {
+        let Some(piece) = cutting_piece(step.order, movement, self.stock) else { return };
         if self.has_hit || self.stock.highest().is_none_or(|highest| piece.surface >= highest) {
             return;
         }
@@ -322,7 +321,7 @@ impl<'s> KnownMaterial<'s> {
             Some((part.lowest(), hit))
         });
         if let Some((z, (height, [x, y]))) = hit {
-            problems.add_at_line(&say::CUT_IN_HIGHER_MATERIAL, line, |d| {
+            problems.add_at_line(&say::CUT_IN_HIGHER_MATERIAL, step.line, |d| {
                 let d = d.with("z", z).with("height", height).with("point", Point::new(x, y));
                 d.at_point(Point::new(x, y))
             });
@@ -330,8 +329,8 @@ impl<'s> KnownMaterial<'s> {
     }
 
     /// Returns the first material that a rapid move hits.
-    fn first_hit(&mut self, line: u32, movement: &Move) -> Option<Hit> {
-        let piece = self.stock.at(line).filter(|_| is_low_rapid(movement, self.stock))?;
+    fn first_hit(&mut self, order: u32, movement: &Move) -> Option<Hit> {
+        let piece = self.stock.at(order).filter(|_| is_low_rapid(movement, self.stock))?;
         let is_plunge = movement.keeps_xy();
         let message = match is_plunge {
             _ if piece.surface == f64::INFINITY => &say::RAPID_AT_DEPTH,
@@ -379,9 +378,9 @@ fn capsule(part: &MovePiece, radius: f64) -> Capsule {
 }
 
 /// Returns the stock at a cutting move, or at a probe of a program that only probes; `None` if it is unknown or the move stays above the surface.
-pub(super) fn cutting_piece(line: u32, movement: &Move, stock: &Stock) -> Option<StockSpan> {
+pub(super) fn cutting_piece(order: u32, movement: &Move, stock: &Stock) -> Option<StockSpan> {
     let is_in_material = matches!(movement.pace, Pace::Feed(_)) || stock.is_probed && movement.probes_down();
-    let piece = stock.at(line).filter(|_| movement.is_known() && is_in_material)?;
+    let piece = stock.at(order).filter(|_| movement.is_known() && is_in_material)?;
     (movement.lowest() < piece.surface).then_some(*piece)
 }
 
@@ -466,10 +465,10 @@ const DEFAULT_MAX_VISITED_CELLS: u64 = 1_000_000_000;
 /// Default for the number of cells across the narrowest cutter.
 const DEFAULT_CELLS_ACROSS_CUTTER: f64 = 12.0;
 
-/// The upper face of the material and the cutter, as they change over the lines of a program.
+/// The upper face of the material and the cutter, as they change while a program is executed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stock {
-    /// The spans in the order of lines. Before the first one, the stock is unknown.
+    /// The spans in the order of execution. Before the first one, the stock is unknown.
     pieces: Vec<StockSpan>,
     /// Height of the highest surface in mm, cached because every rapid move is compared with it.
     highest: Option<f64>,
@@ -483,11 +482,11 @@ pub struct Stock {
     is_probed: bool,
 }
 
-/// The stock from a line on.
+/// The stock from a step on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StockSpan {
-    /// Line counted from 1, or the step number for a program that does not exist as text.
-    pub line: u32,
+    /// Position of that step in the order of execution.
+    pub order: u32,
     /// Height of the upper face T of the material, in mm.
     pub surface: f64,
     /// Widths of the cutter.
@@ -540,10 +539,10 @@ impl Cutter {
 impl Stock {
     /// Creates stock with a single surface and cutter for an entire program, both in mm.
     pub fn uniform(surface: f64, cutter: f64) -> Self {
-        Self::of_pieces(vec![StockSpan { line: 0, surface, cutter: Cutter::flat(cutter) }])
+        Self::of_pieces(vec![StockSpan { order: 0, surface, cutter: Cutter::flat(cutter) }])
     }
 
-    /// Creates stock whose surface or cutter changes; the pieces must be in the order of their lines.
+    /// Creates stock whose surface or cutter changes; the pieces must be in the order of execution.
     pub fn of_pieces(pieces: Vec<StockSpan>) -> Self {
         let highest = pieces.iter().map(|piece| piece.surface).reduce(f64::max);
         let stock = Self {
@@ -559,11 +558,11 @@ impl Stock {
         stock.with_resolution(resolution)
     }
 
-    /// Creates stock with an unknown surface, for [`DepthRules`](super::DepthRules); the cutters must be in the order of their lines. The whole
+    /// Creates stock with an unknown surface, for [`DepthRules`](super::DepthRules); the cutters must be in the order of execution. The whole
     /// diameter removes material, but only the centre line collides with it, because the shape of the stock is unknown as well.
     pub fn with_unknown_surface(cutters: &[(u32, Cutter)]) -> Self {
-        let piece = |(line, cutter): &(u32, Cutter)| StockSpan {
-            line: *line,
+        let piece = |(order, cutter): &(u32, Cutter)| StockSpan {
+            order: *order,
             surface: f64::INFINITY,
             cutter: Cutter { removed: cutter.diameter, colliding: 0.0, ..*cutter },
         };
@@ -572,7 +571,7 @@ impl Stock {
 
     /// Creates the stock of a program, for the moves returned by [`moves`](toolpath::Program::moves).
     pub fn of(program: &toolpath::Program) -> Self {
-        let piece = |line, surface, cutter| StockSpan { line, surface, cutter: Cutter::flat(cutter) };
+        let piece = |order, surface, cutter| StockSpan { order, surface, cutter: Cutter::flat(cutter) };
         let elements = (1_u32..).zip(&program.steps).filter_map(|(number, step)| match step {
             Emitted::Comment(Comment::Element { surface, cutter, .. }) => {
                 Some(piece(number, *surface, *cutter))
@@ -586,12 +585,12 @@ impl Stock {
     /// its plunges changes from rapid to feed (book: program/gcode). `None` if there is no such plunge.
     pub fn of_native_text(program: &(impl Program + ?Sized), cutter: Cutter) -> Option<Self> {
         let mut pieces = Vec::new();
-        let mut section = PathSection { line: 0, surface: None };
+        let mut section = PathSection { order: 0, surface: None };
         let mut before: Option<Move> = None;
         program.each(&mut |step| match &step.action {
             Action::Comment(text) if is_subpath_border(text) => {
                 pieces.extend(section.piece(cutter));
-                section = PathSection { line: step.line, surface: None };
+                section = PathSection { order: step.order, surface: None };
             }
             Action::Move(movement) => {
                 if let Some(last) = before.replace(*movement) {
@@ -607,14 +606,14 @@ impl Stock {
     /// Raises the surface to `surface` wherever it is lower or unknown.
     #[must_use]
     pub fn raised_to(self, surface: f64) -> Self {
-        let first = self.pieces.first().map(|first| StockSpan { line: 0, surface, ..*first });
+        let first = self.pieces.first().map(|first| StockSpan { order: 0, surface, ..*first });
         let raised = |piece: StockSpan| StockSpan { surface: piece.surface.max(surface), ..piece };
-        let begins_late = |first: &StockSpan| self.pieces.iter().all(|piece| piece.line > first.line);
+        let begins_late = |first: &StockSpan| self.pieces.iter().all(|piece| piece.order > first.order);
         let first = first.filter(begins_late);
         Self::of_pieces(first.into_iter().chain(self.pieces.iter().copied().map(raised)).collect())
     }
 
-    /// Returns the spans, in the order of their lines.
+    /// Returns the spans, in the order of execution.
     pub fn spans(&self) -> &[StockSpan] {
         &self.pieces
     }
@@ -686,16 +685,16 @@ impl Stock {
         self.pieces.iter().map(|piece| piece.surface).reduce(f64::min)
     }
 
-    /// Returns the stock that applies in a line; `None` before the first span.
-    pub(super) fn at(&self, line: u32) -> Option<&StockSpan> {
-        let later = self.pieces.partition_point(|piece| piece.line <= line);
+    /// Returns the stock that applies at a position in the order of execution; `None` before the first span.
+    pub(super) fn at(&self, order: u32) -> Option<&StockSpan> {
+        let later = self.pieces.partition_point(|piece| piece.order <= order);
         later.checked_sub(1).map(|index| &self.pieces[index])
     }
 }
 
-/// The lines of a native program that belong to a single path.
+/// The steps of a native program that belong to a single path.
 struct PathSection {
-    line: u32,
+    order: u32,
     surface: Option<f64>,
 }
 
@@ -713,7 +712,7 @@ impl PathSection {
     }
 
     fn piece(&self, cutter: Cutter) -> Option<StockSpan> {
-        self.surface.map(|surface| StockSpan { line: self.line, surface, cutter })
+        self.surface.map(|surface| StockSpan { order: self.order, surface, cutter })
     }
 }
 

@@ -58,12 +58,12 @@ use crate::dialect::Dialect;
 use crate::interpret::Program;
 use crate::read::Problems;
 
-/// A property of the tools of a program, each with the line from which the tool cuts, in the order of the lines.
+/// A property of the tools of a program, each with the position in the order of execution from which the tool is in the spindle.
 pub type ByTool<T> = Vec<(u32, T)>;
 
-/// Returns the index of the tool that cuts in a line; `None` before the first one.
-fn tool_at<T>(tools: &[(u32, T)], line: u32) -> Option<usize> {
-    tools.partition_point(|(from, _)| *from <= line).checked_sub(1)
+/// Returns the index of the tool that is in the spindle at a position in the order of execution; `None` before the first one.
+fn tool_at<T>(tools: &[(u32, T)], order: u32) -> Option<usize> {
+    tools.partition_point(|(from, _)| *from <= order).checked_sub(1)
 }
 
 /// Reports problems in the effects of a program, ordered by line. If the material is known, this includes rapid moves and tool changes in it. Each

@@ -28,6 +28,8 @@ pub struct Rules<'c> {
     at: Position,
     /// The last line with a move.
     line: u32,
+    /// Position of the current step in the order of execution.
+    order: u32,
     tip_height: TipHeight,
     spindle: Spindle,
     /// The line of the first cut before any spindle word.
@@ -77,6 +79,7 @@ impl<'c> Rules<'c> {
             problems: Problems::default(),
             at: Position::default(),
             line: 0,
+            order: 0,
             tip_height: TipHeight::new(Dialect::Rs274),
             spindle: Spindle::UNSTATED,
             cut_before_spindle: None,
@@ -109,6 +112,7 @@ impl<'c> Rules<'c> {
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
         let line = step.line;
+        self.order = step.order;
         let zero_moves = self.frames.current().zero_moves;
         // If the operator has set the zero, the tool has been moved by hand, and the rule for the tip's height checks the moves that follow.
         self.changes_frame |= self.frames.step(step) && self.frames.current().zero_moves == zero_moves;
@@ -135,7 +139,7 @@ impl<'c> Rules<'c> {
             }
             Action::SelectTool(_) => self.select_tool(line),
             Action::Stop { optional } => {
-                if self.at.known.has(Axes::Z) && self.surface_above(line, self.at.z()).is_some() {
+                if self.at.known.has(Axes::Z) && self.surface_above(self.at.z()).is_some() {
                     self.stop_at_depth.get_or_insert(line);
                 }
                 if !optional {
@@ -208,9 +212,9 @@ impl<'c> Rules<'c> {
         self.spindle_line = line;
     }
 
-    /// Returns the height of the material's surface in mm if it is above `z`, the height of the tool's tip.
-    fn surface_above(&self, line: u32, z: f64) -> Option<f64> {
-        let surface = self.stock?.at(line)?.surface;
+    /// Returns the height of the material's surface at the current step in mm if it is above `z`, the height of the tool's tip.
+    fn surface_above(&self, z: f64) -> Option<f64> {
+        let surface = self.stock?.at(self.order)?.surface;
         (z < surface - HEIGHT_TOLERANCE).then_some(surface)
     }
 
@@ -219,7 +223,7 @@ impl<'c> Rules<'c> {
         if !at.known.has(Axes::Z) {
             return;
         }
-        if let Some(surface) = self.surface_above(line, at.z()) {
+        if let Some(surface) = self.surface_above(at.z()) {
             self.problems.add_at_line(message, line, |d| d.with("z", at.z()).with("surface", surface));
         }
     }
@@ -238,7 +242,7 @@ impl<'c> Rules<'c> {
         }
         self.has_cut = true;
         self.check_cut_position(line, movement);
-        if is_above_stock(line, movement, self.stock) {
+        if is_above_stock(self.order, movement, self.stock) {
             return;
         }
         let message = match (self.spindle.turning, self.spindle.speed) {
@@ -423,8 +427,8 @@ fn is_opposite(one: [f64; 2], other: [f64; 2]) -> bool {
 }
 
 /// Whether a move cuts, and does not stay above the material.
-pub(super) fn is_cut_in_stock(line: u32, movement: &Move, stock: Option<&Stock>) -> bool {
-    is_cut_after_approach(movement) && !is_above_stock(line, movement, stock)
+pub(super) fn is_cut_in_stock(order: u32, movement: &Move, stock: Option<&Stock>) -> bool {
+    is_cut_after_approach(movement) && !is_above_stock(order, movement, stock)
 }
 
 fn is_cut_after_approach(movement: &Move) -> bool {
@@ -432,8 +436,8 @@ fn is_cut_after_approach(movement: &Move) -> bool {
 }
 
 /// Whether a move stays above the material; false if that is unknown.
-fn is_above_stock(line: u32, movement: &Move, stock: Option<&Stock>) -> bool {
-    let surface = stock.and_then(|stock| stock.at(line)).map(|piece| piece.surface);
+fn is_above_stock(order: u32, movement: &Move, stock: Option<&Stock>) -> bool {
+    let surface = stock.and_then(|stock| stock.at(order)).map(|piece| piece.surface);
     movement.is_known() && surface.is_some_and(|surface| movement.lowest() >= surface)
 }
 

@@ -26,6 +26,8 @@ export interface Move {
   length: number;
   element?: number;
   line?: number;
+  /** Cutter of the move, as an index into the tools of its path. */
+  tool?: number;
 }
 
 export type Shape =
@@ -80,7 +82,7 @@ export interface Path {
   zero: Point;
   tool: number | null;
   tip?: Tip;
-  /** Cutters of a program that uses several, each with the line from which it is used. */
+  /** Cutters of a program that was read. */
   tools?: { line: number; diameter: number; tip?: Tip }[];
   thickness: number | null;
   material: string | null;
@@ -130,7 +132,7 @@ export function tipOf(path: Path, move: Move): Tip | undefined {
 }
 
 function spanOf({ tools }: Path, move: Move) {
-  return tools?.filter(({ line }) => line <= (move.line ?? 0)).at(-1);
+  return move.tool === undefined ? undefined : tools?.[move.tool];
 }
 
 export interface Scene {

@@ -554,8 +554,8 @@ impl<'v> Examination<'v> {
             DrawingComparison::new(expected, program.dialect, &self.words)
         };
         let tools = self.sources.cutting_tools();
-        let loads = tools.iter().map(|(line, tool)| (*line, tool.and_then(Tool::chip_load)));
-        let edges = tools.iter().map(|(line, tool)| (*line, tool.and_then(Tool::cutting_length)));
+        let loads = tools.iter().map(|(order, tool)| (*order, tool.and_then(Tool::chip_load)));
+        let edges = tools.iter().map(|(order, tool)| (*order, tool.and_then(Tool::cutting_length)));
         let stock = self.sources.stock();
         let control = verifier.options.target.unwrap_or(program.dialect);
         // The comparison with a drawing reports wrong words, wrong directions and wrong tool lengths itself.

@@ -83,8 +83,8 @@ impl<'s> Sources<'s> {
         self.stock.as_ref()
     }
 
-    /// Returns the cutters, each with the line from which it applies; `None` if the cutter of any cut is unknown, or if the program has no cuts and
-    /// neither an option nor the drawing states a cutter.
+    /// Returns the cutters, each with the position in the order of execution from which it applies; `None` if the cutter of any cut is unknown, or if
+    /// the program has no cuts and neither an option nor the drawing states a cutter.
     pub(super) fn cutters(&self) -> Option<&[(u32, Cutter)]> {
         self.cutters.as_deref()
     }
@@ -114,7 +114,7 @@ impl<'s> Sources<'s> {
     }
 
     fn uniform(&self, surface: f64) -> Option<Stock> {
-        let span = |(line, cutter): &(u32, Cutter)| StockSpan { line: *line, surface, cutter: *cutter };
+        let span = |(order, cutter): &(u32, Cutter)| StockSpan { order: *order, surface, cutter: *cutter };
         Some(Stock::of_pieces(self.cutters()?.iter().map(span).collect()))
     }
 
@@ -256,22 +256,16 @@ impl<'s> Sources<'s> {
             let cutter = self.diameters(tool).cutter()?;
             // The header of a native program states no shape.
             let corner_radius = native.map_or(cutter.corner_radius, |tool| tool.cutter().corner_radius);
-            Some((self.first_line(tool), Cutter { corner_radius, ..cutter }))
+            Some((tool.order, Cutter { corner_radius, ..cutter }))
         };
         let mut cutters: Vec<(u32, Cutter)> = self.header.tools.iter().map(widths).collect::<Option<_>>()?;
-        // In a subprogram, the tool depends on the caller.
-        let is_single = cutters.iter().all(|(_, cutter)| *cutter == cutters[0].1);
-        match given.map(Cutter::flat) {
-            Some(given) if cutters.is_empty() || (self.header.has_calls && !is_single) => {
-                Some(vec![(0, given)])
-            }
-            None if cutters.is_empty() || (self.header.has_calls && !is_single) => None,
-            given => {
-                // The cutter from the command line or the drawing is in the spindle from the beginning.
-                cutters[0].0 = if given.is_some() { 0 } else { cutters[0].0 };
-                Some(cutters)
-            }
+        // The cutter from the command line or the drawing is in the spindle from the beginning.
+        match (given, cutters.first_mut()) {
+            (Some(given), None) => cutters.push((0, Cutter::flat(given))),
+            (Some(_), Some((from, _))) => *from = 0,
+            (None, _) => {}
         }
+        (!cutters.is_empty()).then_some(cutters)
     }
 
     /// Reports contradictory values for cutter or surface in the header, the command line, the tool table and the drawing.
@@ -353,17 +347,14 @@ impl<'s> Sources<'s> {
         self.tools().get(entry)
     }
 
-    /// Returns the configured tools that cut. Empty for XpertMILL, whose layers are not tools, and for a
-    /// program with subprograms and several tools, in which the tool of a line depends on the caller.
+    /// Returns the configured tools that cut. Empty for XpertMILL, whose layers are not tools.
     pub(super) fn cutting_tools(&self) -> ByTool<Option<&'s Tool>> {
-        if self.program.dialect == Dialect::Xpertmill || self.header.has_calls && self.header.tools.len() > 1
-        {
+        if self.program.dialect == Dialect::Xpertmill {
             return Vec::new();
         }
         let native = self.native_entry();
-        let entry = |tool: &CuttingTool| {
-            (self.first_line(tool), if self.is_numbered() { self.entry(tool) } else { native })
-        };
+        let entry =
+            |tool: &CuttingTool| (tool.order, if self.is_numbered() { self.entry(tool) } else { native });
         self.header.tools.iter().map(entry).collect()
     }
 
@@ -373,19 +364,11 @@ impl<'s> Sources<'s> {
         let all: Vec<Option<Turning>> = self.tools().iter().map(Tool::turning).collect();
         let common =
             all.first().copied().flatten().filter(|first| all.iter().all(|turning| *turning == Some(*first)));
-        let is_mixed = self.header.has_calls && self.header.tools.len() > 1;
-        let direction =
-            |tool: &CuttingTool| match self.entry(tool).filter(|_| self.is_numbered() && !is_mixed) {
-                Some(entry) => (self.first_line(tool), entry.turning()),
-                None => (self.first_line(tool), common),
-            };
+        let direction = |tool: &CuttingTool| {
+            let entry = self.entry(tool).filter(|_| self.is_numbered());
+            (tool.order, entry.map_or(common, Tool::turning))
+        };
         self.header.tools.iter().map(direction).collect()
-    }
-
-    /// Returns the line from which a tool is in use. With subprograms, that is the first line of the program: a subprogram may stand above the tool
-    /// change before its call. Where lines matter, all tools of such a program are alike.
-    fn first_line(&self, tool: &CuttingTool) -> u32 {
-        if self.header.has_calls { 0 } else { tool.line }
     }
 
     /// Whether T is the number of a tool: XpertMILL's layers are not tools, and native programs always contain T1.

@@ -106,7 +106,7 @@ impl HitSearch<'_> {
             let Some((.., setting)) = found else { return };
             let (surface, cutter) = (setting.top, Cutter::flat(setting.diameter));
             if spans.last().is_none_or(|last| (last.surface, last.cutter) != (surface, cutter)) {
-                spans.push(StockSpan { line, surface, cutter });
+                spans.push(StockSpan { order: line, surface, cutter });
             }
         });
         spans
@@ -135,7 +135,7 @@ fn move_touching_blank(([low, high], surface): Blank, zero: Point) -> (Move, Sto
     let way =
         Move { from: end(from), to: end(to), shape: MoveShape::Line, pace: Pace::Feed(1.0), named: None };
     let cutter = Cutter { removed: 0.0, colliding: 0.0, ..Cutter::flat(reach) };
-    (way, StockSpan { line: 1, surface, cutter })
+    (way, StockSpan { order: 1, surface, cutter })
 }
 
 /// Depth in mm of the move that touches a blank, too small to count as material.
