@@ -90,6 +90,35 @@ fn a_state_tells_whether_the_program_on_disk_is_that_of_the_drawing() {
     assert_eq!(state("8900.1P"), is("errors", None));
 }
 
+/// Findings about the drawing as a whole are counted like those of `emit`: with the configured severities.
+#[test]
+fn findings_about_a_drawing_count_for_its_paths() {
+    let path = sheet("layer 4000.1P\nstart 0,0 \"T5 O2 I5 B0 MPlate\"\nmill 0,0 40,0\nend 40,0\n");
+    let path = path.unwrap().to_dxf();
+    let place = |name: &str, severity: &str| {
+        let configuration = format!("{PLAIN}library = [\".\"]\n[severity]\nPB521 = \"{severity}\"\n");
+        Place::new().file("pathbuild.toml", configuration).file(name, path.clone())
+    };
+    let states = |place: &Place| {
+        let run = place.run("list");
+        let state = run.stdout.lines().last().unwrap_or_default().rsplit("  ").next().unwrap_or_default();
+        state.to_owned()
+    };
+    assert_eq!(states(&place("4000.dxf", "error")), "ok");
+    assert_eq!(states(&place("gear.dxf", "ignore")), "ok");
+    let warned = place("gear.dxf", "warning");
+    assert_eq!(warned.run("emit .").status, Some(0));
+    assert_eq!(states(&warned), "program current, 1 warning");
+    let refused = warned.file("pathbuild.toml", format!("{PLAIN}[severity]\nPB521 = \"error\"\n"));
+    assert_eq!(refused.run("emit .").status, Some(1));
+    let run = refused.run("list . --format json");
+    assert!(run.stdout.contains(r#""state":"errors""#) && run.stdout.contains(r#""program":null"#), "{run}");
+    let run = refused.run("stats .");
+    assert!(run.stdout.contains("  errors: 1\n") && run.stdout.contains("program current: 0"), "{run}");
+}
+
+const PLAIN: &str = "feed = 100\nrapid = 1000\nsweep-height = 20\n";
+
 #[test]
 fn a_pattern_that_nothing_matches_is_an_error() {
     let place = Place::of(LIBRARY);

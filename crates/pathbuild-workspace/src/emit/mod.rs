@@ -17,6 +17,7 @@ mod stale_programs;
 mod written_programs;
 
 use std::collections::HashMap;
+use std::slice;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Target;
@@ -28,7 +29,7 @@ use crate::config::ResultKind;
 use crate::config::types::SheetFormat;
 use crate::memo::{Answer, Memo, is_transient};
 use crate::post_processor::{PostArguments, PostProcessor};
-use crate::session::{ArgumentMatches, Session};
+use crate::session::{ArgumentMatches, CheckedTarget, Session};
 use crate::workspace::{Failure, Workspace};
 
 pub use build::program_remarks;
@@ -39,6 +40,7 @@ use plan::{
     Job, JobBuilder, Plan, jobs_mut, leave_out_files_of_others, leave_out_second_definitions, plan,
     warn_of_numbers,
 };
+pub(crate) use plan::path_diagnostics;
 pub use program_scenes::{SceneReport, SheetOutcome, ShownText, sheet_of};
 pub use select::TargetPatterns;
 use select::TargetSelection;
@@ -361,7 +363,12 @@ pub(crate) fn freshness_on_disk(
 ) -> HashMap<Target, Result<bool, Vec<Diagnostic>>> {
     let checked = session.check(targets);
     let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
-    let jobs = checked.chunks(1).filter_map(|checked| builder.plan(checked).job);
+    let job = |checked: &CheckedTarget| {
+        let mut plan = builder.plan(slice::from_ref(checked));
+        plan.leave_out_if_raised(session.workspace());
+        plan.job.filter(|job| !job.is_left_out)
+    };
+    let jobs = checked.iter().filter_map(job);
     let system = &*session.workspace().system;
     let is_there = |job: &Job| job.files.iter().any(|(_, path)| system.kind(path) == FileKind::File);
     let mut jobs: Vec<Job> = jobs.filter(is_there).collect();

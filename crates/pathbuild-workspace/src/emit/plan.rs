@@ -271,7 +271,7 @@ fn subject(db: &Database, targets: &[Target], join: Option<&str>) -> Box<str> {
 }
 
 /// Returns the diagnostics of a checked path and of the drawings that it uses.
-pub(super) fn path_diagnostics(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagnostic> {
+pub(crate) fn path_diagnostics(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagnostic> {
     let of_files = checked.files.iter().flat_map(|file| check_file(session.db(), *file));
     of_files.chain(&checked.diagnostics).cloned().collect()
 }
