@@ -119,6 +119,41 @@ fn findings_about_a_drawing_count_for_its_paths() {
 
 const PLAIN: &str = "feed = 100\nrapid = 1000\nsweep-height = 20\n";
 
+/// Without `rapid`, the moves are compared. Without an option that the moves depend on, it is unknown whether a program is current.
+#[test]
+fn a_program_on_disk_is_judged_without_options() {
+    let drawing = |depth: &str| {
+        let start = "layer 4000.1P\nstart 0,0 \"T5 O2 I5 MPlate\"\n";
+        sheet(&format!("{start}mill 0,0 40,0 \"B{depth}\"\nend 40,0\n")).unwrap().to_dxf()
+    };
+    let mut place = Place::new().file("pathbuild.toml", PLAIN).file("4000.dxf", drawing("0"));
+    assert_eq!(place.run("emit 4000.1P").status, Some(0));
+    for (depth, judged) in [("0", "program current"), ("1", "program not current")] {
+        place = place.file("4000.dxf", drawing(depth));
+        let without = |option: &str| {
+            PLAIN
+                .lines()
+                .filter(|line| !line.starts_with(option))
+                .fold(String::new(), |all, line| all + line + "\n")
+        };
+        for (option, state) in [
+            ("-", judged),
+            ("rapid", judged),
+            ("feed", "program not compared"),
+            ("sweep", "program not compared"),
+        ] {
+            place = place.file("pathbuild.toml", without(option));
+            let run = place.run("list .");
+            assert!(run.stdout.contains(&format!("  {state}\n")), "{option} {run}");
+            let run = place.run("stats .");
+            assert!(run.stdout.contains(&format!("  {state}: 1\n")), "{option} {run}");
+        }
+    }
+    fs::remove_file(place.path().join("4000_Milling.gcode")).unwrap();
+    let run = place.run("list .");
+    assert!(run.stdout.contains("  ok\n"), "{run}");
+}
+
 #[test]
 fn a_pattern_that_nothing_matches_is_an_error() {
     let place = Place::of(LIBRARY);

@@ -97,7 +97,7 @@ pub enum ProgramState {
     Current,
     /// The program differs from what `emit` would write.
     Stale,
-    /// There is a program, but the path has errors, so the program cannot be compared.
+    /// There is a program that cannot be compared: the path has errors, or an option that it needs is not set.
     Unknown,
 }
 

@@ -76,7 +76,8 @@ pub enum ProgramState {
     Current,
     /// The program differs from what `emit` would write.
     Stale,
-    /// The program exists but cannot be compared, because an error that `check` does not report keeps it from being generated.
+    /// The program exists but cannot be compared, because an error that `check` does not report, or an option that is not set, keeps it from being
+    /// generated.
     Unknown,
 }
 
@@ -161,7 +162,7 @@ fn compare_programs_on_disk(
     paths: &[(SourceFile, PathName)],
     listed: &mut [ListedPath],
 ) -> Vec<Diagnostic> {
-    let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.figures.minutes.is_some());
+    let sound = paths.iter().zip(&*listed).filter(|(_, listed)| listed.figures.length.is_some());
     let targets = sound.map(|((file, name), _)| session.db().target(*file, name.as_str(), Role::Emitted));
     let targets: Vec<Target> = targets.collect();
     let states = emit::freshness_on_disk(session, post_processor, &targets);
@@ -313,6 +314,8 @@ pub enum State {
     Errors,
     /// The program on disk is out of date.
     Stale,
+    /// The program on disk cannot be compared, because an option is not set, or because of errors whose severity the configuration lowers.
+    Unknown,
     /// The program on disk is up to date.
     Current,
     /// The path has no errors, and there is no program on disk.
@@ -320,13 +323,14 @@ pub enum State {
 }
 
 impl State {
-    pub(super) const ALL: [Self; 4] = [Self::Errors, Self::Stale, Self::Current, Self::Ok];
+    pub(super) const ALL: [Self; 5] = [Self::Errors, Self::Stale, Self::Unknown, Self::Current, Self::Ok];
 
     /// Returns the name of the state in JSON.
     pub(super) fn key(self) -> &'static str {
         match self {
             Self::Errors => "errors",
             Self::Stale => "stale",
+            Self::Unknown => "unknown",
             Self::Current => "current",
             Self::Ok => "ok",
         }
@@ -347,7 +351,8 @@ impl Row {
             _ if self.errors > 0 => State::Errors,
             ProgramState::Stale => State::Stale,
             ProgramState::Current => State::Current,
-            ProgramState::None | ProgramState::Unknown => State::Ok,
+            ProgramState::Unknown => State::Unknown,
+            ProgramState::None => State::Ok,
         }
     }
 

@@ -11,7 +11,7 @@ const [WIDE, NARROW] = [26, 44];
 /** Width in px below which a row has two lines. */
 const LEAST = 900;
 
-const STATES = { errors: "manyErrors", stale: "stateStale", current: "stateCurrent", ok: "stateOk" } as const satisfies Record<string, Word>;
+const STATES = { errors: "manyErrors", stale: "stateStale", unknown: "stateUnknown", current: "stateCurrent", ok: "stateOk" } as const satisfies Record<string, Word>;
 
 export class List {
   private rows: LibraryRow[] = [];

@@ -14,12 +14,13 @@ interface Wanted {
   path: string | null;
 }
 
-type Filter = "all" | "errors" | "stale" | "current" | "ok" | "warnings";
+type Filter = "all" | "errors" | "stale" | "unknown" | "current" | "ok" | "warnings";
 
 const FILTERS: [Filter, Word][] = [
   ["all", "all"],
   ["errors", "manyErrors"],
   ["stale", "stateStale"],
+  ["unknown", "stateUnknown"],
   ["current", "stateCurrent"],
   ["ok", "stateOk"],
   ["warnings", "withWarnings"],

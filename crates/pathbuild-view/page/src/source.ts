@@ -14,7 +14,7 @@ export interface LibraryRow {
   size?: [number, number] | null;
   length?: number | null;
   minutes?: number | null;
-  state?: "errors" | "stale" | "current" | "ok";
+  state?: "errors" | "stale" | "unknown" | "current" | "ok";
   errors?: number;
   warnings?: number;
 }
@@ -29,7 +29,7 @@ interface Total {
 /** The results of `stats`. */
 export interface Statistics extends Total {
   drawings: number;
-  states: { errors: number; stale: number; current: number; ok: number };
+  states: { errors: number; stale: number; unknown: number; current: number; ok: number };
   with_warnings: number;
   materials: (Total & { material: string | null })[];
   cutters: (Total & { tool: number | null })[];

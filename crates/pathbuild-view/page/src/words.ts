@@ -113,6 +113,7 @@ const words = {
   state: ["state", "Zustand"],
   all: ["all", "alle"],
   stateStale: ["program not current", "Programm nicht aktuell"],
+  stateUnknown: ["program not compared", "Programm nicht verglichen"],
   stateCurrent: ["program current", "Programm aktuell"],
   stateOk: ["ok", "in Ordnung"],
   withWarnings: ["with warnings", "mit Warnungen"],

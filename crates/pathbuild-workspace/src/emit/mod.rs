@@ -36,11 +36,11 @@ pub use build::program_remarks;
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
 pub use options::{Provenances, missing_values, write_settings};
 pub use outcome::{ProgramOutcome, State, Task};
+pub(crate) use plan::path_diagnostics;
 use plan::{
     Job, JobBuilder, Plan, jobs_mut, leave_out_files_of_others, leave_out_second_definitions, plan,
     warn_of_numbers,
 };
-pub(crate) use plan::path_diagnostics;
 pub use program_scenes::{SceneReport, SheetOutcome, ShownText, sheet_of};
 pub use select::TargetPatterns;
 use select::TargetSelection;
@@ -355,7 +355,8 @@ fn report_cached(context: &Workspace, selection: &TargetSelection, plans: &[Answ
     context.reporter.detail(&format!("{phrase}: {} / {drawings}", drawings - read));
 }
 
-/// For each target with a program on disk, returns whether that program is up to date, or the errors that keep it from being generated.
+/// For each target with a program on disk, returns whether that program is up to date, or the errors that keep it from being generated; there are none
+/// if an option that its moves depend on is not set. Without `rapid`, which only times depend on, moves are compared.
 pub(crate) fn freshness_on_disk(
     session: &mut Session<'_>,
     post_processor: Option<&PostProcessor>,
@@ -366,19 +367,21 @@ pub(crate) fn freshness_on_disk(
     let job = |checked: &CheckedTarget| {
         let mut plan = builder.plan(slice::from_ref(checked));
         plan.leave_out_if_raised(session.workspace());
-        plan.job.filter(|job| !job.is_left_out)
+        let mut job = plan.job.filter(|job| !job.is_left_out)?;
+        job.is_left_out = !checked.missing_options.is_empty();
+        Some(job)
     };
     let jobs = checked.iter().filter_map(job);
     let system = &*session.workspace().system;
     let is_there = |job: &Job| job.files.iter().any(|(_, path)| system.kind(path) == FileKind::File);
     let mut jobs: Vec<Job> = jobs.filter(is_there).collect();
-    build_and_settle(session, jobs.iter_mut(), Task::Compare { moves_only: false }, post_processor);
+    let moves_only = session.workspace().settings.general.rapid.value.is_none();
+    build_and_settle(session, jobs.iter_mut(), Task::Compare { moves_only }, post_processor);
     let is_stale = |job: &Job| has_stale_adjusted_program(session, post_processor, job);
     let jobs: Vec<(bool, Job)> = jobs.into_iter().map(|job| (is_stale(&job), job)).collect();
     let state = |(is_stale, job): (bool, Job)| {
-        let is_current =
-            is_current(job.outcome.unwrap_or_default()).map(|is_current| is_current && !is_stale);
-        (job.targets[0], is_current)
+        let is_current = job.outcome.map_or_else(|| Err(Vec::new()), is_current);
+        (job.targets[0], is_current.map(|is_current| is_current && !is_stale))
     };
     jobs.into_iter().map(state).collect()
 }
@@ -388,7 +391,7 @@ pub(crate) fn freshness_on_disk(
 /// # Errors
 /// The errors of a program that was not generated.
 fn is_current(outcome: ProgramOutcome) -> Result<bool, Vec<Diagnostic>> {
-    if outcome.files.is_empty() && outcome.problems.iter().any(Diagnostic::is_error) {
+    if outcome.files.is_empty() && !outcome.problems.is_empty() {
         return Err(outcome.problems);
     }
     let is_current = |(_, state): &(_, State)| matches!(state, State::Current);

@@ -80,6 +80,7 @@ fn state_word(state: State, context: &Context) -> &'static str {
     match state {
         State::Errors => context.choose("errors", "Fehler"),
         State::Stale => context.choose("program not current", "Programm nicht aktuell"),
+        State::Unknown => context.choose("program not compared", "Programm nicht verglichen"),
         State::Current => context.choose("program current", "Programm aktuell"),
         State::Ok => context.choose("ok", "in Ordnung"),
     }
