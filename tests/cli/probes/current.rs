@@ -40,6 +40,22 @@ fn names_milling(place: &Place, inputs: &str, is_stale: bool) {
     assert!(run.stdout.contains(state), "{run}");
 }
 
+/// The heights without the corrections are not exact, and are compared as rounded.
+#[test]
+fn an_adjusted_program_is_that_of_its_drawing() {
+    let place = Place::new().file("a.dxf", drawing(&with_probes(WITHOUT)));
+    succeed(&emit(&place, "a.dxf"));
+    measure(&place, |x, _| 0.0037 * x);
+    succeed(&place.run("adjust a.dxf --max-correction 0.9"));
+    // `diff` looks the path up by its name.
+    let place = place.file("8001.1P.dxf", drawing(&with_probes(WITHOUT)));
+    let run = place.run(&format!("diff a_Milling.gcode 8001.1P {OPTIONS}"));
+    assert!(run.status == Some(0) && run.stdout.contains("0 of 1 path changed"), "{run}");
+    let place = place.file("8001.1P.dxf", drawing(&with_probes(&WITHOUT.replace("S10", "S11"))));
+    let run = place.run(&format!("diff a_Milling.gcode 8001.1P {OPTIONS}"));
+    assert!(run.status == Some(0) && run.stdout.contains("other rapid moves"), "{run}");
+}
+
 #[test]
 fn an_uncorrected_program_from_before_the_probes_is_stale() {
     for inputs in ["a.dxf", "."] {
