@@ -530,6 +530,14 @@ fn what_a_built_in_post_writes_is_no_change() {
         };
         assert_eq!(diff("old").stdout, "0 of 1 path changed\n", "{post}");
         assert_prints(&diff("new"), 0, &["0.5 mm deeper"]);
+    let drawing =
+        sheet("layer 1001.1P\nstart 0,0 \"T5 O2 I9 B1 MPlate F100\"\nmill 0,0 40,0\nend 40,0\n").unwrap();
+    let place = place.file("1001.1P.dxf", drawing.to_dxf());
+    assert_eq!(place.run("emit 1001.1P --sweep-height 30").status, Some(0));
+    let run = place.run("diff 1001.1P_Milling.gcode 1001.1P");
+    assert!(run.status == Some(2) && run.stderr.contains("missing: the sweep height"), "{run}");
+    let run = place.run("diff 1001.1P_Milling.gcode 1001.1P --sweep-height 30");
+    assert_prints(&run, 0, &["0 of 1 path changed"]);
     }
 }
 

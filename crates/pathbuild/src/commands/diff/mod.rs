@@ -4,7 +4,7 @@ mod output;
 mod revision;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_db::MissingOption;
+use pathbuild_db::Role;
 use pathbuild_db::system::{FileKind, is_drawing};
 use pathbuild_diagnostic::messages::outputs;
 use pathbuild_diagnostic::{Diagnostic, Lang, shown};
@@ -328,13 +328,13 @@ fn path(
         if seen.diagnostics.iter().any(Diagnostic::is_error) {
             return Err(Failure::Found(session.with_hints(seen.diagnostics)));
         }
-        let path = seen.scene.paths.into_iter().next().unwrap_or_default();
-        let options = [MissingOption::Feed, MissingOption::SweepHeight].map(MissingOption::name);
-        let is_missing = |name: &&'static str| path.examples.iter().any(|example| example.name == *name);
-        let missing: Vec<&str> = options.into_iter().filter(is_missing).collect();
-        if !missing.is_empty() {
-            return Err(Failure::Usage(missing_values(context, missing)));
+        let target = session.db().target(path.file, path.name.as_str(), Role::Emitted);
+        let checked = session.check(&[target]);
+        let mut missing = checked.iter().flat_map(|checked| &checked.missing_options).peekable();
+        if missing.peek().is_some() {
+            return Err(Failure::Usage(missing_values(context, missing.map(|option| option.name()))));
         }
+        let path = seen.scene.paths.into_iter().next().unwrap_or_default();
         let cutter = path.tool;
         let path = match post_processor {
             Some(_) if path.native.is_some() => with_posted_program(context, path, args)?,
