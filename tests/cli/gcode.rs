@@ -619,6 +619,13 @@ fn a_joined_program_is_not_compared_with_one_of_its_paths() {
             "{post}: {compared}"
         );
         assert!(compared.stderr.contains("errors: 1, warnings: 0"), "{post}: {compared}");
+        let program = std::fs::read_dir(place.path().join("out")).unwrap().next().unwrap().unwrap().path();
+        let differing =
+            place.run_with(&["diff", program.to_str().unwrap(), "1234.1P", "--format", "concise"]);
+        assert!(
+            differing.stderr.contains("error[PB739] the program joins several paths"),
+            "{post}: {differing}"
+        );
         let alone = place.run("verify out --format concise");
         assert!(alone.stderr.contains("errors: 0"), "{post}: {alone}");
     }

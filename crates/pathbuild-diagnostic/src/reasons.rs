@@ -45,8 +45,8 @@ words! {
     IS_DIRECTORY: "it is a directory", "es ist ein Verzeichnis";
     /// A directory is in the place of a file to write.
     DIRECTORY_OF_THAT_NAME: "a directory has that name", "ein Verzeichnis heißt so";
-    /// The name of a program contains R, and the value of R contains an invalid character.
-    NO_FILE_NAME: "the name, of which R is a part, contains a character that is not allowed in file names", "der Name, zu dem R gehört, enthält ein Zeichen, das in Dateinamen nicht erlaubt ist";
+    /// The name of a program, of which R or the argument of `--join` is a part, contains an invalid character.
+    NO_FILE_NAME: "the name contains a character that is not allowed in file names", "der Name enthält ein Zeichen, das in Dateinamen nicht erlaubt ist";
     /// The name of a path, such as `CON.1P`, would give a file name that means a device on Windows.
     DEVICE_NAME: "on Windows, a file name that begins like this denotes a device", "unter Windows bezeichnet ein Dateiname, der so beginnt, ein Gerät";
     /// The file is a pipe, a socket or a device.

@@ -54,6 +54,8 @@ fn an_adjusted_program_is_that_of_its_drawing() {
     let place = place.file("8001.1P.dxf", drawing(&with_probes(&WITHOUT.replace("S10", "S11"))));
     let run = place.run(&format!("diff a_Milling.gcode 8001.1P {OPTIONS}"));
     assert!(run.status == Some(0) && run.stdout.contains("other rapid moves"), "{run}");
+    let run = place.run(&format!("diff a_Probing.gcode 8001.1P {OPTIONS}"));
+    assert!(run.status == Some(1) && run.stderr.contains("the program only probes"), "{run}");
 }
 
 #[test]

@@ -225,8 +225,8 @@ messages! {
     NAME_NOT_ALLOWED: CannotWrite {
         en: "cannot write {name}: {reason}",
         de: "{name} kann nicht geschrieben werden: {reason}",
-        help_en: "correct R, or rename the path or the drawing",
-        help_de: "R berichtigen oder den Pfad oder die Zeichnung umbenennen",
+        help_en: "correct R or the name after --join, or rename the path or the drawing",
+        help_de: "R oder den Namen hinter --join berichtigen, oder den Pfad oder die Zeichnung umbenennen",
     }
     /// A file that cannot be written.
     CANNOT_WRITE: CannotWrite {

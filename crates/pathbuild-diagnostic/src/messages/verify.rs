@@ -85,12 +85,19 @@ messages! {
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
-    /// `verify --against`: a program that joins several paths.
+    /// `verify --against` and `diff`: a program that joins several paths.
     JOINED_PROGRAM: MovesDiffer {
-        en: "the program joins several paths, and --against compares a program with one path",
-        de: "das Programm verbindet mehrere Pfade, und --against vergleicht ein Programm mit einem Pfad",
-        help_en: "verify it without --against, and compare it with `pathbuild emit PATHS --join NAME --check`",
-        help_de: "es ohne --against prüfen und mit `pathbuild emit PFADE --join NAME --check` vergleichen",
+        en: "the program joins several paths, so it cannot be compared with one path",
+        de: "das Programm verbindet mehrere Pfade, lässt sich also nicht mit einem Pfad vergleichen",
+        help_en: "compare it with `pathbuild emit PATHS --join NAME --check`, and verify it without --against",
+        help_de: "es mit `pathbuild emit PFADE --join NAME --check` vergleichen und ohne --against prüfen",
+    }
+    /// `diff`: a probing program and a path.
+    PROBING_PROGRAM: MovesDiffer {
+        en: "the program only probes, and `diff` compares what is milled",
+        de: "das Programm tastet nur an, und `diff` vergleicht, was gefräst wird",
+        help_en: "compare the milling program with the path, and this one with `pathbuild verify PROGRAM --against PATH`",
+        help_de: "das Fräsprogramm mit dem Pfad vergleichen, dieses mit `pathbuild verify PROGRAMM --against PFAD`",
     }
     /// `verify --against` with a program that was corrected by probes and then converted.
     CONVERTED_CORRECTION: MovesDiffer {

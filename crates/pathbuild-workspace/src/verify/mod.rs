@@ -436,6 +436,21 @@ impl CheckEvidence {
     }
 }
 
+/// Whether the program joins several paths, according to its title.
+fn joins_paths(program: &Program) -> bool {
+    Provenance::of_head(&program.text).is_some_and(|(_, title)| native::joined_paths(&title).is_some())
+}
+
+/// Returns an error for a program that `diff` cannot compare with the milling program of a path.
+pub fn incomparable_with_path(program: &Program) -> Option<Diagnostic> {
+    let message = match joins_paths(program) {
+        true => &say::JOINED_PROGRAM,
+        false if program.header().is_probing => &say::PROBING_PROGRAM,
+        false => return None,
+    };
+    Some(Diagnostic::new(message).in_file(&program.file))
+}
+
 /// A program that is being verified, with everything that the rules need.
 struct Examination<'v> {
     verifier: &'v Verifier<'v>,
@@ -514,15 +529,14 @@ impl<'v> Examination<'v> {
     /// Refuses to compare a program with a path if they differ without a fault of the program: if the program joins several paths, was converted
     /// after its heights were corrected, or is a probing program that a definition of the user's own wrote.
     fn refuse_incomparable(&self) -> Result<(), Vec<Diagnostic>> {
-        let title = Provenance::of_head(&self.program.text).map(|(_, title)| title);
-        let message = match title.and_then(|title| native::joined_paths(&title)) {
+        let message = match joins_paths(self.program) {
             _ if self.verifier.against.is_none() => return Ok(()),
-            Some(_) => &say::JOINED_PROGRAM,
-            None if self.is_probing && self.reference.and(self.definition()).is_some() => {
+            true => &say::JOINED_PROGRAM,
+            false if self.is_probing && self.reference.and(self.definition()).is_some() => {
                 &say::PROBING_CONVERTED
             }
-            None if is_converted_correction(self.program) => &say::CONVERTED_CORRECTION,
-            None => return Ok(()),
+            false if is_converted_correction(self.program) => &say::CONVERTED_CORRECTION,
+            false => return Ok(()),
         };
         let mut problems = vec![Diagnostic::new(message)];
         self.program.place(&mut problems);

@@ -20,7 +20,7 @@ use pathbuild_workspace::emit::{ShownText, missing_values};
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
 use pathbuild_workspace::program::read;
 use pathbuild_workspace::session::Session;
-use pathbuild_workspace::verify::{Verifier, VerifyOptions};
+use pathbuild_workspace::verify::{Verifier, VerifyOptions, incomparable_with_path};
 use pathbuild_workspace::{Failure, Inputs, Workspace};
 
 use crate::args::DiffArgs;
@@ -274,7 +274,7 @@ fn reader<'c>(context: &'c Context, args: &DiffArgs) -> Result<Verifier<'c>, Fai
     Verifier::new(&mut Session::new(context), options)
 }
 
-/// Reads a program. With nominal heights, the corrections by measured heights are undone, so that the program is the one that was drawn.
+/// Reads a program. With nominal heights, for comparing it with a path, the corrections by measured heights are undone, so that the program is the one that was drawn.
 fn program(
     context: &Context,
     file: &Utf8Path,
@@ -285,6 +285,9 @@ fn program(
     let text = read(&context.settings, &*context.system, file).map_err(found)?;
     let mut program = reader(context, args)?.read(file, text).map_err(found)?;
     if heights == Heights::Nominal {
+        if let Some(problem) = incomparable_with_path(&program) {
+            return Err(Failure::Found(vec![problem]));
+        }
         let mut steps = Vec::with_capacity(program.read.steps.len());
         program.at_nominal_heights().each(&mut |step| steps.push(step.clone()));
         program.read.steps = steps;
