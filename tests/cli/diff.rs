@@ -472,6 +472,54 @@ fn programs_whose_moves_are_not_known_are_not_said_to_be_equal() {
     assert_prints(&programs(TWO_CUTS, &without_end), 1, &["0 of 1 path changed\n"]);
 }
 
+/// Native programs have errors, too: moves that the machine cannot make, and warnings that the configuration turns into errors.
+#[test]
+fn a_native_program_that_is_not_written_has_errors() {
+    let compare = |sides: [&str; 2], depths: [&str; 2]| {
+        let place = two(dxf("1001.1P", depths[0], LINE), dxf("1001.1P", depths[1], LINE));
+        for (side, settings) in ["old", "new"].into_iter().zip(sides) {
+            let text = format!("rapid = 1000\nlibrary = [\"parts\"]\n{settings}");
+            fs::write(place.path().join(side).join("pathbuild.toml"), text).unwrap();
+        }
+        place
+    };
+    let assert_compared = |sides, depths, status, line: &str, code: &str| {
+        let run = compare(sides, depths).run("diff old new");
+        assert_prints(&run, status, &[line]);
+        assert_eq!(run.stderr.contains(&format!("error[{code}]")), status == 1, "{run}");
+        assert!(!run.stdout.contains("were not compared"), "{run}");
+    };
+    let (low, high) = ("[machine]\nz = [0, 9]\n", "[machine]\nz = [0, 11]\n");
+    assert_compared([high, high], ["1", "0.5"], 0, "  0.5 mm deeper: ", "PB748");
+    assert_compared([low, low], ["1", "0.5"], 1, "  0.5 mm deeper: ", "PB748");
+    assert_compared([high, low], ["1", "1"], 1, ": has errors now\n", "PB748");
+    assert_compared([high, high], ["1", "1"], 0, "0 of 1 path changed", "PB748");
+    // Nothing has changed, so no program is written to find out.
+    assert_compared([low, low], ["1", "1"], 0, "0 of 1 path changed", "PB748");
+    let (error, useless) = ("[severity]\nPB210 = \"error\"\n", "1 C0.2");
+    assert_compared(["", ""], [useless, useless], 0, "0 of 1 path changed", "PB210");
+    assert_compared([error, error], [useless, useless], 1, ": has errors, before and now\n", "PB210");
+    assert_compared(["", error], [useless, useless], 1, ": has errors now\n", "PB210");
+    assert_compared([error, ""], [useless, useless], 0, ": had errors, has none now\n", "PB210");
+    assert_compared([error, error], [useless, "0.5 C0.2"], 1, "  0.5 mm deeper: ", "PB210");
+    for (settings, depth, outcome) in
+        [(high, "1", ": new\n"), (low, "1", ": new, has errors\n"), (error, useless, ": new, has errors\n")]
+    {
+        let place = compare([settings, settings], ["1", "1"]);
+        let place = place.file("new/parts/1002.1P.dxf", dxf("1002.1P", depth, LINE));
+        assert_prints(&place.run("diff old new"), i32::from(outcome.contains("errors")), &[outcome]);
+    }
+    let place = compare([low, low], ["1", "1"]);
+    assert_eq!(place.run("emit new/parts/1001.1P.dxf --config old/pathbuild.toml").status, Some(1));
+    fs::write(place.path().join("high.toml"), "rapid = 1000\nlibrary = [\"new/parts\"]\n").unwrap();
+    assert_eq!(place.run("emit new/parts/1001.1P.dxf --config high.toml").status, Some(0));
+    let against =
+        |config| place.run(&format!("diff new/parts/1001.1P_Milling.gcode 1001.1P --config {config}"));
+    assert_prints(&against("high.toml"), 0, &["0 of 1 path changed"]);
+    let run = against("new/pathbuild.toml");
+    assert_eq!((run.status, run.stderr.contains("error[PB748]")), (Some(1), true), "{run}");
+}
+
 /// A path without a feed has no program, so there is nothing to compare with.
 #[test]
 fn a_path_that_needs_an_option_is_not_compared() {
@@ -482,6 +530,14 @@ fn a_path_that_needs_an_option_is_not_compared() {
     let run = place.run("diff 1001.1P_Milling.gcode 1001.1P");
     assert!(run.status == Some(2) && run.stderr.contains("missing: the milling feed"), "{run}");
     assert_prints(&place.run("diff 1001.1P_Milling.gcode 1001.1P --feed 100"), 0, &["0 of 1 path changed"]);
+    let drawing =
+        sheet("layer 1001.1P\nstart 0,0 \"T5 O2 I9 B1 MPlate F100\"\nmill 0,0 40,0\nend 40,0\n").unwrap();
+    let place = place.file("1001.1P.dxf", drawing.to_dxf());
+    assert_eq!(place.run("emit 1001.1P --sweep-height 30").status, Some(0));
+    let run = place.run("diff 1001.1P_Milling.gcode 1001.1P");
+    assert!(run.status == Some(2) && run.stderr.contains("missing: the sweep height"), "{run}");
+    let run = place.run("diff 1001.1P_Milling.gcode 1001.1P --sweep-height 30");
+    assert_prints(&run, 0, &["0 of 1 path changed"]);
 }
 
 /// GRBL's post writes four decimals, and the native program three. The coordinate differs by half a micrometre between them, which is not a
@@ -530,14 +586,6 @@ fn what_a_built_in_post_writes_is_no_change() {
         };
         assert_eq!(diff("old").stdout, "0 of 1 path changed\n", "{post}");
         assert_prints(&diff("new"), 0, &["0.5 mm deeper"]);
-    let drawing =
-        sheet("layer 1001.1P\nstart 0,0 \"T5 O2 I9 B1 MPlate F100\"\nmill 0,0 40,0\nend 40,0\n").unwrap();
-    let place = place.file("1001.1P.dxf", drawing.to_dxf());
-    assert_eq!(place.run("emit 1001.1P --sweep-height 30").status, Some(0));
-    let run = place.run("diff 1001.1P_Milling.gcode 1001.1P");
-    assert!(run.status == Some(2) && run.stderr.contains("missing: the sweep height"), "{run}");
-    let run = place.run("diff 1001.1P_Milling.gcode 1001.1P --sweep-height 30");
-    assert_prints(&run, 0, &["0 of 1 path changed"]);
     }
 }
 

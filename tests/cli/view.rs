@@ -25,6 +25,23 @@ fn scene(run: &Run) -> Value {
     serde_json::from_str(&fs::read_to_string(run.arguments.rsplit(' ').next().unwrap()).unwrap()).unwrap()
 }
 
+/// A warning that is configured as an error keeps `emit` from writing the program, so no file is named.
+#[test]
+fn a_path_with_a_raised_warning_has_no_program_file() {
+    let path = "layer 1234.1P\nstart 0,0 \"T2 O2 I1 B0 C0.2 F150 S10 MX\"\nmill 0,0 10,0\nend 10,0\n";
+    for (severity, written) in [("warning", Value::from("1234.1P_Milling.gcode")), ("error", Value::Null)] {
+        let configuration = format!("rapid = 1000\n[severity]\nPB210 = \"{severity}\"\n");
+        let place = Place::new().file("1234.1P.dxf", sheet(path).unwrap().to_dxf());
+        let place = place.file("pathbuild.toml", configuration);
+        let run = place.run("view 1234.1P -o x.json");
+        assert_eq!(run.status, Some(i32::from(written.is_null())), "{run}");
+        let seen: Value = serde_json::from_str(&place.read("x.json")).unwrap();
+        let path = &seen["paths"][0];
+        assert_eq!((&path["written"], &path["refusal"]), (&written, &Value::Null), "{run}");
+        assert!(!path["moves"].as_array().unwrap().is_empty(), "{run}");
+    }
+}
+
 /// Elements far away on other layers, or in texts and clamps, are not drawn, and must not take memory either.
 #[test]
 #[cfg(all(target_os = "linux", feature = "pictures"))]

@@ -193,6 +193,12 @@ impl Workspace {
         self.severities().has_error(diagnostics)
     }
 
+    /// Returns, as errors, the warnings that the configuration turns into errors.
+    pub fn raised(&self, mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+        diagnostics.retain(|diagnostic| !diagnostic.is_error() && self.has_error([diagnostic]));
+        diagnostics.into_iter().map(Diagnostic::as_error).collect()
+    }
+
     /// Returns PB524 if the configuration lowers all errors among these problems of a program that was not written. Without it, the user would see no
     /// reason why the program was not written.
     pub fn lowered_error<'d>(

@@ -239,7 +239,7 @@ fn list_without_programs(session: &Session<'_>, paths: &[(SourceFile, PathName)]
     let figures = session.map_guarded(&checked, |db, checked| Figures::of(db, checked, rapid));
     let listed = |((checked, figures), (file, name)): (CheckedFigures, &(SourceFile, PathName))| {
         let db = session.db();
-        let mut diagnostics = emit::path_diagnostics(session, &checked);
+        let mut diagnostics = session.path_diagnostics(&checked);
         let figures = figures.unwrap_or_else(|problem| {
             diagnostics.push(problem.in_file(file.path(db)).in_path(name.as_str()));
             Figures::default()

@@ -198,10 +198,9 @@ fn compare_stable(old: &mut Tree<'_, '_>, new: &mut Tree<'_, '_>, pictures: Opti
     Comparison { paths, path_count, problems }
 }
 
-/// Returns everything that the programs of a post-processor depend on besides the drawings, and the machine whose travel they must not exceed; `None`
-/// for native programs.
-fn writer_identity(side: CompiledSide<'_>) -> Option<(Vec<u8>, Option<Machine>)> {
-    Some((side.post_processor?.identity(), machine(&side.session.workspace().settings)))
+/// Returns everything that the programs of a post-processor depend on besides the drawings, and the machine whose travel programs must not exceed.
+fn writer_identity(side: CompiledSide<'_>) -> (Option<Vec<u8>>, Option<Machine>) {
+    (side.post_processor.map(PostProcessor::identity), machine(&side.session.workspace().settings))
 }
 
 /// Returns how the heights of programs with probes are corrected.
@@ -266,7 +265,8 @@ impl PathPair {
         let with_errors = |path: &HashedPath, unreadable: &BTreeMap<_, SourceFile>| {
             let file = *unreadable.get(&path.place)?;
             let (place, name) = (path.place.clone(), path.name.clone());
-            Some(HashedPath { file, place, name, target: path.target, moves: None, problems: Vec::new() })
+            let (problems, raised) = (Vec::new(), Vec::new());
+            Some(HashedPath { file, place, name, target: path.target, moves: None, problems, raised })
         };
         match self {
             Self { old: Some(path), new: None } => Self { new: with_errors(&path, new), old: Some(path) },
@@ -319,7 +319,12 @@ impl PathPair {
                 let paths = [old_path, new_path];
                 let is_same = is_written_alike && old_path.moves == new_path.moves;
                 let changed = Outcome::of_errors(paths.map(|path| path.moves.is_none())).or_else(|| {
-                    if is_same { None } else { compare_programs(sides, paths, pictures, problems) }
+                    if is_same {
+                        problems[1].extend_from_slice(&new_path.raised);
+                        Outcome::of_errors(paths.map(|path| !path.raised.is_empty()))
+                    } else {
+                        compare_programs(sides, paths, pictures, problems)
+                    }
                 });
                 match changed {
                     Some(outcome) => outcome,
@@ -365,7 +370,8 @@ fn compare_programs(
                 let reasons = explain_change(sides.map(|side| side.session), paths, problems);
                 // If only states changed and no reason was found, the states themselves show what changed in pathbuild.toml.
                 let reasons = reasons.filter(|reasons| !reasons.is_empty() || !changes.groups.is_empty());
-                let is_unwritten = has_errors.contains(&true);
+                let is_unwritten =
+                    has_errors.contains(&true) && sides.iter().any(|side| side.post_processor.is_some());
                 Outcome::Changed(Box::new(ProgramDiff { is_unwritten, states, reasons, ..changes }))
             })
         }
@@ -401,7 +407,7 @@ struct CompiledPath {
     states: MachineStates,
     /// The text that the post-processor writes; `None` for a native program, and if the post-processor refuses to write it.
     posted: Option<Vec<u8>>,
-    /// Errors that keep the post-processor from writing the program.
+    /// Errors that keep `emit` from writing the program.
     refusals: Vec<Diagnostic>,
 }
 
@@ -411,7 +417,7 @@ impl CompiledSide<'_> {
     /// # Errors
     /// The errors that prevent the program from being built.
     fn compile(&self, known: &HashedPath) -> Result<CompiledPath, Vec<Diagnostic>> {
-        let text = self.post_processor.map_or(ShownText::Native, |post| ShownText::Emitted(Some(post)));
+        let text = ShownText::Emitted(self.post_processor);
         let report = self.session.scene(known.file, std::slice::from_ref(&known.name), text);
         let Some(path) = report.scene.paths.into_iter().next().filter(|path| path.gcode.is_some()) else {
             // Errors of the drawing as a whole have been reported already.
@@ -420,15 +426,15 @@ impl CompiledSide<'_> {
         };
         let posted = path.gcode.clone().filter(|_| path.native.is_some()).map(String::into_bytes);
         let states = self.states(known, &path, posted.as_deref()).map_err(|problem| vec![*problem])?;
-        Ok(CompiledPath { path, states, posted, refusals: report.refusals })
+        let refusals = [&*report.refusals, &known.raised].concat();
+        Ok(CompiledPath { path, states, posted, refusals })
     }
 
-    /// Returns the errors that keep the post-processor from writing the program of a path; none if programs are native.
+    /// Returns the errors that keep `emit` from writing the program of a path.
     fn refusals(&self, known: &HashedPath) -> Vec<Diagnostic> {
-        if self.post_processor.is_none() {
-            return Vec::new();
-        }
-        self.compile(known).map_or_else(|errors| errors, |compiled| compiled.refusals)
+        let mut refusals = self.session.refusals(known.file, &known.name, self.post_processor);
+        refusals.extend_from_slice(&known.raised);
+        refusals
     }
 
     /// Returns what the program states besides moves, according to the text that the post-processor writes, or else to the drawing.

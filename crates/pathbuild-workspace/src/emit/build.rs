@@ -24,7 +24,8 @@ use super::sheet;
 use crate::post_processor::PostProcessor;
 use crate::session::{OutputKind, WriteSettings};
 
-/// The outcome of building a program, and the generated files. There are no files if one of them cannot be generated.
+/// The outcome of building a program, and the generated files. There are no files if one of them cannot be generated, or if
+/// the configuration turns a warning about the program into an error.
 #[derive(Default)]
 pub(super) struct BuiltProgram {
     /// The outcome of the program. Its `files` are filled in when they are written.
@@ -55,11 +56,14 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
         (None, _) => Ok(Vec::new()),
     };
     let result = result.and_then(|outputs| with_sheets(outputs, db, job, settings));
-    let outputs = result.unwrap_or_else(|problems| {
+    let mut outputs = result.unwrap_or_else(|problems| {
         outcome.is_refused = true;
         outcome.problems.extend(problems);
         Vec::new()
     });
+    if settings.severities.has_error(&outcome.problems) {
+        outputs.clear();
+    }
     BuiltProgram { outcome, outputs }
 }
 

@@ -107,7 +107,7 @@ fn compare_with_path(
     let target = db.target(path.file, path.name.as_str(), Role::Emitted);
     let checked = session.check(&[target]);
     let wrong: Vec<Diagnostic> =
-        checked.iter().flat_map(|checked| super::plan::path_diagnostics(session, checked)).collect();
+        checked.iter().flat_map(|checked| session.path_diagnostics(checked)).collect();
     if wrong.iter().any(Diagnostic::is_error) {
         return DrawingComparison::Wrong(wrong);
     }

@@ -17,7 +17,6 @@ mod stale_programs;
 mod written_programs;
 
 use std::collections::HashMap;
-use std::slice;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Target;
@@ -36,7 +35,6 @@ pub use build::program_remarks;
 pub use comparison::{DrawingComparison, compare_with_drawing, native_text};
 pub use options::{Provenances, missing_values, write_settings};
 pub use outcome::{ProgramOutcome, State, Task};
-pub(crate) use plan::path_diagnostics;
 use plan::{
     Job, JobBuilder, Plan, jobs_mut, leave_out_files_of_others, leave_out_second_definitions, plan,
     warn_of_numbers,
@@ -365,9 +363,7 @@ pub(crate) fn freshness_on_disk(
     let checked = session.check(targets);
     let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
     let job = |checked: &CheckedTarget| {
-        let mut plan = builder.plan(slice::from_ref(checked));
-        plan.leave_out_if_raised(session.workspace());
-        let mut job = plan.job.filter(|job| !job.is_left_out)?;
+        let mut job = builder.own_job(checked).ok()??;
         job.is_left_out = !checked.missing_options.is_empty();
         Some(job)
     };

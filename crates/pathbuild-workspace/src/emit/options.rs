@@ -14,6 +14,7 @@ use pathbuild_toolpath::{Correction, Program};
 
 use super::outcome::Task;
 use crate::config::{Settings, types};
+use crate::findings::Severities;
 use crate::post_processor::{PostProcessor, machine, tool_table};
 use crate::session::{CheckedTarget, WriteSettings};
 use crate::workspace::Workspace;
@@ -100,6 +101,7 @@ fn write_options(settings: &Settings) -> WriteOptions {
 /// The settings for writing programs, natively or through a post-processor.
 pub(super) struct OutputSettings<'a> {
     pub(super) writing: WriteSettings,
+    pub(super) severities: Severities<'a>,
     pub(super) post_processor: Option<&'a PostProcessor>,
     pub(super) provenances: Provenances,
     pub(super) sheets: SheetSettings,
@@ -109,12 +111,13 @@ pub(super) struct OutputSettings<'a> {
 }
 
 impl<'a> OutputSettings<'a> {
-    pub(super) fn new(workspace: &Workspace, post_processor: Option<&'a PostProcessor>) -> Self {
+    pub(super) fn new(workspace: &'a Workspace, post_processor: Option<&'a PostProcessor>) -> Self {
         let settings = &workspace.settings;
         let provenances = Provenances::new(settings, post_processor);
         let sheets = SheetSettings::new(settings, tool_table(settings), post_processor);
         Self {
             writing: write_settings(settings),
+            severities: workspace.severities(),
             post_processor,
             provenances,
             sheets,

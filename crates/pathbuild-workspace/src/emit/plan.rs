@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::Write;
+use std::slice;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_db::{
-    Database, Db, Role, SecondDefinition, SourceFile, Target, Trace, check_file, path_names,
-    second_definitions, trace,
+    Database, Db, Role, SecondDefinition, SourceFile, Target, Trace, path_names, second_definitions, trace,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::{outputs as messages, posts};
@@ -270,12 +270,6 @@ fn subject(db: &Database, targets: &[Target], join: Option<&str>) -> Box<str> {
     subject.into()
 }
 
-/// Returns the diagnostics of a checked path and of the drawings that it uses.
-pub(crate) fn path_diagnostics(session: &Session<'_>, checked: &CheckedTarget) -> Vec<Diagnostic> {
-    let of_files = checked.files.iter().flat_map(|file| check_file(session.db(), *file));
-    of_files.chain(&checked.diagnostics).cloned().collect()
-}
-
 pub(super) struct JobBuilder<'a> {
     pub(super) session: &'a Session<'a>,
     /// The post-processor for the programs; `None` for native programs.
@@ -288,8 +282,7 @@ pub(super) struct JobBuilder<'a> {
 impl JobBuilder<'_> {
     /// Returns the plan for the paths of one program. It has no job if any of the paths has errors.
     pub(super) fn plan(&self, checked: &[CheckedTarget]) -> Plan {
-        let diagnostics =
-            checked.iter().flat_map(|checked| path_diagnostics(self.session, checked)).collect();
+        let diagnostics = checked.iter().flat_map(|checked| self.session.path_diagnostics(checked)).collect();
         let job = match (self.join, checked) {
             (Some(name), checked) => self.joined_job(name, checked),
             (None, [checked]) => self.single_job(checked).map_err(|problem| vec![*problem]),
@@ -299,6 +292,17 @@ impl JobBuilder<'_> {
             Ok(job) => Plan { diagnostics, refusals: Vec::new(), job },
             Err(refusals) => Plan { diagnostics, refusals, job: None },
         }
+    }
+
+    /// Returns the job that `emit` performs for a path on its own; `None` if the path has errors, with the configured severities.
+    ///
+    /// # Errors
+    /// The reasons why no program is generated, besides errors of the path.
+    pub(super) fn own_job(&self, checked: &CheckedTarget) -> Result<Option<Job>, Vec<Diagnostic>> {
+        let mut plan = self.plan(slice::from_ref(checked));
+        plan.leave_out_if_raised(self.session.workspace());
+        let Plan { refusals, job, .. } = plan;
+        if refusals.is_empty() { Ok(job.filter(|job| !job.is_left_out)) } else { Err(refusals) }
     }
 
     fn joined_job(&self, name: &str, checked: &[CheckedTarget]) -> Result<Option<Job>, Vec<Diagnostic>> {
@@ -332,7 +336,7 @@ impl JobBuilder<'_> {
             join_file_name(&full, if is_alone { &emitted.suffix } else { &full }, &directory).map_err(at)?;
         self.refuse_probes(checked, emitted)?;
         let kinds = OutputKind::of(emitted.has_probes);
-        Ok(Some(self.with_files(stem, &emitted.path, std::slice::from_ref(checked), kinds)))
+        Ok(Some(self.with_files(stem, &emitted.path, slice::from_ref(checked), kinds)))
     }
 
     /// Returns an error if the path has probes and there is a post-processor: its output cannot contain formulas, so the probes would be measured for

@@ -167,30 +167,18 @@ impl Session<'_> {
         text: ShownText<'_>,
         refusals: &mut Vec<Diagnostic>,
     ) -> (Option<ScenePath>, Vec<Diagnostic>, Vec<KeepOut>) {
-        let checked = self
-            .map_with_checker(slice::from_ref(name), |checker, name| checker.check_leniently(file, name))
-            .pop();
-        let Some(checked) = checked else { return (None, Vec::new(), Vec::new()) };
+        let Some(checked) = self.check_leniently(file, name) else { return (None, Vec::new(), Vec::new()) };
         let settings = &self.workspace().settings;
         let writing = &write_settings(settings);
-        // Without `rapid`, or for a path that is only checked, `emit` writes nothing: the text is a preview.
-        let is_written = *checked.target.role(self.db()) == Role::Emitted
-            && self.workspace().settings.general.rapid.value.is_some();
+        let at = |problem: Diagnostic| problem.in_file(file.path(self.db())).in_path(name.as_str());
         let (emitted, refused) = match text {
             ShownText::Omitted | ShownText::Native => (None, Vec::new()),
-            ShownText::Emitted(post_processor) => match program_text(self, post_processor, &checked) {
-                Ok(emitted) => (emitted, Vec::new()),
-                Err(problems) => (None, problems),
-            },
+            ShownText::Emitted(post_processor) => self.emitted_text(post_processor, &checked),
         };
-        let at = |problem: Diagnostic| problem.in_file(file.path(self.db())).in_path(name.as_str());
-        let with_place = |problem: Diagnostic| if problem.file.is_some() { problem } else { at(problem) };
-        let refused = refused.into_iter().filter(|problem| problem.is_error() && is_written);
-        let refused: Vec<Diagnostic> = refused.map(with_place).collect();
         let refusal = refused.first().map(|problem| BilingualText::of(|lang| problem.text(lang)));
         refusals.extend(refused);
         let emitted = emitted.as_ref().map(|emitted| GcodeText {
-            file: is_written.then_some(emitted.file.as_str()),
+            file: self.is_written(&checked).then_some(emitted.file.as_str()),
             bytes: &emitted.bytes,
             dialect: emitted.dialect,
         });
@@ -227,6 +215,50 @@ impl Session<'_> {
         let parameters = effective_parameters(self.db(), file, name, &examples.unwrap_or_default(), true);
         let drawn = drawn.map(|drawn| view::drawn_path(&drawn_source(self.db(), file, drawn, &parameters)));
         (drawn, diagnostics, Vec::new())
+    }
+}
+
+impl Session<'_> {
+    /// Returns the errors that keep `emit` from writing the program of a path that has no errors.
+    pub fn refusals(
+        &self,
+        file: SourceFile,
+        name: &PathName,
+        post_processor: Option<&PostProcessor>,
+    ) -> Vec<Diagnostic> {
+        let checked = self.check_leniently(file, name);
+        checked.map_or_else(Vec::new, |checked| self.emitted_text(post_processor, &checked).1)
+    }
+
+    fn check_leniently(&self, file: SourceFile, name: &PathName) -> Option<CheckedTarget> {
+        self.map_with_checker(slice::from_ref(name), |checker, name| checker.check_leniently(file, name))
+            .pop()
+    }
+
+    /// Whether `emit` writes a program for the path. Without `rapid`, or for a path that is only checked, its text is a preview.
+    fn is_written(&self, checked: &CheckedTarget) -> bool {
+        *checked.target.role(self.db()) == Role::Emitted
+            && self.workspace().settings.general.rapid.value.is_some()
+    }
+
+    /// Returns the text of the program that `emit` writes, and the errors for which it refuses to.
+    fn emitted_text(
+        &self,
+        post_processor: Option<&PostProcessor>,
+        checked: &CheckedTarget,
+    ) -> (Option<ProgramText>, Vec<Diagnostic>) {
+        let (emitted, mut refused) = match program_text(self, post_processor, checked) {
+            Ok(emitted) => (emitted, Vec::new()),
+            Err(problems) => (None, problems),
+        };
+        let is_error = |problem: &Diagnostic| problem.is_error() || self.workspace().has_error([problem]);
+        refused.retain(|problem| is_error(problem) && self.is_written(checked));
+        let (db, target) = (self.db(), checked.target);
+        let with_place = |problem: Diagnostic| match problem.file {
+            Some(_) => problem,
+            None => problem.in_file(target.file(db).path(db)).in_path(target.name(db)),
+        };
+        (emitted, refused.into_iter().map(with_place).map(Diagnostic::as_error).collect())
     }
 }
 
@@ -330,7 +362,7 @@ struct ProgramText {
     dialect: Dialect,
 }
 
-/// Generates the program of a checked path; returns `None` if the path has errors.
+/// Generates the program of a checked path; returns `None` if the path has errors, with the configured severities.
 ///
 /// # Errors
 /// If `emit` would refuse to write the program, with the reasons.
@@ -340,11 +372,7 @@ fn program_text(
     checked: &CheckedTarget,
 ) -> Result<Option<ProgramText>, Vec<Diagnostic>> {
     let builder = JobBuilder { session, post_processor, join: None, sheet: SheetFormat::No };
-    let Plan { job, refusals, .. } = builder.plan(slice::from_ref(checked));
-    if !refusals.is_empty() {
-        return Err(refusals);
-    }
-    let Some(job) = job else { return Ok(None) };
+    let Some(job) = builder.own_job(checked)? else { return Ok(None) };
     let settings = OutputSettings::new(session.workspace(), post_processor);
     let work = |db: &Database, job: &Job| build(db, job, &settings);
     let files =

@@ -32,7 +32,6 @@ pub(super) fn build_and_settle<'j>(
 ) {
     let mut jobs: Vec<&mut Job> = jobs.filter(|job| !job.is_left_out && job.outcome.is_none()).collect();
     let settings = &OutputSettings::new(session.workspace(), post_processor);
-    let severities = session.workspace().severities();
     let system = session.db().shared_system();
     let settled = |outputs| settle(&*system, outputs, task, settings);
     let write = |generated: Receiver<NumberedOutputs>| -> Vec<(usize, ProgramOutcome)> {
@@ -43,10 +42,7 @@ pub(super) fn build_and_settle<'j>(
     let (mut generated, written) = thread::scope(|scope| {
         let writer = Builder::new().name("writer".into()).spawn_scoped(scope, move || write(receiver));
         let generated = |db: &Database, (index, job): &(usize, &Job)| {
-            let BuiltProgram { mut outcome, mut outputs } = build(db, job, settings);
-            if severities.has_error(&outcome.problems) {
-                outputs.clear();
-            }
+            let BuiltProgram { mut outcome, outputs } = build(db, job, settings);
             // Last chance to time out: from here on, all files of the job are written.
             db.check_time_limit();
             // If there is no receiver, because the system had no thread left, write the files here.

@@ -32,6 +32,8 @@ pub struct HashedPath {
     pub moves: Option<Box<str>>,
     /// Diagnostics of exceeded limits and bugs that kept the program from being built.
     pub problems: Vec<Diagnostic>,
+    /// Warnings that the configuration turns into errors, so that `emit` writes no program although its moves are known.
+    pub raised: Vec<Diagnostic>,
 }
 
 impl Session<'_> {
@@ -55,6 +57,7 @@ impl Session<'_> {
         let hashed =
             |(((file, name), checked), hash): (((SourceFile, _), CheckedTarget), Result<_, Box<_>>)| {
                 let target = checked.target;
+                let raised = self.context.raised(self.path_diagnostics(&checked));
                 let mut problems: Vec<Diagnostic> =
                     checked.diagnostics.into_iter().filter(prevents_program).collect();
                 let moves = hash.unwrap_or_else(|problem| {
@@ -65,7 +68,7 @@ impl Session<'_> {
                 });
                 let drawing = file.path(&self.db);
                 let place = self.place_below(root, drawing);
-                HashedPath { file, place, name, target, moves, problems }
+                HashedPath { file, place, name, target, moves, problems, raised }
             };
         paths.into_iter().zip(checked).zip(hashes).map(hashed).collect()
     }

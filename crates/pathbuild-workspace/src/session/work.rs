@@ -7,8 +7,8 @@ use std::time::Duration;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, System, join};
 use pathbuild_db::{
-    Closure, Database, Db, Instance, MissingOption, Role, SourceFile, Target, Trace, check_target, closure,
-    embeds_others, file_index, locate, path_names, q_project_findings, summary, trace,
+    Closure, Database, Db, Instance, MissingOption, Role, SourceFile, Target, Trace, check_file,
+    check_target, closure, embeds_others, file_index, locate, path_names, q_project_findings, summary, trace,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs;
@@ -112,6 +112,12 @@ impl Session<'_> {
     /// Checks targets, and returns the results in the order of the targets.
     pub fn check(&self, targets: &[Target]) -> Vec<CheckedTarget> {
         self.map_with_checker(targets, |checker, target| checker.check(*target))
+    }
+
+    /// Returns the diagnostics of a checked path and of the drawings that it uses. `emit` writes no program if any of them is an error.
+    pub fn path_diagnostics(&self, checked: &CheckedTarget) -> Vec<Diagnostic> {
+        let of_files = checked.files.iter().flat_map(|file| check_file(&self.db, *file));
+        of_files.chain(&checked.diagnostics).cloned().collect()
     }
 
     /// Processes items on all cores, and returns the results in the order of the items.

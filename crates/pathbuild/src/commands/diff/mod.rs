@@ -308,7 +308,7 @@ fn path(
     args: &DiffArgs,
 ) -> Result<ComparedProgram, Failure> {
     let post_processor = post_processor_of(context, beside);
-    let text = post_processor.as_ref().map_or(ShownText::Native, |post| ShownText::Emitted(Some(post)));
+    let text = ShownText::Emitted(post_processor.as_ref());
     let inputs = Inputs { inputs: vec![name.to_owned()] };
     Session::new(context).with_stable_files(|session| {
         let selection = session.select(&inputs);
