@@ -6,9 +6,9 @@
 //! are assigned anew.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
 use encoding_rs::Encoding;
+use indexmap::IndexSet;
 
 /// A group code with its value, borrowed from the crate's output or the drawing, or created here.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -121,8 +121,7 @@ pub fn chunks(value: &str, size: usize) -> Vec<String> {
 /// Placeholders for strings while they pass through the crate `dxf`, which would change some of their characters.
 #[derive(Debug, Default)]
 pub struct StringPlaceholders {
-    numbers: BTreeMap<String, usize>,
-    strings: Vec<String>,
+    strings: IndexSet<String>,
 }
 
 impl StringPlaceholders {
@@ -132,11 +131,7 @@ impl StringPlaceholders {
         if string.chars().all(is_safe) {
             return string.to_owned();
         }
-        let next = self.strings.len();
-        let number = *self.numbers.entry(string.to_owned()).or_insert(next);
-        if number == next {
-            self.strings.push(string.to_owned());
-        }
+        let (number, _) = self.strings.insert_full(string.to_owned());
         format!("<{number}>")
     }
 
@@ -151,7 +146,7 @@ impl StringPlaceholders {
 
     fn original_string(&self, placeholder: &str) -> Option<&str> {
         let number = placeholder.strip_prefix('<')?.strip_suffix('>')?;
-        self.strings.get(number.parse::<usize>().ok()?).map(String::as_str)
+        self.strings.get_index(number.parse().ok()?).map(String::as_str)
     }
 }
 

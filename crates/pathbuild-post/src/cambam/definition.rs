@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use camino::Utf8Path;
+use indexmap::IndexMap;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Text, nearest};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -28,37 +29,8 @@ pub(crate) struct Definition {
     pub(super) options: Options,
     /// The text and the line of each option in the file, by the name of its element.
     stated: HashMap<Box<str>, (Box<str>, u32)>,
-    pub(super) macros: UserMacros,
-}
-
-/// User macros with their names, in order of definition.
-#[derive(Clone, Debug, Default)]
-pub(super) struct UserMacros {
-    macros: Vec<(Box<str>, Template)>,
-    by_name: HashMap<Box<str>, usize>,
-}
-
-impl UserMacros {
-    /// Defines a macro, replacing an earlier one with the same name.
-    pub(super) fn set(&mut self, name: &str, text: Template) {
-        let next = self.macros.len();
-        match *self.by_name.entry(name.into()).or_insert(next) {
-            index if index == next => self.macros.push((name.into(), text)),
-            index => self.macros[index].1 = text,
-        }
-    }
-
-    pub(super) fn get(&self, name: &str) -> Option<&Template> {
-        self.by_name.get(name).map(|&index| &self.macros[index].1)
-    }
-
-    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        self.macros.iter().map(|(name, _)| &**name)
-    }
-
-    pub(super) fn texts(&self) -> impl Iterator<Item = &Template> {
-        self.macros.iter().map(|(_, text)| text)
-    }
+    /// User macros by name, in order of definition. The last definition of a name applies.
+    macros: IndexMap<Box<str>, Template>,
 }
 
 /// Maximum number of XML nodes in a definition. Larger files are refused, because they can only be malicious.
@@ -206,7 +178,7 @@ impl Definition {
 
     /// Returns all templates that the definition uses: those of the file, and the defaults of absent elements.
     pub(super) fn templates(&self) -> impl Iterator<Item = &Template> {
-        Section::ALL.iter().map(|&section| self.section(section)).chain(self.macros.texts())
+        Section::ALL.iter().map(|&section| self.section(section)).chain(self.macros.values())
     }
 }
 
@@ -236,7 +208,7 @@ impl<'a> CbppReader<'a> {
             defaults: Section::ALL.iter().map(default).collect(),
             options: Options::initial(),
             stated: HashMap::new(),
-            macros: UserMacros::default(),
+            macros: IndexMap::new(),
         };
         Self { file, lines, definition, seen: HashSet::new(), findings: Findings::default() }
     }
@@ -340,7 +312,7 @@ impl<'a> CbppReader<'a> {
                 }
                 Some((name, value)) => {
                     if let Some(value) = self.template(Section::UserMacro, value, line) {
-                        self.definition.macros.set(name, value);
+                        self.definition.macros.insert(name.into(), value);
                     }
                 }
             }
@@ -492,8 +464,8 @@ impl<'a> Plan<'a> {
     }
 
     fn unknown_macro(&self, name: &str, section: Section, line: u32) -> Diagnostic {
-        let users = self.macros.iter().map(|(name, _)| &**name).chain(self.definition.macros.names());
-        let users = users.take(MAX_COMPARED_NAMES);
+        let users = self.macros.iter().map(|(name, _)| name).chain(self.definition.macros.keys());
+        let users = users.map(|name| &**name).take(MAX_COMPARED_NAMES);
         let bare = name.split('(').next().unwrap_or(name);
         let nearest = nearest(bare, users).or_else(|| Macro::nearest(bare)).map(macro_in_braces);
         let diagnostic =
