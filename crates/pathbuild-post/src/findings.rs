@@ -65,6 +65,7 @@ impl LineStarts {
 }
 
 /// The output of an engine: the text of a program, its translation, and findings about it.
+#[derive(Default)]
 pub(crate) struct EngineOutput {
     pub(crate) text: Vec<u8>,
     /// The translation of the text to RS274.

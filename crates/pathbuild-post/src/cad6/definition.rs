@@ -151,12 +151,14 @@ impl Definition {
         self.uses_any(ControlTextKind::Arc, &["XC", "YC"])
     }
 
-    /// Returns the reason why no program ever calls a text, or `None` if some program may.
-    fn uncalled_reason(&self, kind: ControlTextKind) -> Option<UncalledReason> {
-        let instead = |other| self.text(other).map(|_| UncalledReason::Instead(other));
+    /// Returns a warning if no program ever calls a text: nothing in a program needs it, or another text of the definition is called instead.
+    fn warning_if_uncalled(&self, kind: ControlTextKind) -> Option<Diagnostic> {
+        let instead = |other: ControlTextKind| {
+            self.text(other).map(|_| Diagnostic::new(&posts::TEXT_NOT_CALLED).quoting("other", other.name()))
+        };
         match kind {
             ControlTextKind::Bezier | ControlTextKind::SubprogramStart | ControlTextKind::SubprogramEnd => {
-                Some(UncalledReason::Never)
+                Some(Diagnostic::new(&posts::TEXT_NEVER_CALLED))
             }
             ControlTextKind::ContourStart | ControlTextKind::ContourEnd => instead(ControlTextKind::Rapid),
             ControlTextKind::Point => instead(ControlTextKind::Cycle),
@@ -167,14 +169,6 @@ impl Definition {
     pub(super) fn texts(&self) -> impl Iterator<Item = (ControlTextKind, &ControlText)> {
         ControlTextKind::ALL.iter().filter_map(|&kind| Some((kind, self.text(kind)?)))
     }
-}
-
-#[derive(Clone, Copy, Debug)]
-pub(super) enum UncalledReason {
-    /// No program contains anything that needs the text.
-    Never,
-    /// The definition has this other text, which is called instead.
-    Instead(ControlTextKind),
 }
 
 type Value<'a> = Spanned<DeValue<'a>>;
@@ -381,13 +375,8 @@ impl Abilities {
 /// Reports likely mistakes in a definition, including texts that no program calls, whose words would be missing from every program.
 fn likely_mistakes(definition: &Definition, file: &Utf8Path) -> Vec<Diagnostic> {
     let uncalled = definition.texts().filter_map(|(kind, text)| {
-        let diagnostic = match definition.uncalled_reason(kind)? {
-            UncalledReason::Never => Diagnostic::new(&posts::TEXT_NEVER_CALLED),
-            UncalledReason::Instead(other) => {
-                Diagnostic::new(&posts::TEXT_NOT_CALLED).quoting("other", other.name())
-            }
-        };
-        Some(locate(diagnostic, kind, text, 0..text.line_around(0).1.len(), file))
+        let warning = definition.warning_if_uncalled(kind)?;
+        Some(locate(warning, kind, text, 0..text.line_around(0).1.len(), file))
     });
     uncalled.chain(definition.texts().flat_map(|(kind, text)| mistakes_in_text(kind, text, file))).collect()
 }

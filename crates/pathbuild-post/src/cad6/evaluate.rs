@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use pathbuild_diagnostic::Text;
 use pathbuild_diagnostic::messages::posts;
+use pathbuild_diagnostic::{Message, Text};
 
 use super::expand::{Expanded, is_name};
 use super::numbers::{CForm, Form};
-use super::term::{Doubt, Evaluated, Fault, evaluate};
+use super::term::{Evaluated, Fault, evaluate};
 use super::variables::{UNDEFINED_MARK, Variables, char_of, is_mark};
 use crate::PostFiles;
 
@@ -37,8 +37,8 @@ pub(super) struct ResultLine {
 #[derive(Debug)]
 pub(super) struct Outcome {
     pub(super) lines: Vec<ResultLine>,
-    /// Constructs that are likely mistakes, each with its offset in the expanded text.
-    pub(super) doubts: Vec<(usize, Doubt)>,
+    /// Warnings about terms, each with its offset in the expanded text.
+    pub(super) doubts: Vec<(usize, &'static Message)>,
 }
 
 /// Evaluates the statements of an expanded text.
@@ -63,7 +63,7 @@ pub(super) struct Evaluator<'a> {
     pub(super) at: usize,
     depth: usize,
     pub(super) lines: Vec<ResultLine>,
-    doubts: Vec<(usize, Doubt)>,
+    doubts: Vec<(usize, &'static Message)>,
     pub(super) environment: Environment<'a>,
 }
 
@@ -72,7 +72,7 @@ impl<'a> Evaluator<'a> {
         &self.text[self.at..]
     }
 
-    pub(super) fn fault(&self, message: &'static pathbuild_diagnostic::Message, length: usize) -> Box<Fault> {
+    pub(super) fn fault(&self, message: &'static Message, length: usize) -> Box<Fault> {
         Fault::new(message, self.at..(self.at + length).min(self.text.len()))
     }
 

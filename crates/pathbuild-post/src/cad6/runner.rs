@@ -4,14 +4,13 @@ use std::ops::Range;
 
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_diagnostic::{Diagnostic, Lang, Message, nearest};
+use pathbuild_diagnostic::{Diagnostic, Lang, nearest};
 use pathbuild_gcode::native::too_large;
 
 use super::control_text::{ControlText, ControlTextKind};
 use super::definition::Definition;
 use super::evaluate::{Environment, Outcome, ResultLine, run};
 use super::expand::Expanded;
-use super::term::Doubt;
 use super::variables::{VARIABLES, Variable, Variables, byte_of};
 use crate::PostFiles;
 use crate::cad6::control_text::locate;
@@ -154,7 +153,7 @@ impl<'a> Runner<'a> {
         })?;
         for (at, doubt) in doubts {
             let at = expanded.origin(at);
-            self.doubt(locate(Diagnostic::new(message(doubt)), kind, text, at..at + 1, self.file));
+            self.doubt(locate(Diagnostic::new(doubt), kind, text, at..at + 1, self.file));
         }
         Ok(with_origins(lines, &expanded, text))
     }
@@ -187,15 +186,7 @@ impl<'a> Runner<'a> {
     pub(super) fn finish(self, units: Units) -> EngineOutput {
         let Self { text, origins, warnings, .. } = self;
         let translation = super::translate(self.definition, &text, units);
-        EngineOutput {
-            text,
-            translation,
-            origins,
-            warnings,
-            notes: Vec::new(),
-            follows_coolant: false,
-            post_build: None,
-        }
+        EngineOutput { text, translation, origins, warnings, ..EngineOutput::default() }
     }
 }
 
@@ -220,12 +211,4 @@ fn range_in_control_text(expanded: &Expanded, span: &Range<usize>, length: usize
     let start = expanded.origin(span.start).min(length);
     let end = expanded.origin(span.end.max(span.start + 1) - 1).min(length);
     start..(end + 1).max(start)
-}
-
-fn message(doubt: Doubt) -> &'static Message {
-    match doubt {
-        Doubt::TwoSigns => &posts::TERM_TWO_SIGNS,
-        Doubt::MixedBits => &posts::TERM_MIXED_BITS,
-        Doubt::Extension => &posts::TERM_EXTENSION,
-    }
 }

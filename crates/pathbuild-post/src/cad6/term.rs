@@ -15,22 +15,12 @@ use super::variables::is_mark;
 /// Maximum nesting depth of parentheses, signs and arguments of functions.
 const MAX_DEPTH: usize = 64;
 
-/// The value of a term, together with the doubtful constructs in it.
+/// The value of a term.
 #[derive(Debug)]
 pub(super) struct Term {
     pub(super) value: f64,
-    pub(super) doubts: Vec<Doubt>,
-}
-
-/// Constructs that are likely mistakes, or that CAD6 itself may not support.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Doubt {
-    /// Two signs in a row, such as `--5`.
-    TwoSigns,
-    /// A bitwise operator beside a comparison without parentheses, such as `1 & 2 == 2`.
-    MixedBits,
-    /// A function or constant, which CAD6 itself may not support.
-    Extension,
+    /// Warnings about constructs that are likely mistakes, or that CAD6 itself may not support.
+    pub(super) doubts: Vec<&'static Message>,
 }
 
 /// Evaluates a text that consists of a single term. The value is always finite.
@@ -55,7 +45,7 @@ struct Parser<'a> {
     text: &'a str,
     at: usize,
     depth: usize,
-    doubts: Vec<Doubt>,
+    doubts: Vec<&'static Message>,
 }
 
 impl Parser<'_> {
@@ -77,7 +67,7 @@ impl Parser<'_> {
         Fault::new(&posts::TERM_UNEXPECTED, self.at..end).quoting("found", found)
     }
 
-    fn doubt(&mut self, doubt: Doubt) {
+    fn doubt(&mut self, doubt: &'static Message) {
         if !self.doubts.contains(&doubt) {
             self.doubts.push(doubt);
         }
@@ -95,7 +85,7 @@ impl Parser<'_> {
                 .ok_or_else(|| Fault::new(&posts::TERM_NOT_WHOLE, start..self.at))?;
         }
         if kinds == [true; 2] {
-            self.doubt(Doubt::MixedBits);
+            self.doubt(&posts::TERM_MIXED_BITS);
         }
         Ok(value)
     }
@@ -118,7 +108,7 @@ impl Parser<'_> {
         let Some(sign) = sign else { return self.operand() };
         self.at += 1;
         if sign != '!' && self.rest().trim_start_matches(is_mark).starts_with(['+', '-']) {
-            self.doubt(Doubt::TwoSigns);
+            self.doubt(&posts::TERM_TWO_SIGNS);
         }
         let value = self.nested(Self::unary)?;
         Ok(match sign {
@@ -178,7 +168,7 @@ impl Parser<'_> {
         let span = self.at..self.at + length;
         let name = &self.text[span.clone()];
         self.at = span.end;
-        self.doubt(Doubt::Extension);
+        self.doubt(&posts::TERM_EXTENSION);
         if name == "pi" {
             return Ok(std::f64::consts::PI);
         }
@@ -377,19 +367,19 @@ mod tests {
         assert_eq!(value("5--3"), 8.0);
         assert_eq!(value("5*-3"), -15.0);
         assert!(evaluate("5--3").unwrap().doubts.is_empty());
-        assert_eq!(evaluate("--5").unwrap().doubts, [Doubt::TwoSigns]);
+        assert_eq!(evaluate("--5").unwrap().doubts, [&posts::TERM_TWO_SIGNS]);
     }
 
     #[test]
     fn bits_and_comparisons_together_are_doubtful() {
-        assert_eq!(evaluate("3&1==1").unwrap().doubts, [Doubt::MixedBits]);
+        assert_eq!(evaluate("3&1==1").unwrap().doubts, [&posts::TERM_MIXED_BITS]);
         assert!(evaluate("(3&1)==1").unwrap().doubts.is_empty());
     }
 
     #[test]
     fn functions_are_an_extension() {
         assert_eq!(value("max(1, 2, 3)+sqrt(16)"), 7.0);
-        assert_eq!(evaluate("pi").unwrap().doubts, [Doubt::Extension]);
+        assert_eq!(evaluate("pi").unwrap().doubts, [&posts::TERM_EXTENSION]);
     }
 
     #[test]

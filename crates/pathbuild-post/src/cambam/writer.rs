@@ -119,16 +119,8 @@ impl<'a> Writer<'a> {
             self.warn(Diagnostic::new(&posts::AXIS_REVERSED).quoting("axis", axis.letter().to_string()));
         }
         let Self { lines, translation, origins, warnings, .. } = self;
-        let text = lines.finish().into_bytes();
-        Ok(EngineOutput {
-            text,
-            translation: translation.finish(),
-            origins,
-            warnings,
-            notes: Vec::new(),
-            follows_coolant: false,
-            post_build: None,
-        })
+        let (text, translation) = (lines.finish().into_bytes(), translation.finish());
+        Ok(EngineOutput { text, translation, origins, warnings, ..EngineOutput::default() })
     }
 
     pub(super) fn feeds(&self) -> Feeds {
