@@ -226,21 +226,15 @@ impl PostDefinition {
         let target = target.filter(|_| !self.has_own_axes());
         let wording = target.map_or(Wording::Translated(translation), Wording::Control);
         let text = if target.is_some() { text } else { translation.text.as_bytes() };
-        let tolerance = (!options.unchecked).then_some(tolerance);
-        let is_manual = options.manual_spindle || target.is_some_and(|target| !target.switches_spindle());
-        let machine = options.machine.as_ref();
-        let is_flat = matches!(&self.engine, Engine::CamBam(definition) if definition.is_flat());
-        let milliseconds = options.milliseconds;
-        let part_tolerance = options.part_tolerance;
         let expected = ReadBackOptions {
             wording,
-            tolerance,
-            machine,
-            part_tolerance,
-            is_manual,
-            is_flat,
+            tolerance: (!options.unchecked).then_some(tolerance),
+            machine: options.machine.as_ref(),
+            part_tolerance: options.part_tolerance,
+            is_manual: options.manual_spindle || target.is_some_and(|target| !target.switches_spindle()),
+            is_flat: matches!(&self.engine, Engine::CamBam(definition) if definition.is_flat()),
             follows_coolant,
-            milliseconds,
+            milliseconds: options.milliseconds,
         };
         read_back::check(text, job, &expected)
     }
