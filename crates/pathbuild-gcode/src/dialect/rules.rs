@@ -748,7 +748,7 @@ impl LineLength {
 }
 
 /// The syntax of expressions and parameters, which may replace numbers.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grammar {
     /// The operators and their precedence.
     pub operators: Operators,

@@ -83,7 +83,7 @@ pub fn interpret_until(
     if is_utf_16(text) {
         return vec![Diagnostic::new(&PROGRAM_IN_UTF_16)];
     }
-    let (problems, has_words) = interpret_parts_until([text], dialect, options, each);
+    let (problems, has_words) = interpret_parts([text], dialect, options, each);
     let is_other = !has_words && problems.iter().any(Diagnostic::is_error);
     if is_other { vec![no_g_code(text)] } else { problems }
 }
@@ -123,21 +123,8 @@ impl Program for Text<'_> {
     }
 }
 
-/// Interprets a file given in parts of whole lines. Returns its problems, and whether any line contains a word.
+/// Interprets a file given in parts of whole lines, until `each` returns `Break`. Returns its problems, and whether any line contains a word.
 pub(crate) fn interpret_parts(
-    parts: impl IntoIterator<Item = impl AsRef<[u8]>>,
-    dialect: Dialect,
-    options: &Options,
-    each: &mut dyn FnMut(Step),
-) -> (Vec<Diagnostic>, bool) {
-    let mut all = |step| {
-        each(step);
-        ControlFlow::Continue(())
-    };
-    interpret_parts_until(parts, dialect, options, &mut all)
-}
-
-fn interpret_parts_until(
     parts: impl IntoIterator<Item = impl AsRef<[u8]>>,
     dialect: Dialect,
     options: &Options,

@@ -1,6 +1,8 @@
 //! Reads a native text back and compares its moves with those of the program it was made from, and compares a text with what `emit` would
 //! write for its drawing. (book: program/reading, `verify --against`)
 
+use std::ops::ControlFlow;
+
 use pathbuild_diagnostic::messages::{files, gcode as say};
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_motion as motion;
@@ -63,6 +65,7 @@ pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: 
         if let Some((_, movement)) = step.as_move() {
             comparison.step(&movement);
         }
+        ControlFlow::Continue(())
     };
     let (problems, _) = interpret_parts(parts, Dialect::Native, &nominal_options(), &mut each);
     let is_fine = |problems: &[Diagnostic]| !problems.iter().any(is_broken);

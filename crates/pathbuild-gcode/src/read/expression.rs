@@ -6,7 +6,7 @@ use pathbuild_diagnostic::messages::gcode as say;
 use super::block::{Binary, Code, Function, Op, Span};
 use super::line::{Line, UnreadableLine};
 use super::number;
-use crate::dialect::Operators;
+use crate::dialect::{Grammar, Operators};
 
 /// Maximum nesting depth of brackets, functions and `#`. (LinuxCNC's own limit is well below 50.)
 const MAX_NESTING: u8 = 40;
@@ -43,24 +43,24 @@ const WORD_OPERATORS: [(&[u8], Binary); 10] = [
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Syntax {
     /// Expressions of a dialect.
-    Dialect { operators: Operators, has_names: bool, has_signs: bool },
+    Dialect(Grammar),
     /// Correction formulas: `+ - * /`, unary minus, `( )` and `[ ]`, `#n`. (book: language/probes)
     Formula,
 }
 
 impl Syntax {
     fn has_names(self) -> bool {
-        matches!(self, Self::Dialect { has_names: true, .. })
+        matches!(self, Self::Dialect(Grammar { has_names: true, .. }))
     }
 
     fn has_signs(self) -> bool {
-        matches!(self, Self::Formula | Self::Dialect { has_signs: true, .. })
+        matches!(self, Self::Formula | Self::Dialect(Grammar { has_signs: true, .. }))
     }
 
     /// Returns the precedence of an operator; `None` if the operator does not exist in this syntax.
     fn level(self, operator: Binary) -> Option<u8> {
         use Binary::{And, Divide, Minus, Modulo, Or, Plus, Power, Times, Xor};
-        let is_nist = matches!(self, Self::Dialect { operators: Operators::Nist, .. });
+        let is_nist = matches!(self, Self::Dialect(Grammar { operators: Operators::Nist, .. }));
         match operator {
             Power if self == Self::Formula => None,
             Power => Some(5),

@@ -10,7 +10,7 @@ use super::block::{
 use super::expression::Syntax;
 use super::line::{Line, UnreadableLine};
 use super::number::{self, UnusualNotation};
-use crate::dialect::{Blanks, Grammar, NotationSupport, Spelling};
+use crate::dialect::{Blanks, NotationSupport, Spelling};
 
 impl Line<'_> {
     pub(super) fn word(&mut self, letter: u8) -> Result<(), UnreadableLine> {
@@ -71,8 +71,8 @@ impl Line<'_> {
     }
 
     fn value_of_word(&mut self, start: usize, letter: u8) -> Result<Value, UnreadableLine> {
-        let syntax = match self.spelling().grammar.as_ref() {
-            Some(grammar) if !self.next_letter_begins_word() => syntax_of(grammar),
+        let syntax = match self.spelling().grammar {
+            Some(grammar) if !self.next_letter_begins_word() => Syntax::Dialect(grammar),
             None if matches!(self.peek(), Some(b'#' | b'[' | b'+' | b'-')) => {
                 return Err(self.report_no_expressions(start));
             }
@@ -187,10 +187,10 @@ impl Line<'_> {
 
     pub(super) fn setting(&mut self) -> Result<(), UnreadableLine> {
         let start = self.at;
-        let Some(grammar) = self.spelling().grammar.as_ref() else {
+        let Some(grammar) = self.spelling().grammar else {
             return Err(self.report_no_expressions(start));
         };
-        let syntax = syntax_of(grammar);
+        let syntax = Syntax::Dialect(grammar);
         self.at += 1;
         self.skip_blanks();
         let target = if grammar.has_names && self.peek() == Some(b'<') {
@@ -247,8 +247,8 @@ impl Line<'_> {
         if kind == OWordKind::Other {
             self.at = self.bytes.len();
         }
-        if let Some(grammar) = self.spelling().grammar.as_ref() {
-            self.arguments(syntax_of(grammar))?;
+        if let Some(grammar) = self.spelling().grammar {
+            self.arguments(Syntax::Dialect(grammar))?;
         }
         self.out.o_word = Some(OWord { span: Span::new(start, self.at), name, kind });
         Ok(())
@@ -273,14 +273,6 @@ impl Line<'_> {
             let argument = self.compile_value(syntax)?;
             self.out.arguments.push(argument);
         }
-    }
-}
-
-fn syntax_of(grammar: &Grammar) -> Syntax {
-    Syntax::Dialect {
-        operators: grammar.operators,
-        has_names: grammar.has_names,
-        has_signs: grammar.has_signs,
     }
 }
 
