@@ -9,7 +9,7 @@ use pathbuild_path::approx::above;
 use pathbuild_toolpath::odd_probes;
 
 use super::Inputs;
-use super::scan::{ProbeSurvey, ProbeUse};
+use super::scan::{ProbeUse, ProbeUses};
 use super::values::{EnteredValue, ProbeLine, ProbeTable, hides_probes};
 use crate::native::{ProgramProbe, f3, push_exact};
 
@@ -20,7 +20,7 @@ pub(super) type Values = BTreeMap<u32, f64>;
 pub(super) struct Check<'c, 'a> {
     pub(super) inputs: &'c Inputs<'a>,
     pub(super) table: &'c ProbeTable,
-    pub(super) survey: &'c ProbeSurvey<'a>,
+    pub(super) uses: &'c ProbeUses<'a>,
 }
 
 /// Difference in mm beyond which two positions or heights are considered different: both are written with three decimals.
@@ -62,7 +62,7 @@ impl Check<'_, '_> {
 
     /// Checks that the program lists this probe, at the same position and height. A program that lists no probes passes.
     fn check_is_listed(&self, line: &ProbeLine<'_>) -> Result<(), Box<Diagnostic>> {
-        if self.table.probes.is_empty() {
+        if self.table.is_empty() {
             return Ok(());
         }
         let fault = |message| {
@@ -70,7 +70,7 @@ impl Check<'_, '_> {
             let file = self.inputs.program.file.file_name().unwrap_or_default();
             line.line.fault(message, whole_line).with("probe", u64::from(line.probe)).quoting("file", file)
         };
-        let Some(program_probe) = self.table.probes.get(&line.probe) else {
+        let Some(program_probe) = self.table.get(&line.probe) else {
             return Err(Box::new(fault(&messages::PROBE_OF_OTHER_PROGRAM)));
         };
         let is_other = |(a, b): (f64, f64)| (a - b).abs() > MIN_DIFFERENCE;
@@ -99,11 +99,11 @@ impl Check<'_, '_> {
     /// Returns the heights at which the probe was drawn. If neither the line nor the program's list of probes states one, returns the least and the
     /// greatest height in the formulas.
     fn expected_heights(&self, line: &ProbeLine<'_>) -> Result<Vec<f64>, Box<Diagnostic>> {
-        let program_probe = self.table.probes.get(&line.probe).map(|program_probe| program_probe.height);
+        let program_probe = self.table.get(&line.probe).map(|program_probe| program_probe.height);
         if let Some(height) = line.height.or(program_probe) {
             return Ok(vec![height]);
         }
-        match self.survey.probes.get(&line.probe) {
+        match self.uses.get(&line.probe) {
             None => Ok(Vec::new()),
             Some(ProbeUse { drawn: Some((least, greatest)), .. }) => Ok(vec![*least, *greatest]),
             Some(ProbeUse { drawn: None, .. }) => {
@@ -117,7 +117,7 @@ impl Check<'_, '_> {
         let file = self.inputs.values.file.file_name().unwrap_or_default();
         let known: BTreeSet<u32> = lines.iter().map(|line| line.probe).collect();
         let mut reported_lines = BTreeSet::new();
-        let unknown = self.survey.probes.iter().filter(|(probe, _)| !known.contains(probe));
+        let unknown = self.uses.iter().filter(|(probe, _)| !known.contains(probe));
         let unknown =
             unknown.filter(|(_, used)| reported_lines.insert(used.line.number)).map(|(probe, used)| {
                 let problem = used.line.fault(&messages::UNKNOWN_PROBE, used.at.clone());
@@ -129,10 +129,8 @@ impl Check<'_, '_> {
     /// Reports probes that were measured but are not used by any formula, because formulas were removed or changed.
     pub(super) fn report_unused_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
         let file = self.inputs.program.file.file_name().unwrap_or_default();
-        let is_stated = |line: &&ProbeLine<'_>| {
-            self.table.probes.is_empty() || self.table.probes.contains_key(&line.probe)
-        };
-        let unused = lines.iter().filter(|line| !self.survey.probes.contains_key(&line.probe));
+        let is_stated = |line: &&ProbeLine<'_>| self.table.is_empty() || self.table.contains_key(&line.probe);
+        let unused = lines.iter().filter(|line| !self.uses.contains_key(&line.probe));
         let unused = unused.filter(is_stated).map(|line| {
             let problem = line.line.fault(&messages::UNUSED, 0..line.line.content().len());
             problem.with("probe", u64::from(line.probe)).quoting("file", file)
@@ -142,7 +140,7 @@ impl Check<'_, '_> {
 
     /// Reports probes whose heights do not fit those of their neighbours. This requires that the program lists the positions of its probes.
     pub(super) fn odd_probes(&self, lines: &[ProbeLine<'_>]) -> Vec<Diagnostic> {
-        let measured = lines.iter().map(|line| match (line.value, self.table.probes.get(&line.probe)) {
+        let measured = lines.iter().map(|line| match (line.value, self.table.get(&line.probe)) {
             (EnteredValue::Value(value), Some(ProgramProbe { at: Some(at), height, .. })) => {
                 Some((*at, value - height))
             }

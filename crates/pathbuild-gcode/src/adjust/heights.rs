@@ -10,7 +10,7 @@ use pathbuild_toolpath::ZModel;
 use super::check::{MIN_DIFFERENCE, Values};
 use super::scan::{FormulaSpan, Line, formula_spans, lines, plain_height, value_of};
 use super::surface::{AppliedCorrection, CutDepths, MeasuredSurface};
-use super::values::ProbeTable;
+use super::values::probe_table;
 use super::{MeasuredHeights, Source, is_height};
 use crate::native::ProgramProbe;
 
@@ -23,7 +23,7 @@ pub fn corrected_heights(
     model: ZModel,
     shims: &[f64],
 ) -> Vec<Diagnostic> {
-    let stated = ProbeTable::read(program).probes;
+    let stated = probe_table(program.bytes);
     let measured = |(number, probe): (&u32, &ProgramProbe)| Some((*number, probe.measured?));
     let measured: Values = stated.iter().filter_map(measured).collect();
     if measured.is_empty() {
@@ -66,7 +66,7 @@ pub(super) struct HeightRules<'a> {
     /// The greatest depth in mm below the plate to which a correction lowered a cut too far, with its warning.
     lowered: Option<(f64, Diagnostic)>,
     /// All corrections, in the order of their lines.
-    applied: Vec<AppliedCorrection>,
+    pub(super) applied: Vec<AppliedCorrection>,
 }
 
 /// A cut that was drawn down to the plate or below it, but ends above it.
@@ -154,15 +154,6 @@ impl<'a> HeightRules<'a> {
         let RaisedCut { line, span, height, level } = remaining.reduce(highest)?;
         let problem = line.fault(&messages::RAISED_ABOVE_PLATE, span.clone());
         Some(problem.with("z", *height).with("level", *level))
-    }
-
-    /// Returns PB606 for a cut that ends with a correction other than the one measured at its end.
-    pub(super) fn stale_correction(
-        &self,
-        program: Source<'_>,
-        surface: Option<&MeasuredSurface>,
-    ) -> Option<Diagnostic> {
-        surface?.stale_correction(program, &self.applied)
     }
 
     /// Returns the findings about the corrected program. `surface` is `None` if the places of its probes are not known.

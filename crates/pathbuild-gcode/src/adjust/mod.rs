@@ -28,11 +28,11 @@ use heights::HeightRules;
 pub use heights::corrected_heights;
 use scan::{
     Fault, FormulaSpan, Line, Probes, byte_order_mark, fault_diagnostic, fault_in_line, formula_spans, lines,
-    number, value_of,
+    number, probe_uses, value_of,
 };
 use surface::MeasuredSurface;
 pub use values::loss_of_values;
-use values::{ProbeTable, entry_of_line, is_header};
+use values::{entry_of_line, header_entries, is_header, probe_table};
 
 /// A file in memory. Its text may be in any encoding that extends ASCII; other bytes are preserved.
 #[derive(Clone, Copy, Debug)]
@@ -104,13 +104,12 @@ pub(crate) fn formula_texts(program: &[u8]) -> impl Iterator<Item = FormulaText>
 
 /// Returns the probes listed in the header of a program, without measured heights.
 pub(crate) fn probe_entries(program: &[u8]) -> Vec<FormulaText> {
-    let program = &program[byte_order_mark(program).len()..];
-    let lines = (1..).zip(program.split(|byte| *byte == b'\n')).take_while(|(_, line)| is_header(line));
-    let entries = lines.filter_map(|(line, content)| {
-        let (number, probe) = entry_of_line(content)?;
-        Some(FormulaText { line, text: format!("#{number} {probe}"), is_applied: false })
-    });
-    entries.collect()
+    let text = |(line, number, probe): (u32, u32, ProgramProbe)| FormulaText {
+        line,
+        text: format!("#{number} {probe}"),
+        is_applied: false,
+    };
+    header_entries(program).map(text).collect()
 }
 
 /// Removes the comments from a line. Formulas are kept.
@@ -145,12 +144,12 @@ pub fn is_adjusted_from(program: Source<'_>, clean: Source<'_>) -> bool {
 /// Returns the result of [`adjust`] for `clean` with the measured heights listed in the header of a program; `None` if heights are missing or
 /// formulas are faulty.
 pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>> {
-    let stated = ProbeTable::read(program).probes;
+    let stated = probe_table(program.bytes);
     let measured = |(number, probe): (&u32, &ProgramProbe)| Some((*number, probe.measured?));
     let values = stated.iter().map(measured).collect::<Option<Values>>()?;
     let mut problems = Vec::new();
-    let survey = scan::ProbeSurvey::collect(clean, &mut problems);
-    let has_all = problems.is_empty() && survey.probes.keys().all(|probe| values.contains_key(probe));
+    let uses = probe_uses(clean, &mut problems);
+    let has_all = problems.is_empty() && uses.keys().all(|probe| values.contains_key(probe));
     let (max_correction, below_plate) = (f64::INFINITY, f64::INFINITY);
     let model = ZModel::default();
     let inputs =
@@ -169,12 +168,9 @@ pub fn listed_heights(program: &[u8]) -> BTreeMap<u32, f64> {
 
 /// Returns the probes listed in a program's header, each with its line, its position, and the height in mm at which it was drawn.
 pub fn listed_probes(program: &[u8]) -> Vec<(u32, Xy, f64)> {
-    let lines = (1..).zip(program.split(|byte| *byte == b'\n'));
-    let probe = |(line, text): (u32, &[u8])| {
-        let (_, probe) = entry_of_line(text)?;
-        Some((line, probe.at.unwrap_or(probe.drawn_at), probe.height))
-    };
-    lines.take_while(|(_, text)| is_header(text)).filter_map(probe).collect()
+    header_entries(program)
+        .map(|(line, _, probe)| (line, probe.at.unwrap_or(probe.drawn_at), probe.height))
+        .collect()
 }
 
 /// Returns the corrections in the formulas of a program, such as `+0.34*[#51-2]`, each with its line.
@@ -188,12 +184,12 @@ pub fn corrections(program: &[u8]) -> Vec<(u32, String)> {
 
 /// Whether the header of a program lists measured heights, that is, whether it was adjusted.
 pub fn states_heights(program: Source<'_>) -> bool {
-    ProbeTable::read(program).probes.values().any(|probe| probe.measured.is_some())
+    probe_table(program.bytes).values().any(|probe| probe.measured.is_some())
 }
 
 /// Whether a file of values contains a height that differs from the one the program was adjusted with.
 pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
-    let stated = ProbeTable::read(program).probes;
+    let stated = probe_table(program.bytes);
     let lines = values::read(values, &mut Vec::new());
     lines.iter().any(|line| match (line.value, stated.get(&line.probe).and_then(|probe| probe.measured)) {
         (values::EnteredValue::Value(value), Some(measured)) => (value - measured).abs() > MIN_DIFFERENCE,
@@ -210,21 +206,21 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
         return Err(vec![Diagnostic::new(&PROGRAM_IN_UTF_16).in_file(inputs.program.file)]);
     }
     let mut problems = Vec::new();
-    let table = ProbeTable::read(inputs.program);
-    let survey = scan::ProbeSurvey::collect(inputs.program, &mut problems);
+    let table = probe_table(inputs.program.bytes);
+    let uses = probe_uses(inputs.program, &mut problems);
     let mut lines = values::read(inputs.values, &mut problems);
     if let Some(log) = inputs.log {
         values::fill_from_log(&mut lines, inputs.values, log, &mut problems);
     }
-    let check = Check { inputs, table: &table, survey: &survey };
+    let check = Check { inputs, table: &table, uses: &uses };
     let values = check.values(&lines, &mut problems);
     if !problems.is_empty() {
         return Err(problems);
     }
     let (mut adjusted, rules) = evaluate_formulas(inputs, &values)?;
-    let surface = MeasuredSurface::new(&table.probes, &values, inputs.model);
+    let surface = MeasuredSurface::new(&table, &values, inputs.model);
     let corrected = Source { file: inputs.program.file, bytes: &adjusted.program };
-    let stale = rules.stale_correction(corrected, surface.as_ref());
+    let stale = surface.as_ref().and_then(|surface| surface.stale_correction(corrected, &rules.applied));
     adjusted.warnings = rules.finish(corrected, surface.as_ref()).into_iter().chain(stale).collect();
     if adjusted.warnings.iter().any(Diagnostic::is_error) {
         return Err(adjusted.warnings);

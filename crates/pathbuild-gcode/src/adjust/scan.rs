@@ -130,10 +130,8 @@ pub(super) fn plain_height(line: &[u8]) -> Option<Range<usize>> {
     None
 }
 
-#[derive(Debug, Default)]
-pub(super) struct ProbeSurvey<'a> {
-    pub(super) probes: BTreeMap<u32, ProbeUse<'a>>,
-}
+/// The probes that the formulas of a program use, by number.
+pub(super) type ProbeUses<'a> = BTreeMap<u32, ProbeUse<'a>>;
 
 /// The first use of a probe in formulas, and the heights at which the probe was drawn.
 #[derive(Debug)]
@@ -144,21 +142,19 @@ pub(super) struct ProbeUse<'a> {
     pub(super) drawn: Option<(f64, f64)>,
 }
 
-impl<'a> ProbeSurvey<'a> {
-    /// Checks all formulas and collects the probes that they use. At most one error per line is reported.
-    pub(super) fn collect(program: Source<'a>, problems: &mut Vec<Diagnostic>) -> Self {
-        let mut survey = Self::default();
-        for line in lines(program) {
-            for spot in formula_spans(line.content()) {
-                let mut reader = ProbeReader { survey: &mut survey, line, start: spot.formula.start };
-                if let Err(fault) = check(line.content(), &spot, &mut reader) {
-                    problems.push(fault_diagnostic(line, &fault));
-                    break;
-                }
+/// Checks all formulas and collects the probes that they use. At most one error per line is reported.
+pub(super) fn probe_uses<'a>(program: Source<'a>, problems: &mut Vec<Diagnostic>) -> ProbeUses<'a> {
+    let mut uses = ProbeUses::new();
+    for line in lines(program) {
+        for spot in formula_spans(line.content()) {
+            let mut reader = ProbeReader { uses: &mut uses, line, start: spot.formula.start };
+            if let Err(fault) = check(line.content(), &spot, &mut reader) {
+                problems.push(fault_diagnostic(line, &fault));
+                break;
             }
         }
-        survey
     }
+    uses
 }
 
 pub(super) fn fault_diagnostic(line: Line<'_>, fault: &Fault) -> Diagnostic {
@@ -194,7 +190,7 @@ pub(super) fn number(line: &[u8], spot: &FormulaSpan) -> Option<f64> {
 }
 
 struct ProbeReader<'s, 'a> {
-    survey: &'s mut ProbeSurvey<'a>,
+    uses: &'s mut ProbeUses<'a>,
     line: Line<'a>,
     start: usize,
 }
@@ -202,13 +198,13 @@ struct ProbeReader<'s, 'a> {
 impl Probes for ProbeReader<'_, '_> {
     fn value(&mut self, probe: u32, at: Range<usize>) -> f64 {
         let at = at.start + self.start..at.end + self.start;
-        self.survey.probes.entry(probe).or_insert(ProbeUse { line: self.line, at, drawn: None });
+        self.uses.entry(probe).or_insert(ProbeUse { line: self.line, at, drawn: None });
         // No height is known yet. Results computed from NaN are NaN, which this check does not report.
         f64::NAN
     }
 
     fn drawn(&mut self, probe: u32, height: f64) {
-        if let Some(used) = self.survey.probes.get_mut(&probe) {
+        if let Some(used) = self.uses.get_mut(&probe) {
             let (least, greatest) = used.drawn.unwrap_or((height, height));
             used.drawn = Some((least.min(height), greatest.max(height)));
         }

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::LazyLock;
 
+use camino::Utf8Path;
 use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, Point};
 use pathbuild_path::{Xy, parse_number};
@@ -129,23 +130,25 @@ pub(super) fn parse(text: &[u8]) -> Option<f64> {
     parse_number(str::from_utf8(text).ok()?)
 }
 
-/// The probes listed in a program's header. Programs of PathDxf2GCode list none.
-#[derive(Debug, Default)]
-pub(super) struct ProbeTable {
-    pub(super) probes: BTreeMap<u32, ProgramProbe>,
+/// The probes listed in a program's header, by number. Programs of PathDxf2GCode list none.
+pub(super) type ProbeTable = BTreeMap<u32, ProgramProbe>;
+
+/// Reads the probes listed in a program's header. The first entry with a number applies.
+pub(super) fn probe_table(program: &[u8]) -> ProbeTable {
+    let mut table = ProbeTable::new();
+    for (_, number, probe) in header_entries(program) {
+        table.entry(number).or_insert(probe);
+    }
+    table
 }
 
-impl ProbeTable {
-    /// Reads the probes listed in the comments before the first block of the program.
-    pub(super) fn read(program: Source<'_>) -> Self {
-        let mut table = Self::default();
-        for line in lines(program).map(Line::content).take_while(|line| is_header(line)) {
-            if let Some((number, probe)) = entry_of_line(line) {
-                table.probes.entry(number).or_insert(probe);
-            }
-        }
-        table
-    }
+/// Returns the probes listed in the comments before the first block of a program, each with its line and its number.
+pub(super) fn header_entries(program: &[u8]) -> impl Iterator<Item = (u32, u32, ProgramProbe)> {
+    let lines = lines(Source { file: Utf8Path::new(""), bytes: program });
+    lines.take_while(|line| is_header(line.content())).filter_map(|line| {
+        let (number, probe) = entry_of_line(line.content())?;
+        Some((line.number, number, probe))
+    })
 }
 
 /// Whether a line can be part of the header, which ends with the first word of the program.
