@@ -10,9 +10,9 @@ use pathbuild_path::{Chain, ChainSegment, Curve, Cut, CutParameters, Line, Path,
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
-use crate::fold::{Fold, FoldPaths, PlacedPath, Tip, distance};
+use crate::fold::{Fold, FoldPaths, PlacedPath, distance};
 use crate::mill::{BarPlan, Section};
-use crate::program::{Comment, ElementKind};
+use crate::program::{Comment, ElementKind, Tip};
 
 /// A segment of the chain in program coordinates, with the depths of its edges from top to bottom.
 pub(crate) struct Strand<'a> {

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use nalgebra::{Complex, UnitComplex};
 use pathbuild_path::Xy;
 
-use crate::program::{Count, Height, MoveClass, PlannedMove, Program, ProgramStep};
+use crate::program::{Count, Height, MoveClass, PlannedMove, Program, ProgramStep, Tip};
 use crate::z_model::{Triangulation, ZModel};
 
 /// The method by which the heights of a program with probes are corrected.
@@ -93,7 +93,7 @@ fn steps_or_moves(
     program: &Program,
     longest: f64,
 ) -> impl Iterator<Item = (Option<ProgramStep>, Option<SplitMove>)> {
-    let mut tool = ToolPosition { at: Xy::origin(), z: program.start_height() };
+    let mut tool = Tip { at: Xy::origin(), z: program.start_height() };
     let mut is_settled = true;
     program.steps.iter().map(move |step| match step {
         ProgramStep::Comment(_) => (Some(*step), None),
@@ -102,7 +102,7 @@ fn steps_or_moves(
             let settling = (begins_here && !is_settled).then(|| corrected_lift(tool));
             is_settled = !matches!(to, PlannedMove::Sweep { .. });
             let cut = SplitMove::new(tool, *to, *count, longest);
-            tool = cut.end();
+            tool = to.end(tool);
             (settling, Some(cut))
         }
     })
@@ -110,7 +110,7 @@ fn steps_or_moves(
 
 /// Creates a lift to the height corrected for the tool's current position: after a sweep the tool is still at the corrected height of its previous
 /// position, but a step that mills at once, such as a helical circle, must begin at the height corrected for its own position.
-fn corrected_lift(tool: ToolPosition) -> ProgramStep {
+fn corrected_lift(tool: Tip) -> ProgramStep {
     let count = Count { class: MoveClass::Sweep, length: 0.0, feed: None };
     ProgramStep::Move { to: PlannedMove::Lift { z: Height { z: tool.z, at: tool.at } }, count }
 }
@@ -126,13 +126,6 @@ fn milled_point(step: &ProgramStep) -> Option<Xy> {
 
 // Splits a move into parts, each of which ends at the height that the move has at that point.
 
-/// Position of the tool in the plane, and its Z, in mm.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ToolPosition {
-    pub(crate) at: Xy,
-    pub(crate) z: f64,
-}
-
 /// Deviation of a part of an arc from its chord, as a fraction of the maximum length, up to which the part is not divided. Within a part the height
 /// changes linearly along the arc, whereas that of a tilted plate changes linearly along the chord. The error is at most the tilt times this
 /// deviation.
@@ -144,7 +137,7 @@ const PART_COUNT_TOLERANCE: f64 = 1e-9;
 /// A move and the number of parts it is split into.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SplitMove {
-    from: ToolPosition,
+    from: Tip,
     to: PlannedMove,
     count: Count,
     pieces: u64,
@@ -152,7 +145,7 @@ pub(crate) struct SplitMove {
 
 impl SplitMove {
     /// Divides a move that begins at the position `from`. `longest` is the maximum length of a part in mm; with 0, the move stays whole.
-    pub(crate) fn new(from: ToolPosition, to: PlannedMove, count: Count, longest: f64) -> Self {
+    pub(crate) fn new(from: Tip, to: PlannedMove, count: Count, longest: f64) -> Self {
         let parts = match to {
             _ if longest <= 0.0 => 1.0,
             PlannedMove::Line { .. } => count.length / longest,
@@ -172,19 +165,9 @@ impl SplitMove {
         self.pieces
     }
 
-    pub(crate) fn end(&self) -> ToolPosition {
-        match self.to {
-            PlannedMove::Sweep { to } => ToolPosition { at: to, ..self.from },
-            PlannedMove::Lift { z } | PlannedMove::Drill { z, .. } => ToolPosition { z: z.z, ..self.from },
-            PlannedMove::Line { to, z, .. } | PlannedMove::Arc { to, z, .. } => {
-                ToolPosition { at: to, z: z.z }
-            }
-        }
-    }
-
     /// Returns the part with this number, from 1, with the height corrected at its end.
     pub(crate) fn piece(&self, number: u64) -> ProgramStep {
-        let ToolPosition { at: to, z } = self.position_after(number);
+        let Tip { at: to, z } = self.position_after(number);
         let z = Height { z, at: to };
         let moved = match self.to {
             PlannedMove::Sweep { .. } => PlannedMove::Sweep { to },
@@ -205,8 +188,8 @@ impl SplitMove {
     }
 
     /// Returns the position of the tool after this number of parts.
-    fn position_after(&self, number: u64) -> ToolPosition {
-        let end = self.end();
+    fn position_after(&self, number: u64) -> Tip {
+        let end = self.to.end(self.from);
         if number == self.pieces {
             return end;
         }
@@ -215,7 +198,7 @@ impl SplitMove {
             PlannedMove::Arc { centre, clockwise, .. } => self.along_arc(centre, clockwise, part),
             _ => self.from.at + (end.at - self.from.at) * part,
         };
-        ToolPosition { at, z: self.from.z + (end.z - self.from.z) * part }
+        Tip { at, z: self.from.z + (end.z - self.from.z) * part }
     }
 
     fn along_arc(&self, centre: Xy, clockwise: bool, part: f64) -> Xy {

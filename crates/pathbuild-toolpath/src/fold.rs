@@ -12,7 +12,7 @@ use rstar::primitives::GeomWithData;
 
 use crate::program::{
     Comment, Count, ElementKind, FIRST_FEED, Height, MoveClass, Names, Occurrence, OmittedCurves,
-    PlannedMove, ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace,
+    PlannedMove, ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Tip, Trace,
 };
 
 /// Source of the paths to be joined: the emitted path and all paths that it embeds.
@@ -108,13 +108,6 @@ fn fold_with<P: FoldPaths>(
 
 /// Maximum number of steps for which memory is reserved in advance. Beyond that, reallocation is cheap compared with computing the steps.
 pub(crate) const MAX_RESERVED_STEPS: usize = 1 << 16;
-
-/// Position of the tool tip in the plane, and its Z, in mm.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Tip {
-    pub(crate) at: Xy,
-    pub(crate) z: f64,
-}
 
 pub(crate) struct Fold<'a, P: FoldPaths> {
     parts: &'a P,
@@ -293,7 +286,7 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
             let count = Count { class: MoveClass::Drilling, length: (surface - to).abs(), feed: Some(feed) };
             // PathDxf2GCode writes no feed, so its plunges run at the previous feed.
             let feed = if self.compatible { self.last_feed } else { feed };
-            self.step(PlannedMove::Drill { feed, z }, count, Tip { z: to, ..self.tip });
+            self.step(PlannedMove::Drill { feed, z }, count);
         }
     }
 
@@ -305,7 +298,7 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
     /// Like [`lift`](Self::lift), but the height is corrected by probes for another point: the centre of a helical circle.
     pub(crate) fn lift_corrected_at(&mut self, to: f64, at: Xy, length: f64) {
         let count = Count { class: MoveClass::Sweep, length, feed: None };
-        self.step(PlannedMove::Lift { z: Height { z: to, at } }, count, Tip { z: to, ..self.tip });
+        self.step(PlannedMove::Lift { z: Height { z: to, at } }, count);
     }
 
     /// Adds `G00 X Y`. Of several sweeps separated only by comments, only the last one is kept if they are so high that there cannot be obstacles,
@@ -319,19 +312,19 @@ impl<'a, P: FoldPaths> Fold<'a, P> {
         }
         let index = self.steps.len();
         let count = Count { class: MoveClass::Sweep, length, feed: None };
-        self.step(PlannedMove::Sweep { to }, count, Tip { at: to, ..self.tip });
+        self.step(PlannedMove::Sweep { to }, count);
         let is_clear = self.compatible || at_least(self.tip.z, self.clearance);
         self.mergeable = is_clear.then_some(index);
     }
 
-    /// Adds a move, after which the tool is at `tip`.
-    pub(crate) fn step(&mut self, to: PlannedMove, count: Count, tip: Tip) {
+    /// Adds a move.
+    pub(crate) fn step(&mut self, to: PlannedMove, count: Count) {
         self.mergeable = None;
         if let PlannedMove::Line { feed, .. } | PlannedMove::Arc { feed, .. } = to {
             self.last_feed = feed;
         }
         self.push(ProgramStep::Move { to, count });
-        self.tip = tip;
+        self.tip = to.end(self.tip);
     }
 
     pub(crate) fn comment(&mut self, comment: Comment) {

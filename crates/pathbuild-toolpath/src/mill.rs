@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use pathbuild_path::approx::{above, at_least};
 use pathbuild_path::{Arc, Bars, Curve, Helix, Origin, Placement, Xy};
 
-use crate::fold::{Fold, FoldPaths, MAX_RESERVED_STEPS, PlacedPath, Tip};
+use crate::fold::{Fold, FoldPaths, MAX_RESERVED_STEPS, PlacedPath};
 use crate::moves::LAST_DIGIT;
 use crate::program::{Count, ElementKind, Height, MoveClass, PlannedMove};
 
@@ -30,7 +30,6 @@ impl<P: FoldPaths> Fold<'_, P> {
         let to = section.curve.end();
         let z = Height { z: section.to_z, at: section.curve.start() };
         let count = Count { class: MoveClass::Milling, length: section.curve.length(), feed: Some(feed) };
-        let tip = Tip { at: to, z: section.to_z };
         // Beside a bar on an arc, a slope may have almost no length. Three decimals cannot distinguish such an arc from a full turn of a helix, so it
         // becomes a line.
         let is_slope = section.from_z != section.to_z;
@@ -42,7 +41,7 @@ impl<P: FoldPaths> Fold<'_, P> {
             }
             _ => PlannedMove::Line { feed, to, z },
         };
-        self.step(to, count, tip);
+        self.step(to, count);
     }
 }
 
@@ -229,7 +228,7 @@ impl<P: FoldPaths> Fold<'_, P> {
             is_spiral: true,
         };
         let count = Count { class: MoveClass::Milling, length: PI * circle.radius, feed: Some(circle.feed) };
-        self.step(half, count, Tip { at: to, z });
+        self.step(half, count);
     }
 
     /// Mills full circles with bars below D, pass by pass down to B. Returns the depth of the last circle, or of the spiral if there is no circle.

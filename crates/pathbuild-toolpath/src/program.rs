@@ -132,6 +132,17 @@ pub enum PlannedMove {
     Arc { feed: f64, clockwise: bool, centre: Xy, to: Xy, z: Height, is_spiral: bool },
 }
 
+impl PlannedMove {
+    /// Returns where a move that begins at `from` ends.
+    pub(crate) fn end(&self, from: Tip) -> Tip {
+        match *self {
+            Self::Sweep { to } => Tip { at: to, ..from },
+            Self::Lift { z } | Self::Drill { z, .. } => Tip { z: z.z, ..from },
+            Self::Line { to, z, .. } | Self::Arc { to, z, .. } => Tip { at: to, z: z.z },
+        }
+    }
+}
+
 impl ProgramStep {
     /// Returns the target height of a move; `None` for a sweep, which keeps its height.
     pub fn height(&self) -> Option<Height> {
@@ -226,6 +237,13 @@ pub enum ElementKind {
 /// Index of a text in [`Names`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NameId(u32);
+
+/// Position of the tool tip in the plane, and its Z, in mm.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tip {
+    pub(crate) at: Xy,
+    pub(crate) z: f64,
+}
 
 /// Texts that steps refer to by index, so that steps are small and can be copied.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
