@@ -203,6 +203,20 @@ fn all_materials_and_thicknesses_are_in_the_checklist() {
     assert!(found.contains("Material is ready: X, 2 / 3 mm thick"), "{found}");
 }
 
+/// The sheet follows the program, which drills a circle whose diameter differs from the cutter's by at most 0.001 mm.
+#[test]
+fn a_circle_is_drilled_on_the_sheet_as_in_the_program() {
+    for (diameter, work) in [("4.001", "drilling Ø 4.001"), ("4.002", "milling: circle Ø 4.002")] {
+        let drawn = format!(
+            "layer 1234.1P\nstart 0,0 \"T5 O4 I1 B0 F100\"\nsweep 0,0 20,0\ncircle 20,0 d {diameter}\nend 20,0\n"
+        );
+        let place = Place::new().file("1234.1P.dxf", dxf(&drawn));
+        let run = place.run("sheet 1234.1P -o sheet.svg --feed 100 --rapid 1000 --sweep-height 9");
+        assert_eq!(run.status, Some(0), "{run}");
+        assert!(texts(&place.read("sheet.svg")).contains(&work), "{diameter}");
+    }
+}
+
 /// Each number of the picture is explained, or listed as one that does not fit. A table that continues on a new page repeats its title.
 #[test]
 fn operations_are_listed_and_no_number_is_lost() {

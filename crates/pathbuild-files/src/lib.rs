@@ -13,7 +13,9 @@ mod stamp;
 pub use memory::{MemorySystem, OverlaySystem};
 #[cfg(not(target_family = "wasm"))]
 pub use os::OsSystem;
-pub use path_spelling::{clean, is_drawing, is_hidden, join, or_current_directory, with_forward_slashes};
+pub use path_spelling::{
+    clean, is_drawing, is_hidden, is_windows_device, join, or_current_directory, with_forward_slashes,
+};
 pub use replace::is_temporary;
 pub use stamp::{CLOCK, Clock, Stamp};
 pub use wrappers::{BasedSystem, ConfinedSystem};

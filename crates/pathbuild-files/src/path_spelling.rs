@@ -19,6 +19,16 @@ pub fn is_drawing(path: &Utf8Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
 }
 
+/// Whether Windows takes a file of this name for a device, which depends only on the part before the first dot.
+pub fn is_windows_device(name: &str) -> bool {
+    let base = name.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
+    let is_port = |kind: &str| {
+        let port = base.strip_prefix(kind).unwrap_or_default();
+        port.chars().count() == 1 && port.contains(|c| matches!(c, '0'..='9' | '¹' | '²' | '³'))
+    };
+    matches!(&*base, "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$") || is_port("COM") || is_port("LPT")
+}
+
 /// Whether a file or directory of this name is hidden: the name begins with a dot. File managers, version control and interrupted transfers leave
 /// such files behind.
 pub fn is_hidden(name: &str) -> bool {

@@ -602,10 +602,11 @@ fn plate_warnings(heights: &[&str], correction: f64) -> Vec<String> {
 fn cuts_that_no_longer_go_through_are_told_once() {
     let heights = ["1.000", "-0.200", "0.000", "-0.200"];
     assert_eq!(plate_warnings(&heights, 0.0), [""; 0]);
-    assert_eq!(plate_warnings(&["-0.200"], 0.2), [""; 0]);
-    assert_eq!(plate_warnings(&["-0.200"], 0.201), ["a_Clean.gcode:1:6 PB602"]);
+    assert_eq!(plate_warnings(&["-0.200"], 0.201), [""; 0], "as in `check`, 0.001 mm is through");
+    assert_eq!(plate_warnings(&["-0.200"], 0.202), ["a_Clean.gcode:1:6 PB602"]);
+    assert_eq!(plate_warnings(&["0.001"], 0.001), ["a_Clean.gcode:1:6 PB602"]);
+    assert_eq!(plate_warnings(&["0.002"], 0.3), [""; 0], "drawn above the plate");
     assert_eq!(plate_warnings(&heights, 0.3), ["a_Clean.gcode:3:6 PB602"], "the highest");
-    assert_eq!(plate_warnings(&["0.100"], 0.3), [""; 0], "drawn above the plate");
 }
 
 /// Returns the warnings about a program with these moves, each as its coordinates and its height, after a correction by the same amount.
@@ -651,10 +652,10 @@ fn cuts_on_shims_end_at_the_shims() {
         ];
         warnings_of_cuts(&cuts, correction, shims)
     };
-    assert_eq!(raised("0.800", 0.2, &[0.0, 1.0]), [""; 0]);
-    assert_eq!(raised("0.800", 0.201, &[0.0, 1.0]), ["a_Clean.gcode:5:9 PB602"]);
-    assert_eq!(raised("0.800", 0.201, &[1.0, 0.0]), [""; 0], "the other path lies on shims");
-    assert_eq!(raised("0.800", 0.201, &[]), [""; 0], "unknown");
+    assert_eq!(raised("0.800", 0.201, &[0.0, 1.0]), [""; 0]);
+    assert_eq!(raised("0.800", 0.202, &[0.0, 1.0]), ["a_Clean.gcode:5:9 PB602"]);
+    assert_eq!(raised("0.800", 0.202, &[1.0, 0.0]), [""; 0], "the other path lies on shims");
+    assert_eq!(raised("0.800", 0.202, &[]), [""; 0], "unknown");
     assert_eq!(raised("0.800", -0.3, &[0.0, 1.0]), [""; 0]);
     assert_eq!(raised("0.800", -0.301, &[0.0, 1.0]), ["a_Clean.gcode:5:9 PB602"]);
 }

@@ -164,6 +164,11 @@ const DIRECTION_TOLERANCE: f64 = 5e-7;
 /// Maximum rounding error of an angle after a rotation, in radians.
 const ROUNDING: f64 = 1e-12;
 
+/// Greatest permitted difference of the radii at the two ends of an arc in mm, in programs in mm, as in NIST's RS274/NGC.
+pub const MAX_RADIUS_DIFFERENCE_MM: f64 = 0.002;
+/// Greatest permitted difference of the radii at the two ends of an arc in inches, in programs in inches.
+pub const MAX_RADIUS_DIFFERENCE_INCHES: f64 = 0.000_2;
+
 /// Whether a drawn arc is a full circle. `ahead` is the angle from its start to its end in the direction of the arc, in radians: for a full circle, 0
 /// up to rounding, slightly less than a whole turn, or slightly more. The remnant of a trimmed arc, which has hardly any length, is not a full
 /// circle.
@@ -389,7 +394,7 @@ impl WrittenArc<'_> {
 
     /// Returns the permitted difference of the radii in the output unit, as in NIST's RS274/NGC.
     fn tolerance(&self) -> f64 {
-        if self.unit == 1.0 { 0.002 } else { 0.000_2 }
+        if self.unit == 1.0 { MAX_RADIUS_DIFFERENCE_MM } else { MAX_RADIUS_DIFFERENCE_INCHES }
     }
 
     fn exact_radii(&self) -> [f64; 2] {

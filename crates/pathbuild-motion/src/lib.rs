@@ -10,7 +10,10 @@ mod step;
 
 pub use chip_load::ChipLoad;
 pub use cutting_length::check_cutting_length;
-pub use geometry::{Arc, Axes, Course, Plane, Position, WrittenArc, is_full_turn, turn_angle, widest_chord};
+pub use geometry::{
+    Arc, Axes, Course, MAX_RADIUS_DIFFERENCE_INCHES, MAX_RADIUS_DIFFERENCE_MM, Plane, Position, WrittenArc,
+    is_full_turn, turn_angle, widest_chord,
+};
 pub use step::{
     Action, Change, Coolant, Corners, Frame, Group, Move, MoveShape, NamedPosition, Pace, Spindle,
     StatedWord, Step, ToolLength, Turning, WordEffect, WorkSystem,

@@ -213,7 +213,7 @@ impl ElementClass {
 const DIAMETER_TOLERANCE: f64 = 0.001;
 
 /// Whether a circle of this radius in mm has the same diameter as one of another radius.
-pub(crate) fn has_diameter_of(radius: f64, other: f64) -> bool {
+pub fn has_diameter_of(radius: f64, other: f64) -> bool {
     at_least(DIAMETER_TOLERANCE, 2.0 * (radius - other).abs())
 }
 
@@ -283,7 +283,7 @@ pub const TURN_RADIUS: f64 = 0.75;
 /// Radius in mm of the circle at which a path ends.
 pub const END_RADIUS: f64 = 1.0;
 /// Radius in mm of a probe's circle.
-pub(crate) const PROBE_RADIUS: f64 = 3.0;
+pub const PROBE_RADIUS: f64 = 3.0;
 
 /// Returns the meaning of a circle by its line type and its radius in mm.
 pub(crate) fn circle_meaning(line_type: LineType, radius: f64) -> CircleMeaning {

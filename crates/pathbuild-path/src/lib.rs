@@ -35,7 +35,10 @@ pub use bind::{ExaminedPath, bind, examine, regex_reason};
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep, WalkedPath};
 pub use changes::{DrawnChange, DrawnChanges, DrawnSide, ElementChange, ElementKind, drawn_changes};
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
-pub use element::{Cut, END_RADIUS, Element, Marker, Origin, Role, START_RADIUS, Shape, Source, TURN_RADIUS};
+pub use element::{
+    Cut, END_RADIUS, Element, Marker, Origin, PROBE_RADIUS, Role, START_RADIUS, Shape, Source, TURN_RADIUS,
+    has_diameter_of,
+};
 pub use element_parameters::{ElementParameters, Parameter, element_parameters};
 pub use embedding::{PathHeader, PathSignature, Restriction, SubpathCall, SubpathChecker, with_near_names};
 pub use geometry::{Arc, Curve, Line, Placement, Xy, direction};

@@ -252,15 +252,26 @@ fn look_alike_mistake(letter: Letter, value: &str) -> Option<Diagnostic> {
     Some(problem.with("letter", letter.as_char()).quoting("value", value))
 }
 
+/// A letter that must be positive, with a usual value for messages.
+type PositiveLetter = (Letter, &'static str);
+
 /// Letters that must always be positive. (book: language/letters)
-const POSITIVE: [Letter; 8] =
-    [Letter::F, Letter::I, Letter::C, Letter::O, Letter::T, Letter::A, Letter::W, Letter::Z];
+const POSITIVE: [PositiveLetter; 8] = [
+    (Letter::F, "F150"),
+    (Letter::I, "I0.5"),
+    (Letter::C, "C1"),
+    (Letter::O, "O2"),
+    (Letter::T, "T5"),
+    (Letter::A, "A8"),
+    (Letter::W, "W4"),
+    (Letter::Z, "Z50"),
+];
 
 /// Feed in mm/min below which a program, which gives three decimals, would give a feed of 0.
 const MIN_FEED: f64 = 0.0005;
 
 /// Letters that must be positive on paths and on elements with bars.
-const POSITIVE_BARS: [Letter; 2] = [Letter::P, Letter::U];
+const POSITIVE_BARS: [PositiveLetter; 2] = [(Letter::P, "P1"), (Letter::U, "U5")];
 
 /// Returns findings about values of `own` that are outside their limits. If such a limit is another letter that `own` does not give, the path's value
 /// counts.
@@ -268,7 +279,7 @@ pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementCl
     let mut limits = LimitCheck { own, path, class, problems: Vec::new() };
     let is_known =
         |letter: &Letter| !matches!(class.use_of(*letter), LetterUse::Unknown | LetterUse::PathOnly);
-    limits.check_positive(POSITIVE.into_iter().filter(is_known));
+    limits.check_positive(POSITIVE.into_iter().filter(|(letter, _)| is_known(letter)));
     limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
     // For a probe or a subpath, T is the thickness at its place, which is unrelated to the path's depths.
     for depth in [Letter::B, Letter::D].into_iter().filter(|depth| class.use_of(*depth) != LetterUse::Unknown)
@@ -282,22 +293,6 @@ pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementCl
     limits.problems
 }
 
-/// Returns a usual value for a letter that must be positive.
-fn example(letter: Letter) -> &'static str {
-    match letter {
-        Letter::F => "F150",
-        Letter::I => "I0.5",
-        Letter::C => "C1",
-        Letter::O => "O2",
-        Letter::T => "T5",
-        Letter::A => "A8",
-        Letter::W => "W4",
-        Letter::Z => "Z50",
-        Letter::P => "P1",
-        _ => "U5",
-    }
-}
-
 struct LimitCheck<'a> {
     own: &'a Values<'a>,
     path: &'a Values<'a>,
@@ -306,8 +301,8 @@ struct LimitCheck<'a> {
 }
 
 impl LimitCheck<'_> {
-    fn check_positive(&mut self, letters: impl Iterator<Item = Letter>) {
-        for letter in letters {
+    fn check_positive(&mut self, letters: impl Iterator<Item = PositiveLetter>) {
+        for (letter, example) in letters {
             let GivenNumber::Number(value) = self.own.number(letter) else { continue };
             let is_feed = matches!(letter, Letter::F | Letter::Z);
             let is_rounded_off = is_feed && value > 0.0 && value < MIN_FEED;
@@ -320,7 +315,7 @@ impl LimitCheck<'_> {
                 let problem = Diagnostic::new(message)
                     .with("letter", letter.as_char())
                     .with("value", value)
-                    .quoting("example", example(letter));
+                    .quoting("example", example);
                 self.problems.push(self.own.underline(letter, problem));
             }
         }

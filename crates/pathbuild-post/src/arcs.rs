@@ -4,7 +4,9 @@
 use std::f64::consts::PI;
 
 use pathbuild_diagnostic::{Diagnostic, Point, messages::posts};
-use pathbuild_motion::{Course, Move, MoveShape, WrittenArc, widest_chord};
+use pathbuild_motion::{
+    Course, MAX_RADIUS_DIFFERENCE_INCHES, MAX_RADIUS_DIFFERENCE_MM, Move, MoveShape, WrittenArc, widest_chord,
+};
 
 /// Maximum number of chords per arc.
 pub(crate) const MAX_CHORDS: u32 = 100_000;
@@ -34,7 +36,9 @@ pub(crate) fn equalize_radii(movement: &mut Move) {
     let [from, to] = [movement.from, movement.to].map(|end| arc.plane.project(&end.at));
     let chord = [to[0] - from[0], to[1] - from[1]];
     let square = chord[0] * chord[0] + chord[1] * chord[1];
-    if !(MAX_RADIUS_DIFFERENCE_MM..=MAX_RADIUS_DIFFERENCE_INCHES).contains(&difference) || square == 0.0 {
+    if !(MAX_RADIUS_DIFFERENCE_MM..=MAX_RADIUS_DIFFERENCE_INCHES * 25.4).contains(&difference)
+        || square == 0.0
+    {
         return;
     }
     let middle = [0, 1].map(|axis| f64::midpoint(from[axis], to[axis]));
@@ -43,11 +47,6 @@ pub(crate) fn equalize_radii(movement: &mut Move) {
     arc.centre[0] -= share * chord[0];
     arc.centre[1] -= share * chord[1];
 }
-
-/// Greatest permitted difference of an arc's radii in mm, for programs in mm (NIST RS274/NGC).
-const MAX_RADIUS_DIFFERENCE_MM: f64 = 0.002;
-/// Greatest permitted difference of an arc's radii in mm, for programs in inches.
-const MAX_RADIUS_DIFFERENCE_INCHES: f64 = 0.005_08;
 
 /// The rules by which a post rounds the numbers of an arc.
 pub(crate) struct ArcRounding<'r> {

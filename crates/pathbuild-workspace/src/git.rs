@@ -6,6 +6,7 @@ use std::process::{ChildStdout, Command, Stdio};
 use std::thread;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::is_windows_device;
 use pathbuild_diagnostic::Text;
 
 use crate::config;
@@ -320,14 +321,9 @@ impl Entry {
 /// Whether Windows would open something else under this name: it has two separators, drops final dots and blanks, has a short name for `.git`,
 /// and opens devices.
 fn is_other_on_windows(part: &str) -> bool {
-    let stem = part.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
-    let is_port = |prefix| stem.strip_prefix(prefix).is_some_and(|number: &str| number.chars().count() == 1);
-    part.contains(['\\', ':'])
-        || part.ends_with(['.', ' '])
-        || stem == "GIT~1"
-        || matches!(&*stem, "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$")
-        || is_port("COM")
-        || is_port("LPT")
+    let is_short_name =
+        part.split('.').next().is_some_and(|stem| stem.trim_end().eq_ignore_ascii_case("GIT~1"));
+    part.contains(['\\', ':']) || part.ends_with(['.', ' ']) || is_short_name || is_windows_device(part)
 }
 
 /// Refuses the name of a revision that Git would take for an option.

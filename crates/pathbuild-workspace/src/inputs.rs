@@ -1,6 +1,7 @@
 //! The inputs of a command: drawings, paths and directories.
 
 use camino::{Utf8Path, Utf8PathBuf};
+use pathbuild_db::system::is_drawing;
 
 /// Drawings, paths and directories, in the order in which they were given.
 #[derive(Clone, Debug, Default)]
@@ -62,8 +63,4 @@ impl<'a> Input<'a> {
     pub(crate) fn is_program(self, is_directory: impl Fn(&Utf8Path) -> bool) -> bool {
         matches!(self, Self::Place(place) if !is_drawing(place) && !is_directory(place))
     }
-}
-
-fn is_drawing(place: &Utf8Path) -> bool {
-    place.as_str().to_ascii_lowercase().ends_with(".dxf")
 }

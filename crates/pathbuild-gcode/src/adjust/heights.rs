@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::probes as messages;
+use pathbuild_path::THROUGH_HEIGHT;
 use pathbuild_path::approx::above;
 use pathbuild_toolpath::ZModel;
 
-use super::check::{MIN_DIFFERENCE, Values};
+use super::check::Values;
 use super::scan::{FormulaSpan, Line, formula_spans, lines, plain_height, value_of};
 use super::surface::{AppliedCorrection, CutDepths, MeasuredSurface};
 use super::values::probe_table;
@@ -129,7 +130,8 @@ impl<'a> HeightRules<'a> {
         let level = self.levels.last().copied().unwrap_or_default();
         let span = spot.number.start..spot.formula.end;
         let depth = level - height;
-        if drawn <= level + MIN_DIFFERENCE && -depth > MIN_DIFFERENCE {
+        let is_through = |z: f64| z <= level + THROUGH_HEIGHT;
+        if is_through(drawn) && !is_through(height) {
             self.raised.push(RaisedCut { line, span, height, level });
         } else if height < drawn
             && above(depth, self.below_plate)

@@ -1,5 +1,7 @@
 //! The rules of each dialect.
 
+use pathbuild_motion::{MAX_RADIUS_DIFFERENCE_INCHES, MAX_RADIUS_DIFFERENCE_MM};
+
 use super::Dialect;
 use super::codes::{self, Words};
 
@@ -258,7 +260,8 @@ pub enum StartMotion {
 }
 
 /// Permitted difference of radii in the NIST interpreter, from which Mach3 is derived.
-const NIST_RADIUS: RadiusTolerance = RadiusTolerance::Fixed { mm: 0.002, inch: 0.0002 * 25.4 };
+const NIST_RADIUS: RadiusTolerance =
+    RadiusTolerance::Fixed { mm: MAX_RADIUS_DIFFERENCE_MM, inch: MAX_RADIUS_DIFFERENCE_INCHES * 25.4 };
 const GRBL_RADIUS: RadiusTolerance = RadiusTolerance::Relative { most: 0.5, least: 0.005, share: 0.001 };
 
 const BASE_SPELLING: Spelling = Spelling {

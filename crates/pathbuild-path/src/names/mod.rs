@@ -217,7 +217,8 @@ impl Ord for PathName {
     }
 }
 
-fn with_points(layer: &str) -> Cow<'_, str> {
+/// Replaces underscores by points: some CAD programs allow no points in the names of layers.
+pub(crate) fn with_points(layer: &str) -> Cow<'_, str> {
     if layer.contains('_') { Cow::Owned(layer.replace('_', ".")) } else { Cow::Borrowed(layer) }
 }
 

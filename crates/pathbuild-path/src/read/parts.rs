@@ -10,7 +10,7 @@ use smol_str::SmolStr;
 use crate::geometry::{Arc, Curve};
 use crate::language::Language;
 use crate::line_type::{LineType, LineTypes};
-use crate::names::LayerPattern;
+use crate::names::{LayerPattern, with_points};
 use crate::part::{DrawnParts, OpenOutline, Part, PartRing};
 use crate::read::broken_outlines::{SortedOutlines, ends_of_chain, gap_problem};
 use crate::read::entities::{AnyText, anchor_of, at_entity, curve, xy};
@@ -81,7 +81,7 @@ struct OutlineLayers<'d> {
 impl<'d> OutlineLayers<'d> {
     fn read(drawing: &'d Drawing, language: &'d Language, pattern: &LayerPattern) -> Self {
         let layers: Vec<bool> = drawing.layers.iter().map(|layer| language.is_part(&layer.name)).collect();
-        let path = |name: &str| Some(pattern.captured_text(name)?.replace('_', ".").to_uppercase().into());
+        let path = |name: &str| Some(with_points(pattern.captured_text(name)?).to_uppercase().into());
         let paths: Vec<_> = drawing.layers.iter().map(|layer| path(&layer.name)).collect();
         let mut line_types = LineTypes::new(&language.line_types);
         let mut curves: BTreeMap<_, Vec<OutlineCurve>> = BTreeMap::new();

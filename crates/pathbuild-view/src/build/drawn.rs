@@ -6,8 +6,9 @@ use std::{ptr, sync};
 use pathbuild_diagnostic::{ElementId, EntityKind};
 use pathbuild_dxf::{Drawing, Entity, Geometry};
 use pathbuild_path::{
-    Arc, AssignedText, Curve, ElementParameters, Marker, Parameter as InForceParameter, PlacedPart,
-    Placement, Position, RawPath, Role, Shape as DrawnShape, SourceMap, TextCircle, Xy, as_seen,
+    Arc, AssignedText, Curve, END_RADIUS, ElementParameters, Marker, PROBE_RADIUS,
+    Parameter as InForceParameter, PlacedPart, Placement, Position, RawPath, Role, START_RADIUS,
+    Shape as DrawnShape, SourceMap, TURN_RADIUS, TextCircle, Xy, as_seen,
 };
 
 use super::corners;
@@ -114,10 +115,10 @@ impl ElementBuilder<'_> {
         }
         let circle = |marker: &Marker, radius| DrawnShape::Circle { centre: marker.at, radius };
         let groups: [(&[Marker], ElementKind, f64); 4] = [
-            (raw.start.as_slice(), ElementKind::Start, 0.5),
-            (raw.end.as_slice(), ElementKind::End, 1.0),
-            (&raw.turns, ElementKind::Turn, 0.75),
-            (&raw.probes, ElementKind::Probe, 3.0),
+            (raw.start.as_slice(), ElementKind::Start, START_RADIUS),
+            (raw.end.as_slice(), ElementKind::End, END_RADIUS),
+            (&raw.turns, ElementKind::Turn, TURN_RADIUS),
+            (&raw.probes, ElementKind::Probe, PROBE_RADIUS),
         ];
         for (markers, kind, radius) in groups {
             for marker in markers {

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 
 use camino::Utf8PathBuf;
+use pathbuild_db::system::is_windows_device;
 use pathbuild_diagnostic::reasons::{DEVICE_NAME, NO_FILE_NAME};
 use pathbuild_diagnostic::{Diagnostic, Text};
 use pathbuild_gcode::native::{self, WriteOptions};
@@ -177,19 +178,8 @@ pub fn stem_fault(name: &str, rest: &str) -> Option<&'static Text> {
     if is_invalid {
         return Some(&NO_FILE_NAME);
     }
-    (name == rest && is_device(name)).then_some(&DEVICE_NAME)
-}
-
-/// Whether Windows takes this file name for a device, which depends only on the part before the first dot. A name without a dot is no device, because
-/// a suffix such as `_Milling` follows it.
-fn is_device(name: &str) -> bool {
-    let Some((base, _)) = name.split_once('.') else { return false };
-    let base = base.trim_end().to_ascii_uppercase();
-    let is_port = |kind: &str| {
-        base.strip_prefix(kind)
-            .is_some_and(|port| port.len() == 1 && port != "0" && port.parse::<u8>().is_ok())
-    };
-    matches!(&*base, "CON" | "PRN" | "AUX" | "NUL") || is_port("COM") || is_port("LPT")
+    // A name without a dot is no device, because a suffix such as `_Milling` follows it.
+    (name == rest && name.contains('.') && is_windows_device(name)).then_some(&DEVICE_NAME)
 }
 
 /// Whether a character changes the writing direction of the characters around it.

@@ -73,8 +73,13 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
         }
         Err(problems) => return context.fail(problems),
     };
+    let surface = match args.surface.as_deref().map(|text| number("surface", text)).transpose() {
+        Ok(surface) => surface,
+        Err(fault) => return context.refuse(vec![*fault]),
+    };
+    let request = Request { file, reading: args.reading.options(), surface, to: file_to_write(args) };
     let mut diagnostics = Vec::new();
-    if let Err(errors) = rewrite_and_report(context, file, args, &post_processor, &mut diagnostics) {
+    if let Err(errors) = rewrite_and_report(context, &request, &post_processor, &mut diagnostics) {
         diagnostics.extend(errors);
         diagnostics.extend(context.lowered_error(&diagnostics));
         context.show(&context.findings(diagnostics));
@@ -86,20 +91,15 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
 /// Rewrites the program and reports that it was written. Adds warnings to `diagnostics`. If there are errors, nothing is written.
 fn rewrite_and_report(
     context: &Context,
-    file: &Utf8Path,
-    args: &PostArgs,
+    request: &Request<'_>,
     post_processor: &PostProcessor,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<(), Vec<Diagnostic>> {
-    let surface = args.surface.as_deref().map(|text| number("surface", text)).transpose();
-    let surface = surface.map_err(|fault| vec![*fault])?;
-    let to = file_to_write(args);
-    let request = Request { file, reading: args.reading.options(), surface, to };
     let rewritten = request.run(context, post_processor, diagnostics)?;
     for note in &rewritten.output.notes {
         context.printer.status(note.text(context.lang()));
     }
-    let Some(to) = to else {
+    let Some(to) = request.to else {
         context.printer.result_bytes(&rewritten.output.text);
         return Ok(());
     };

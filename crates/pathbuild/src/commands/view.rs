@@ -2,7 +2,7 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
-use pathbuild_diagnostic::{Diagnostic, Value, shown};
+use pathbuild_diagnostic::{Value, shown};
 use pathbuild_view::{Scene, VisibleParts, has_stock};
 use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::files::is_file_name_taken;
@@ -70,10 +70,11 @@ fn target_scene(context: &Context, args: &ViewArgs, format: Format) -> Result<Ta
 }
 
 fn program_file(context: &Context, file: &Utf8Path, args: &ViewArgs) -> Result<TargetScene, Failure> {
-    let found = |problem: Box<Diagnostic>| Failure::Found(vec![*problem]);
     let options = VerifyOptions { reading: args.reading.options(), ..VerifyOptions::default() };
-    let options = options.with_stock(args.cutter.as_deref(), args.surface.as_deref()).map_err(found)?;
-    let text = program::read(&context.settings, &*context.system, file).map_err(found)?;
+    let options = options.with_stock(args.cutter.as_deref(), args.surface.as_deref());
+    let options = options.map_err(|problem| Failure::Refused(vec![*problem]))?;
+    let text = program::read(&context.settings, &*context.system, file);
+    let text = text.map_err(|problem| Failure::Found(vec![*problem]))?;
     let report = program_scene(&mut Session::new(context), file, text, options)?;
     Ok(TargetScene { report, file: file.to_string() })
 }

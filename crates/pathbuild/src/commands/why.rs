@@ -4,6 +4,8 @@ use std::collections::HashSet;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Reason;
+use pathbuild_db::check_file;
+use pathbuild_db::system::FileKind;
 use pathbuild_diagnostic::shown;
 use serde_json::{Value, json};
 
@@ -29,16 +31,21 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
     };
     let selection = session.with_stable_files(|session| session.select(&args.inputs.get()));
     let named = selection.named.iter().copied().chain(selection.paths.iter().map(|path| path.file));
+    let mut problems = selection.problems.clone();
     let mut listed = HashSet::new();
     let all = selection.drawings.iter().chain(named.map(|file| file.path(session.db())));
     for drawing in all.filter(|drawing| listed.insert(*drawing)) {
         let answer = DrawingState { drawing, reasons: memo.invalidation_reasons(drawing.as_str()) };
+        if answer.reasons.is_none() && context.system.kind(drawing) == FileKind::Missing {
+            problems.extend_from_slice(check_file(session.db(), session.file(drawing)));
+            continue;
+        }
         match context.format {
             Format::Json => context.row("result", answer.json(context)),
             _ => context.printer.result(answer.text(context)),
         }
     }
-    context.conclude(session.with_hints(selection.problems))
+    context.conclude(session.with_hints(problems))
 }
 
 /// The state of a drawing's cached result.

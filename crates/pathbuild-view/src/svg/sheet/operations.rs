@@ -1,6 +1,7 @@
 //! The operations of a setup sheet: a table that explains each number in the picture.
 
 use pathbuild_diagnostic::{Lang, Noun, counted};
+use pathbuild_path::has_diameter_of;
 
 use super::data::{Sheet, SheetTool, localized_mm};
 use crate::scene::{Element, ElementKind, MoveKind, ScenePath, Shape};
@@ -101,7 +102,7 @@ fn operation_text(path: &ScenePath, element: &Element, lang: Lang) -> String {
     };
     let Shape::Circle { radius, .. } = element.shape else { return work.to_owned() };
     let diameter = 2.0 * radius;
-    if path.tool.is_some_and(|tool| (tool - diameter).abs() < 0.001) {
+    if path.tool.is_some_and(|tool| has_diameter_of(radius, tool / 2.0)) {
         return lang.choose(
             format!("drilling Ø {}", mm(diameter)),
             format!("Bohren Ø {}", localized_mm(diameter, lang)),
