@@ -615,6 +615,25 @@ fn the_end_of_a_probing_move_is_unknown() {
     assert_eq!(probe["to"], serde_json::json!([1.0, 2.0, null]));
 }
 
+/// A finding is placed at the first move of its line; a line without moves is only named.
+#[test]
+fn still_pictures_of_programs_show_where_findings_are() {
+    let place = Place::new().file("a.nc", "G21 G90 G17 G94\nG0 Z5\nG0 X3 Y7\nG1 Z-1\nM77\nG0 Z5\nM2\n");
+    let json = place.path().join("x.json").to_str().unwrap().to_owned();
+    let scene = scene(&place.run_with(&["view", "a.nc", "--dialect", "linuxcnc", "-o", &json]));
+    let findings = scene["findings"].as_array().unwrap();
+    let found: Vec<_> = findings.iter().map(|finding| (&finding["line"], &finding["at"])).collect();
+    assert_eq!(found, [(&4.into(), &serde_json::json!([3.0, 7.0])), (&5.into(), &Value::Null)]);
+    for (lang, line) in [("en", "line"), ("de", "Zeile")] {
+        place.run(&format!("view a.nc --dialect linuxcnc --lang {lang} -o a.svg"));
+        let svg = fs::read_to_string(place.path().join("a.svg")).unwrap();
+        assert!(
+            svg.contains(&format!("1 · {line} 4 · PB")) && svg.contains(&format!("2 · {line} 5 · PB")),
+            "{svg}"
+        );
+    }
+}
+
 /// The scale of depths reaches the lowest point of an arc in a vertical plane, not only its ends.
 #[test]
 fn the_depth_of_an_arc_is_that_of_its_lowest_point() {

@@ -88,7 +88,6 @@ function placeProgram(): void {
   for (const id of ["typeDialect", "settings"]) $(id).hidden = !program?.dialects;
   for (const id of ["typeSurface", "checked"]) $(id).hidden = !program;
   if (!program) return;
-  placeFindings();
   const checks = program.checks.map(({ outcome, text: said }) => node("li", said[lang], outcome));
   $("checks").replaceChildren(...checks);
   const tool = $<HTMLInputElement>("assumedTool");
@@ -102,19 +101,6 @@ function placeProgram(): void {
   dialect.replaceChildren(new Option(`${say("asFound", lang)}: ${program.dialect}`, ""), ...program.dialects.map((name) => new Option(name, name)));
   dialect.value = chosen;
   $<HTMLAnchorElement>("settings").href = `#${fragmentOf(settings())}`;
-}
-
-/** Places the findings of a program at the end of the first move of their line. */
-function placeFindings(): void {
-  const unplaced = new Map<number, Finding[]>();
-  for (const finding of scene.findings) {
-    if (finding.at || !finding.line) continue;
-    unplaced.set(finding.line, [...(unplaced.get(finding.line) ?? []), finding]);
-  }
-  for (const { line, to: [x, y] } of unplaced.size > 0 ? scene.paths.flatMap(({ moves }) => moves) : []) {
-    if (line === undefined || x === null || y === null) continue;
-    for (const finding of unplaced.get(line) ?? []) finding.at ??= [x, y];
-  }
 }
 
 /** Reads the settings entered for a program. */

@@ -8,22 +8,32 @@ use std::collections::HashMap;
 
 use pathbuild_diagnostic::messages::part;
 use pathbuild_diagnostic::{Code, Diagnostic, Message, Value, shown};
+use pathbuild_motion::Axes;
 
-use crate::scene::{BilingualText, Finding, Label, Point, Scene, ScenePath, Shape};
+use crate::scene::{BilingualText, Finding, Label, Point, Scene, SceneMove, ScenePath, Shape};
 
 pub use drawn::{DrawnSource, drawn_path, finished_part, keep_out, other_layers, outline};
 pub use program::{GcodeSource, GcodeText, ProgramSource, gcode_path, program_path};
 
 impl Scene {
     /// Sets the findings of a scene. `file` is the drawing shown. A finding about a parameter text is placed at that text; one about a finished part
-    /// at the defect of the part; one about an element at the middle of the element.
+    /// at the defect of the part; one about an element at the middle of the element; one about a line of a program at the end of a move in that line.
     pub fn set_findings(&mut self, diagnostics: &[Diagnostic], file: &str) {
         let mut findings = findings(diagnostics, file);
         let places = self.places(file);
         for (finding, diagnostic) in findings.iter_mut().zip(diagnostics) {
-            finding.at = places.of(diagnostic).or(finding.at);
+            let line = finding.line.filter(|_| diagnostic.file.as_ref().is_some_and(|found| found == file));
+            finding.at = places.of(diagnostic).or(finding.at).or_else(|| self.end_in_line(line?));
         }
         self.findings = findings;
+    }
+
+    /// Returns the end of the first move in a line of a program that was read; `None` for a drawing, whose lines are those of DXF.
+    fn end_in_line(&self, line: u32) -> Option<Point> {
+        self.program.as_ref()?;
+        let mut moves = self.paths.iter().flat_map(|path| &path.moves);
+        let is_end = |found: &&SceneMove| found.line == Some(line) && found.way.to.known.has(Axes::XY);
+        moves.find(is_end).map(SceneMove::to)
     }
 
     /// Returns an index of the parameter texts and elements that findings refer to. `file` is the drawing shown.

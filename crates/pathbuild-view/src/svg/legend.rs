@@ -45,7 +45,7 @@ impl<'a> Legend<'a> {
         depths: &'a Depths,
         shown: VisibleParts,
     ) -> Self {
-        let (findings, listed) = first_findings(&scene.findings, shown);
+        let (findings, listed) = first_findings(scene, shown);
         let overhang = stock.map_or(0.0, |stock| stock.legend_overhang(shown, [LEFT, 0.0], Frame::WIDTH));
         Self {
             scene,
@@ -258,10 +258,10 @@ pub(super) fn draw_depths(canvas: &mut Canvas, depths: &Depths, [left, y]: Point
 }
 
 /// Returns the lines of the findings that fit in the legend, and the number of these findings.
-fn first_findings(findings: &[Finding], shown: VisibleParts) -> (Vec<(Option<&Finding>, String)>, usize) {
-    let mut all = Vec::new();
+fn first_findings(scene: &Scene, shown: VisibleParts) -> (Vec<(Option<&Finding>, String)>, usize) {
+    let (mut all, findings) = (Vec::new(), &scene.findings);
     for (number, finding) in findings.iter().enumerate() {
-        let next = lines(finding, shown);
+        let next = lines(finding, scene.program.is_some(), shown);
         if number > 0 && all.len() + next.len() > MAX_LINES {
             let more = shown.choose(
                 "further findings, circled without a number: `pathbuild check` lists them",
@@ -275,11 +275,17 @@ fn first_findings(findings: &[Finding], shown: VisibleParts) -> (Vec<(Option<&Fi
     (all, findings.len())
 }
 
-/// Returns the lines of a finding. Only the first line refers to the finding: it is drawn bold and in the finding's colour.
-fn lines<'a>(finding: &'a Finding, shown: VisibleParts) -> Vec<(Option<&'a Finding>, String)> {
+/// Returns the lines of a finding, with its line in a program. Only the first line refers to the finding: it is drawn bold and in the finding's colour.
+fn lines<'a>(
+    finding: &'a Finding,
+    is_of_program: bool,
+    shown: VisibleParts,
+) -> Vec<(Option<&'a Finding>, String)> {
     let pick = |text: &'a BilingualText| shown.lang.choose(text.en.as_str(), text.de.as_str());
     let mut lines = Vec::new();
-    let first = format!("{} · {}: {}", finding.number, finding.code, pick(&finding.message));
+    let line = finding.line.filter(|_| is_of_program);
+    let place = line.map(|line| format!("{} {line} · ", shown.choose("line", "Zeile"))).unwrap_or_default();
+    let first = format!("{} · {place}{}: {}", finding.number, finding.code, pick(&finding.message));
     for (row, line) in wrap_text(&first, FINDINGS_WIDTH, LETTER_SIZE).into_iter().enumerate() {
         lines.push(((row == 0).then_some(finding), line));
     }
