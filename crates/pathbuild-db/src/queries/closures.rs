@@ -66,9 +66,13 @@ pub fn closure(db: &dyn Db, target: Target) -> Closure<'_> {
         return closure;
     }
     let mut walk = ClosureWalk::new(db, target.role(db));
-    walk.report_all(root, &missing);
-    walk.visit(root, 0);
-    walk.estimate_moves(root);
+    if missing.is_empty() {
+        walk.visit(root, 0);
+        walk.estimate_moves(root);
+    } else {
+        walk.reached.push(root);
+        walk.report_all(root, &missing);
+    }
     Closure {
         root: Some(root),
         reached: walk.reached,
@@ -96,8 +100,8 @@ fn closure_without_embeddings<'db>(
     (is_lone && is_within).then(closure)
 }
 
-/// Returns a target's path with its values, and errors about missing values. With these, the values are those of a check, so that the path's other
-/// errors are found as well. `None` if the file has no such path.
+/// Returns a target's path with its values, and errors about missing values. If the path has errors of its own, these are reported first, with the
+/// values of a check in place of missing ones. `None` if the file has no such path.
 pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Diagnostic>)> {
     let name = NameKey::of(db, &PathName::new(target.name(db)));
     let file = target.file(db);
@@ -110,7 +114,8 @@ pub(super) fn root(db: &dyn Db, target: Target) -> Option<(Instance<'_>, Vec<Dia
     if bindings.has_all(&index.header.definitions) {
         return Some((Instance::new(db, file, name, bindings), Vec::new()));
     }
-    let missing = raw_path(db, file, name)?.missing_values(&bindings);
+    let missing =
+        if index.header.is_sound { raw_path(db, file, name)?.missing_values(&bindings) } else { Vec::new() };
     Some((Instance::new(db, file, name, index.examples.clone()), missing))
 }
 
