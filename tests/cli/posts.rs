@@ -252,7 +252,7 @@ fn a_joined_program_is_not_named_like_a_device() {
         assert_eq!(run.status, Some(i32::from(is_refused)), "{run}");
         is_refused
     };
-    for name in ["nul.x", "Com1.x", "lpt9.tap", "AUX.1.2"] {
+    for name in ["nul.x", "Com1.x", "lpt9.tap", "AUX.1.2", "com².x", "conin$.x"] {
         assert!(is_device(name), "{name}");
     }
     for name in ["nul", "Com0.x", "Com10.x", "x.nul", "Auxiliary.x"] {

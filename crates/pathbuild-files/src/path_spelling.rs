@@ -24,7 +24,7 @@ pub fn is_windows_device(name: &str) -> bool {
     let base = name.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
     let is_port = |kind: &str| {
         let port = base.strip_prefix(kind).unwrap_or_default();
-        port.chars().count() == 1 && port.contains(|c| matches!(c, '0'..='9' | '¹' | '²' | '³'))
+        port.chars().count() == 1 && port.contains(|c| matches!(c, '1'..='9' | '¹' | '²' | '³'))
     };
     matches!(&*base, "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$") || is_port("COM") || is_port("LPT")
 }
