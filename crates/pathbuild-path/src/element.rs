@@ -5,11 +5,10 @@ use rstar::AABB;
 use smol_str::SmolStr;
 
 use crate::approx::at_least;
+use crate::boxes::{square, widened_box};
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::widened_box;
 use crate::letter::{ElementClass, Letter};
 use crate::line_type::LineType;
-use crate::part::square;
 use crate::text::TextId;
 
 /// A line, arc or circle on a path's layer that represents a part of the path.

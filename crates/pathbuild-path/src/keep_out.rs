@@ -9,8 +9,8 @@ use rstar::{AABB, Envelope as _, RTree};
 use smol_str::SmolStr;
 
 use crate::approx::{above, is_negligible};
+use crate::boxes::{BoxIndex, widened_box};
 use crate::geometry::{Arc, Curve, Line, Placement, Xy};
-use crate::part::BoxIndex;
 
 /// A clamp: an area that the tool must not enter below a given height.
 #[derive(Clone, Debug, PartialEq)]
@@ -223,17 +223,4 @@ fn monotone(curve: &Curve) -> impl Iterator<Item = Curve> {
     let along = |degrees: f64| degrees.to_radians() * arc.radius;
     let pieces = [0, 1, 2].into_iter().filter(move |piece| ends[*piece] < ends[piece + 1]);
     Either::Right(pieces.map(move |piece| curve.section(along(ends[piece]), along(ends[piece + 1]))))
-}
-
-/// Returns the bounding box of a curve, or of the whole circle for an arc, widened by `margin`.
-pub(crate) fn widened_box(curve: &Curve, margin: f64) -> AABB<[f64; 2]> {
-    let (a, b) = match curve {
-        Curve::Line(line) => (line.start, line.end),
-        Curve::Arc(arc) => {
-            let out = nalgebra::Vector2::new(arc.radius, arc.radius);
-            (arc.centre - out, arc.centre + out)
-        }
-    };
-    let low = [a.x.min(b.x) - margin, a.y.min(b.y) - margin];
-    AABB::from_corners(low, [a.x.max(b.x) + margin, a.y.max(b.y) + margin])
 }

@@ -6,6 +6,7 @@
 
 pub mod approx;
 mod bind;
+mod boxes;
 mod chain;
 mod changes;
 mod disjoint_sets;

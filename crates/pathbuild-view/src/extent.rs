@@ -1,6 +1,7 @@
 //! Bounding boxes.
 
-use crate::scene::Point;
+/// A point in the plane: x, y.
+pub type Point = [f64; 2];
 
 /// Lower left and upper right corner of a box.
 pub(crate) type Corners = [Point; 2];

@@ -12,6 +12,7 @@ use pathbuild_motion::{Axes, MoveShape, Pace};
 use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 
+pub use crate::extent::Point;
 use crate::extent::{Corners, bounding_box, enclosing_box, with_margin};
 
 /// Name of the JSON form of a scene.
@@ -19,9 +20,6 @@ pub const SCHEMA: &str = "pathbuild-scene";
 
 /// Version of the JSON form. It is incremented when a reader of the older form would misread the new one.
 pub const VERSION: u32 = 1;
-
-/// A point in the plane: x, y.
-pub type Point = [f64; 2];
 
 /// The visible content of a path, a drawing or a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]

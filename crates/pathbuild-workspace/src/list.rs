@@ -314,7 +314,7 @@ pub enum State {
     Errors,
     /// The program on disk is out of date.
     Stale,
-    /// The program on disk cannot be compared, because an option is not set, or because of errors whose severity the configuration lowers.
+    /// The program on disk cannot be compared, because an option is not set, or because the configuration lowers the severity of errors.
     Unknown,
     /// The program on disk is up to date.
     Current,

@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 
 use pathbuild_diagnostic::{Diagnostic, Message, Severity};
 
-use super::boxes::BoxIndex;
 use super::cuts::{CutIndex, PathCuts, StandingBar};
 use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, joined_length};
 use super::loose::MAX_WEAK_BRIDGE;
 use crate::approx;
+use crate::boxes::{BoxIndex, widened_box};
 use crate::element::diagnostic_point;
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::widened_box;
 
 /// Share of a bar's length up to which its loss is not reported.
 const BAR_LOSS: f64 = 0.05;

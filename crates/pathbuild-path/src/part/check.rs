@@ -6,7 +6,6 @@ use pathbuild_diagnostic::messages::part as messages;
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
 
 use super::bars::{LostBar, lost_bars};
-use super::boxes::may_be_near;
 use super::cuts::{CutIndex, IndexedCut, PathCuts};
 use super::enclosure::Enclosure;
 use super::gouge::{ClassifiedCut, ClassifiedCuts, Gouge, classify_cuts, gouges};
@@ -14,9 +13,9 @@ use super::intervals::offset_curve;
 use super::leftover::{Beside, LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
 use super::prepared::{PreparedPart, Side};
 use super::{Part, PartRing, PartSettings};
+use crate::boxes::{may_be_near, widened_box};
 use crate::element::diagnostic_point;
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::widened_box;
 
 /// The result of checking a drawing's parts.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,11 +3,11 @@
 use pathbuild_diagnostic::Diagnostic;
 use rstar::{AABB, Envelope as _};
 
-use super::boxes::{BoxIndex, widened};
 use super::intervals::JOIN_GAP;
+use crate::boxes::{BoxIndex, widened, widened_box};
 use crate::element::Origin;
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::{TipMove, widened_box};
+use crate::keep_out::TipMove;
 use crate::names::CaseSensitiveName;
 
 /// The cuts of a path, in the coordinates and heights of its own drawing.

@@ -1,11 +1,10 @@
 //! The cuts that may close a ring round a part, together with the cuts of other paths beside it. (book: language/part)
 
-use super::boxes::widened;
 use super::cuts::{CutIndex, IndexedCut};
 use super::loose::is_cut_out;
 use super::prepared::PreparedPart;
+use crate::boxes::{widened, widened_box};
 use crate::geometry::Curve;
-use crate::keep_out::widened_box;
 
 /// A part with the paths that may cut it loose.
 pub(super) struct Enclosure<'s> {

@@ -8,8 +8,9 @@ use super::cuts::{CutIndex, IndexedCut, MIN_CUT_DEPTH, THROUGH_HEIGHT};
 use super::intervals::{JOIN_GAP, Stretch, joined_length, stretch_of_section};
 use super::prepared::{CutterPassage, PreparedPart, Side};
 use super::{Part, placed_part};
+use crate::boxes::widened_box;
 use crate::geometry::{Curve, Placement, Xy};
-use crate::keep_out::{TipMove, widened_box};
+use crate::keep_out::TipMove;
 
 /// A cut that may go into the part, or that may shape its outline.
 pub(super) struct ClassifiedCut<'c> {

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::boxes::may_be_near;
+use crate::boxes::may_be_near;
 use crate::geometry::{Arc, Curve, Line, Xy};
 
 /// A stretch of a curve: its start and end, in mm along the curve.

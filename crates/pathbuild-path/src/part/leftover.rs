@@ -6,7 +6,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::Vector2;
 use rstar::AABB;
 
-use super::boxes::square;
 use super::cuts::{CutIndex, IndexedCut, IndexedSweep, StandingBar, THROUGH_HEIGHT};
 use super::gouge::{ClassifiedCut, ClassifiedCuts};
 use super::intervals::{
@@ -15,8 +14,8 @@ use super::intervals::{
 };
 use super::loose::{first_enclosing, is_surrounded};
 use super::prepared::PreparedPart;
+use crate::boxes::{square, widened_box};
 use crate::geometry::{Arc, Curve, Line, Xy};
-use crate::keep_out::widened_box;
 
 /// Length in mm from which leftover material is reported.
 const MIN_REPORTED_LENGTH: f64 = 0.1;

@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 
 use pathbuild_diagnostic::Place;
 
-use super::boxes::square;
 use super::cuts::{CutIndex, IndexedCut, PathCuts, THROUGH_HEIGHT};
 use super::intervals::JOIN_GAP;
 use super::prepared::PreparedPart;
 use super::{DrawnParts, Part};
+use crate::boxes::square;
 use crate::geometry::{Curve, Xy};
 
 /// Number of sample points on an outline at which the check looks for cuts.

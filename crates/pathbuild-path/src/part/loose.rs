@@ -3,12 +3,11 @@
 use std::cell::LazyCell;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
-use super::boxes::{BoxIndex, may_be_near, square};
 use super::cuts::StandingBar;
 use super::intervals::offset_curve;
 use super::prepared::PreparedPart;
+use crate::boxes::{BoxIndex, may_be_near, square, widened_box};
 use crate::geometry::{Curve, Line, Xy};
-use crate::keep_out::widened_box;
 
 /// Largest distance in mm between an arc and the chords that replace it.
 const MAX_SAGITTA: f64 = 0.02;

@@ -2,7 +2,6 @@
 //! parts are cut, with its lower face at Z 0, and not the machine's plate below it. (book: language/part)
 
 mod bars;
-mod boxes;
 mod check;
 mod cuts;
 mod displacement;
@@ -24,7 +23,6 @@ use smol_str::SmolStr;
 use crate::geometry::{Curve, Placement, Xy};
 use crate::names::{LayerPattern, PathName};
 
-pub(crate) use boxes::{BoxIndex, square};
 pub(crate) use intervals::{Stretch, add_stretches_within, join_stretches};
 pub(crate) use loose::first_enclosing;
 pub(crate) use open::OpenOutline;

@@ -3,14 +3,14 @@
 use rstar::{AABB, Envelope as _};
 
 use super::bars::{LostBar, lost_bars};
-use super::boxes::widened;
 use super::cuts::{CutIndex, PartCut, PathCuts, StandingBar};
 use super::enclosure::{Enclosure, reach};
 use super::gouge::{classify_cuts, gouges, level_for_cuts};
 use super::prepared::PreparedPart;
 use super::{Part, placed_part};
+use crate::boxes::{widened, widened_box};
 use crate::geometry::{Curve, Placement, Xy};
-use crate::keep_out::{TipMove, widened_box};
+use crate::keep_out::TipMove;
 
 /// A path at its place in a program.
 #[derive(Clone, Debug)]

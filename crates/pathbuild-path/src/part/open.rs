@@ -4,12 +4,12 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::part as messages;
 use smol_str::SmolStr;
 
-use super::boxes::{BoxIndex, square};
 use super::cuts::{CutIndex, PathCuts};
 use super::intervals::offset_curve;
 use super::{DrawnParts, Part, may_belong_to};
+use crate::boxes::{BoxIndex, square, widened_box};
 use crate::geometry::{Curve, Line, Xy};
-use crate::keep_out::{Outline, widened_box};
+use crate::keep_out::Outline;
 
 /// An open chain of curves on a layer with parts.
 #[derive(Clone, Debug)]

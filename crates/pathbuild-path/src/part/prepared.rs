@@ -4,11 +4,11 @@ use std::cell::OnceCell;
 
 use rstar::{AABB, Envelope as _};
 
-use super::boxes::{BoxIndex, square};
 use super::intervals::{JOIN_GAP, Stretch, add_stretches_within, join_stretches};
 use super::{Part, PartRing};
+use crate::boxes::{BoxIndex, square, widened_box};
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::{Outline, widened_box};
+use crate::keep_out::Outline;
 
 /// A part with its rings indexed.
 pub(crate) struct PreparedPart<'p> {

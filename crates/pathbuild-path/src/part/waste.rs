@@ -11,8 +11,8 @@ use super::loose::is_enclosed;
 use super::neighbours::PlacedCuts;
 use super::placed_part;
 use super::prepared::{PreparedPart, Side};
+use crate::boxes::widened_box;
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::widened_box;
 
 /// The first cuts of a placed path.
 #[derive(Clone, Copy, Debug)]

@@ -8,10 +8,10 @@ use pathbuild_diagnostic::{Diagnostic, Message, Point};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
+use crate::boxes::{BoxIndex, square};
 use crate::element::diagnostic_point;
 use crate::geometry::{Curve, Line, Xy};
 use crate::keep_out::Outline;
-use crate::part::{BoxIndex, square};
 use crate::read::outline_graph::{Graph, NEAR_MISS_DISTANCE};
 use crate::read::rings::{
     Crossing, JOIN_DISTANCE, MAX_COMPARED_PAIRS, NumberedCurves, crossed_rings, crossings, curves_of,

@@ -7,9 +7,9 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, Envelope, RTree};
 
 use crate::approx::{above, near};
+use crate::boxes::square;
 use crate::element::Shape;
 use crate::geometry::{Curve, Xy};
-use crate::part::square;
 use crate::read::entities::TextCircle;
 
 /// An element that a text may belong to.

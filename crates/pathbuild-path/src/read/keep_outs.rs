@@ -10,12 +10,12 @@ use rstar::{AABB, Envelope, RTree};
 use smol_str::SmolStr;
 
 use crate::approx::{above, coincide, near};
+use crate::boxes::{square, widened_box};
 use crate::element::diagnostic_point;
 use crate::geometry::{Arc, Curve, Line, Xy};
-use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove, widened_box};
+use crate::keep_out::{KeepOut, KeepOutMap, KeepOuts, TipMove};
 use crate::language::Language;
 use crate::letter::Letter;
-use crate::part::square;
 use crate::read::entities::{AnyText, TextCircle, at_entity, curve, xy};
 use crate::read::likely_parameters::parameters_between_words;
 use crate::text::{

@@ -6,9 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
+use crate::boxes::{BoxIndex, square};
 use crate::disjoint_sets::{root, unite};
 use crate::geometry::{Curve, Xy};
-use crate::part::{BoxIndex, square};
 use crate::read::rings::{JOIN_DISTANCE, NumberedCurves, self_crossing};
 
 /// Largest distance in mm between two loose ends that were probably meant to meet.

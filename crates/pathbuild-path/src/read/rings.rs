@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
+use crate::boxes::{BoxIndex, widened_box};
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::{Outline, widened_box};
-use crate::part::{BoxIndex, Stretch, add_stretches_within, join_stretches};
+use crate::keep_out::Outline;
+use crate::part::{Stretch, add_stretches_within, join_stretches};
 
 /// Largest distance in mm between ends that are treated as joined.
 pub(super) const JOIN_DISTANCE: f64 = 0.01;

@@ -64,7 +64,7 @@ pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
         .fold(Total::default(), Add::add)
 }
 
-/// Returns PB211 for the first path whose material name differs from that of the program's first path.
+/// Returns PB211 for the first path with another material than the program's first path.
 fn differing_material(db: &Database, job: &Job) -> Option<Diagnostic> {
     let material =
         |target: &Target| summary(db, closure(db, *target).root?).signature.as_ref()?.material.clone();
@@ -85,7 +85,7 @@ fn repeated_path(db: &Database, job: &Job) -> Option<Diagnostic> {
     Some(problem.quoting("path", &**target.name(db)).in_file(target.file(db).path(db)))
 }
 
-/// Returns PB211 for the first path whose material thickness differs from that of the program's first path.
+/// Returns PB211 for the first path with another thickness than the program's first path.
 fn differing_thickness(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Diagnostic> {
     let first = programs.first()?;
     let mut targets = programs.iter().zip(&job.targets);

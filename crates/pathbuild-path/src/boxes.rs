@@ -1,4 +1,4 @@
-//! An index of bounding boxes.
+//! Bounding boxes of curves, and an index of them.
 
 use std::iter;
 
@@ -7,7 +7,6 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, Envelope as _, RTree};
 
 use crate::geometry::{Curve, Xy};
-use crate::keep_out::widened_box;
 
 type IndexedBox = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
@@ -82,13 +81,26 @@ impl GroupedBoxes {
     }
 }
 
+/// Returns the bounding box of a curve, or of the whole circle for an arc, widened by `margin`.
+pub(crate) fn widened_box(curve: &Curve, margin: f64) -> AABB<[f64; 2]> {
+    let (a, b) = match curve {
+        Curve::Line(line) => (line.start, line.end),
+        Curve::Arc(arc) => {
+            let out = nalgebra::Vector2::new(arc.radius, arc.radius);
+            (arc.centre - out, arc.centre + out)
+        }
+    };
+    let low = [a.x.min(b.x) - margin, a.y.min(b.y) - margin];
+    AABB::from_corners(low, [a.x.max(b.x) + margin, a.y.max(b.y) + margin])
+}
+
 /// Whether two curves may be nearer to each other than `reach` mm. For most pairs the boxes rule that out, faster than computing the distance.
 pub(crate) fn may_be_near(one: &Curve, other: &Curve, reach: f64) -> bool {
     widened_box(one, reach).intersects(&widened_box(other, 0.0))
 }
 
 /// Returns a box with its sides moved outwards by `reach` mm.
-pub(super) fn widened(extent: &AABB<[f64; 2]>, reach: f64) -> AABB<[f64; 2]> {
+pub(crate) fn widened(extent: &AABB<[f64; 2]>, reach: f64) -> AABB<[f64; 2]> {
     let ([left, low], [right, high]) = (extent.lower(), extent.upper());
     AABB::from_corners([left - reach, low - reach], [right + reach, high + reach])
 }
