@@ -42,7 +42,7 @@ impl Job {
     }
 
     /// Checks that the job can be written: it has operations, all its numbers are finite, and no operation begins to cut within the material right
-    /// after a tool change, or after a stop with the spindle off.
+    /// after a tool change, or after a stop or dwell with the spindle off.
     pub(super) fn check(&self) -> Result<(), Box<Diagnostic>> {
         if self.operations.is_empty() {
             return Err(Box::new(Diagnostic::new(&posts::JOB_EMPTY)));

@@ -24,7 +24,8 @@ pub struct NameTable {
 }
 
 impl NameTable {
-    /// Creates a table of the drawings among these files. Hidden ones define no paths for others, since the library leaves them out too.
+    /// Creates a table of the drawings among these files. Hidden drawings are listed, but other drawings cannot find their paths by name, since the
+    /// library leaves hidden drawings out too.
     fn new(files: &Names, pattern: &FilePattern) -> Self {
         let (mut names, mut ranges) = (Names::default(), Vec::new());
         for name in files.iter().filter(|name| is_drawing(Utf8Path::new(name))) {

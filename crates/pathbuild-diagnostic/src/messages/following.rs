@@ -104,7 +104,7 @@ messages! {
     /// G28.1 or G30.1, which overwrites the home position that the control stores.
     HOME_STORED: OffsetLeftOn {
         en: "{word} permanently stores the current position as the home position of the control: from now on, {home} in any other program moves here",
-        de: "{word} macht diese Stelle dauerhaft zur Referenzposition der Steuerung: {home} jedes anderen Programms fährt von nun an hierher",
+        de: "{word} macht diese Stelle dauerhaft zur Referenzposition der Steuerung: von nun an fährt {home} in jedem anderen Programm hierher",
         help_en: "remove the word, or store the usual home position again afterwards",
         help_de: "das Wort entfernen oder danach die übliche Referenzposition wieder speichern",
     }

@@ -129,7 +129,7 @@ messages! {
     }
     /// Support bars that a cut removes because the support bars of helical circles do not turn with their path.
     BAR_LOST_BY_TURNING: BarCutAway {
-        en: "this cut removes {lost} of the {length} mm of a support bar of path {other}, which is embedded turned: the bars of a circle do not turn with it, and that bar stands at {point} in the program (bars: {count})",
+        en: "this cut removes {lost} of the {length} mm of a support bar of path {other}: the path is turned where it is embedded, but the bars of a circle do not turn with it, so this bar is at {point} in the program (bars: {count})",
         de: "dieser Schnitt nimmt {lost} von {length} mm eines Stützstegs von Pfad {other} weg, der gedreht eingebettet ist: die Stege eines Kreises drehen sich nicht mit, und dieser steht im Programm bei {point} (Stege: {count})",
         help_en: "embed the path at another angle, or draw the ring as two arcs at a distance of half of O from the outline, whose bars turn with the path",
         help_de: "den Pfad in einem anderen Winkel einbetten oder den Ring als zwei Bögen im Abstand von O/2 neben dem Umriss zeichnen, deren Stege sich mitdrehen",
@@ -180,8 +180,8 @@ messages! {
     OUTLINE_NOT_CUT: OutlineNotCut {
         en: "no path of this drawing cuts through the material along this outline",
         de: "kein Pfad dieser Zeichnung fräst an diesem Umriss entlang durch das Material",
-        help_en: "draw the missing path; give a path along it that ends above the plate a lower B; move a path that runs O or more away to a distance of half of O from the outline; if this is not an outline of the part, move it to another layer",
-        help_de: "den fehlenden Pfad zeichnen; einem Pfad daran, der über der Platte endet, ein tieferes B geben; einen Pfad, der um O oder mehr entfernt verläuft, auf einen Abstand von O/2 an den Umriss schieben; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
+        help_en: "if a path is missing, draw it; if a path runs along the outline but ends above the plate, lower its B; if a path runs at a distance of O or more, move it to half of O from the outline; if this is not an outline of the part, move it to another layer",
+        help_de: "fehlt ein Pfad, ihn zeichnen; läuft ein Pfad am Umriss entlang, endet aber über der Platte, sein B tiefer setzen; verläuft ein Pfad im Abstand von O oder mehr, ihn auf O/2 an den Umriss heranrücken; ist dies kein Umriss des Teils, ihn auf einen anderen Layer legen",
     }
     /// A layer with a part that names a path which its drawing lacks.
     LAYER_WITHOUT_PATH: OutlineNotCut {

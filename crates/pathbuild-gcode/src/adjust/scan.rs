@@ -148,7 +148,7 @@ pub(super) fn probe_uses<'a>(program: Source<'a>, problems: &mut Vec<Diagnostic>
     for line in lines(program) {
         for spot in formula_spans(line.content()) {
             let mut reader = ProbeReader { uses: &mut uses, line, start: spot.formula.start };
-            if let Err(fault) = check(line.content(), &spot, &mut reader) {
+            if let Err(fault) = check_formula(line.content(), &spot, &mut reader) {
                 problems.push(fault_diagnostic(line, &fault));
                 break;
             }
@@ -168,7 +168,7 @@ pub(super) fn fault_in_line(fault: &Fault, spot: &FormulaSpan) -> Fault {
     Fault { at: fault.at.start + start..fault.at.end + start, ..*fault }
 }
 
-fn check(line: &[u8], spot: &FormulaSpan, probes: &mut impl Probes) -> Result<(), Fault> {
+fn check_formula(line: &[u8], spot: &FormulaSpan, probes: &mut impl Probes) -> Result<(), Fault> {
     let formula = &line[spot.formula.clone()];
     if formula.first() == Some(&b'=') {
         let at = spot.formula.start..spot.formula.start + 1;

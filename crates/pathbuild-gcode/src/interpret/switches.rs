@@ -98,7 +98,7 @@ impl Interpreter<'_> {
         }
         for index in 0..self.words.m_codes.len() {
             let (code, _) = self.words.m_codes[index];
-            if has_no_step(code) {
+            if !is_followed_m(code) {
                 self.step(block, Action::Change(Change::Switch(code)));
             }
         }
@@ -356,15 +356,9 @@ pub(super) fn is_unsupported_m(m_code: u16) -> bool {
     UNSUPPORTED_M_CODES.contains(&m_code)
 }
 
-/// Whether the interpreter executes an M code: stops, tools, spindle, coolant.
+/// Whether the interpreter executes an M code: stops, tools, spindle, coolant. All others become a [`Change::Switch`].
 pub(super) fn is_followed_m(m_code: u16) -> bool {
-    !has_no_step(m_code)
-}
-
-/// Whether no kind of [`Action`] stands for an M code, which then becomes a [`Change::Switch`].
-fn has_no_step(m_code: u16) -> bool {
-    let has_step = [STOPS, TOOL, COOLANT].iter().any(|group| group.contains(&m_code));
-    !has_step && !matches!(m_code, 30 | 40 | 50)
+    [STOPS, TOOL, COOLANT].iter().any(|group| group.contains(&m_code)) || matches!(m_code, 30 | 40 | 50)
 }
 
 const MILLIMETRES: Text = Text { en: "millimetres", de: "Millimeter" };

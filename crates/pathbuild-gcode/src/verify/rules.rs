@@ -373,7 +373,7 @@ pub(crate) fn tool_to_insert(comment: &str) -> Option<u32> {
     comment.trim().strip_prefix("Insert T")?.split_once(", ")?.0.parse().ok()
 }
 
-/// The words that tell the operator of a machine without M6 to change the tool.
+/// Progress of a tool change by hand on a machine without M6: which of its two signs, a selected tool and a stop, have occurred since the last move.
 #[derive(Clone, Copy, Debug, Default)]
 struct ChangeByHand {
     is_selected: bool,

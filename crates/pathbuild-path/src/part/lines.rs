@@ -15,8 +15,8 @@ use crate::geometry::{Curve, Xy};
 const PLACES: u32 = 32;
 
 impl DrawnParts {
-    /// Judges by the cuts of a drawing's paths which open outlines lack a piece, and which outlines are lines on a part. `is_complete`: whether the cuts
-    /// of all paths are known.
+    /// Uses the cuts of a drawing's paths to report open outlines that lack a piece (PB219), and to leave out openings that are only lines on a part:
+    /// paths cut out an opening inside them, but not them. `is_complete`: whether the cuts of all paths are known.
     pub fn judge_outlines(&mut self, paths: &[PathCuts], is_complete: bool) {
         self.judge_open_outlines(paths);
         // Paths that are embedded may cut the outlines.

@@ -76,7 +76,7 @@ impl Machine {
         }
         tenths('M').for_each(|code| self.apply_m_code(code));
         moves.is_position_unknown |= self.incremental;
-        self.move_registers(&line.words, &moves, format);
+        self.apply_registers(&line.words, &moves, format);
     }
 
     fn apply_g_code(&mut self, code: u32, moves: &mut AxisWords) {
@@ -113,19 +113,20 @@ impl Machine {
         }
     }
 
-    fn move_registers(&mut self, words: &[Word], moves: &AxisWords, format: NumberFormat) {
-        if moves.is_intermediate_point {
+    /// Updates the registers from the words of a line.
+    fn apply_registers(&mut self, words: &[Word], axis_words: &AxisWords, format: NumberFormat) {
+        if axis_words.is_intermediate_point {
             self.forget(&Register::AXES);
         }
         let mut moved = false;
         for word in words {
             let Some(register) = Register::of(word.letter) else { continue };
             let is_axis = Register::AXES.contains(&register);
-            if is_axis && moves.is_no_position {
+            if is_axis && axis_words.is_no_position {
                 continue;
             }
             moved |= is_axis;
-            let known = !(is_axis && (moves.is_position_unknown || moves.is_intermediate_point));
+            let known = !(is_axis && (axis_words.is_position_unknown || axis_words.is_intermediate_point));
             self.set(register, known.then(|| format.format(word.number)));
         }
         if moved && self.motion.is_some_and(|motion| motion == 730 || (810..=890).contains(&motion)) {

@@ -274,7 +274,7 @@ struct LineFinder {
     written: Vec<(u32, Move)>,
     /// Index of the first written move that is not matched yet.
     next: usize,
-    /// Line of the previous move, at first of the written move that reaches the first fully known position.
+    /// Line of the previous move; until a move is matched, the line of the written move that reaches the first fully known position.
     last: Option<u32>,
 }
 

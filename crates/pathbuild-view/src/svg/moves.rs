@@ -113,10 +113,10 @@ fn hole_radius(cut: &CutLine<'_>, path: &ScenePath, place: &PageTransform) -> Op
 
 /// Returns the cuts of a path, from shallow to deep.
 pub(super) fn cuts(path: &ScenePath) -> Vec<CutLine<'_>> {
-    let mut places: BTreeMap<Line, usize> = BTreeMap::new();
+    let mut places: BTreeMap<LineKey, usize> = BTreeMap::new();
     let mut cuts: Vec<CutLine<'_>> = Vec::new();
     for way in path.moves.iter().filter(|movement| movement.kind.cuts() && movement.is_placed()) {
-        let index = *places.entry(line_of(&way.way)).or_insert(cuts.len());
+        let index = *places.entry(line_key(&way.way)).or_insert(cuts.len());
         let diameter = path.cutter(way).map(|(diameter, _)| diameter);
         match cuts.get_mut(index) {
             Some(cut) => {
@@ -136,10 +136,10 @@ fn deeper(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 }
 
 /// A line seen from above, regardless of direction: its ends in micrometres and, for arcs, the centre and the side on which the arc runs.
-pub(super) type Line = ([[i64; 2]; 2], Option<([i64; 2], bool)>);
+pub(super) type LineKey = ([[i64; 2]; 2], Option<([i64; 2], bool)>);
 
 /// Returns the line along which a move runs.
-pub(super) fn line_of(way: &Move) -> Line {
+pub(super) fn line_key(way: &Move) -> LineKey {
     let [from, to] = [way.from, way.to].map(|end| [end.x(), end.y()].map(micrometres));
     let is_backwards = from > to;
     let arc = match way.shape {

@@ -59,7 +59,7 @@ pub struct CommonArgs {
     /// Use no cached results and cache none
     #[arg(long, global = true)]
     pub no_cache: bool,
-    /// Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)
+    /// Directory for cached results; copies of the tree can share it (also: `PATHBUILD_CACHE_DIR`)
     #[arg(long, global = true, value_name = "DIR", conflicts_with = "no_cache")]
     pub cache_dir: Option<Utf8PathBuf>,
 }
@@ -372,7 +372,7 @@ german! {
     "there is no such diagnostic: `pathbuild explain` lists all codes",
         "eine solche Meldung gibt es nicht: `pathbuild explain` führt alle Codes auf";
     "Use no cached results and cache none", "Verwendet keine gespeicherten Ergebnisse und speichert keine";
-    "Directory for cached results, which copies of the tree share (also: `PATHBUILD_CACHE_DIR`)",
+    "Directory for cached results; copies of the tree can share it (also: `PATHBUILD_CACHE_DIR`)",
         "Verzeichnis für gespeicherte Ergebnisse, das sich Kopien des Verzeichnisbaums teilen (auch: `PATHBUILD_CACHE_DIR`)";
     "With the faulty text underlined, help and notes", "Mit unterstrichenem Text, Hilfe und Hinweisen";
     "One line each", "Je eine Zeile";

@@ -4,7 +4,7 @@ use pathbuild_motion::{Move, MoveShape, Position};
 
 use crate::extent::{Corners, with_margin};
 use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath, Tip};
-use crate::svg::moves::{Line, line_of, micrometres};
+use crate::svg::moves::{LineKey, line_key, micrometres};
 
 /// Number of steps into which the deepest slope is divided. Each step has one colour.
 pub(super) const SLOPE_STEPS: f64 = 64.0;
@@ -72,12 +72,12 @@ pub(super) struct Stroke {
 
 impl SweptArea {
     /// Returns a key that is equal for areas that look the same: the line and the diameter in micrometres.
-    pub(super) fn key(&self) -> (Line, i64) {
-        (line_of(&self.way), micrometres(self.diameter))
+    pub(super) fn key(&self) -> (LineKey, i64) {
+        (line_key(&self.way), micrometres(self.diameter))
     }
 
     /// Returns the keys of the area and of the discs at its ends. A plunge sweeps only such a disc.
-    pub(super) fn keys(&self) -> [(Line, i64); 3] {
+    pub(super) fn keys(&self) -> [(LineKey, i64); 3] {
         let disc = |end: Position| {
             let way = Move { from: end, to: end, shape: MoveShape::Line, ..self.way };
             Self { way, diameter: self.diameter }.key()
