@@ -87,7 +87,8 @@ fn a_component_takes_away_its_own_bar_where_it_is_turned() {
 /// Whether a finding gives the reason that the bars of a circle do not turn.
 fn is_about_turning(found: &Diagnostic) -> bool {
     let help = found.help(Lang::En).unwrap_or_default();
-    found.text(Lang::En).contains("turned where it is embedded") && help.starts_with("embed the path at another angle")
+    found.text(Lang::En).contains("turned where it is embedded")
+        && help.starts_with("embed the path at another angle")
 }
 
 /// A groove behind the place of the bar joins both ends of the ring, without touching the bar.

@@ -108,7 +108,7 @@ messages! {
     }
     /// A part that is loose because the support bars of helical circles do not turn with their path.
     SEVERED_BY_TURNING: LoosePart {
-        en: "after this cut, nothing holds the part of path {other} whose outline begins at {place} in the program: the path is embedded turned, but the support bars of a circle do not turn with it",
+        en: "after this cut, nothing holds the part of path {other} whose outline begins at {place} in the program: the path is turned where it is embedded, but the support bars of a circle do not turn with it",
         de: "nach diesem Schnitt hält nichts mehr das Teil von Pfad {other}, dessen Umriss im Programm bei {place} beginnt: der Pfad ist gedreht eingebettet, aber die Stützstege eines Kreises drehen sich nicht mit",
         help_en: "embed the path at another angle, or draw the ring as two arcs at a distance of half of O from the outline, whose bars turn with the path",
         help_de: "den Pfad in einem anderen Winkel einbetten oder den Ring als zwei Bögen im Abstand von O/2 neben dem Umriss zeichnen, deren Stege sich mitdrehen",
