@@ -66,8 +66,8 @@ export class Listing {
   }
 
   /** Returns the step of the row that contains a node. */
-  stepAt(target: HTMLElement): number | undefined {
-    const line = target.closest<HTMLElement>(".row")?.dataset.line;
+  stepAt(target: Element | null): number | undefined {
+    const line = target?.closest<HTMLElement>(".row")?.dataset.line;
     return line === undefined ? undefined : this.byLine[this.listed ?? 0].get(Number(line));
   }
 

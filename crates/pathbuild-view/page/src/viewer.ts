@@ -648,7 +648,8 @@ for (const id of ["assumedTool", "assumedThickness", "assumedSurface"]) {
 }
 $("code").addEventListener("scroll", () => list(false));
 $("rows").addEventListener("click", (event) => {
-  const step = listing.stepAt(event.target as HTMLElement);
+  // The row may have been rendered anew since the button was pressed: the target is then all rows.
+  const step = listing.stepAt(document.elementFromPoint(event.clientX, event.clientY));
   if (step === undefined) return;
   go(step + 1);
   describe((chosen = step));
