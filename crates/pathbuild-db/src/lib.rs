@@ -21,7 +21,7 @@ pub use queries::{
     BoundPath, Closure, Collision, Destination, DrawnPath, Edge, Embedding, FileIndex, Instance,
     MissingOption, NameKey, NameLookup, Outcome, PathIndex, PathPlace, PathSummary, PlacedKeepOut,
     ResolvedPath, SecondDefinition, Trace, TracedProgram, assigned_texts, candidate_files, chains,
-    check_file, check_joined_parts, check_target, closure, combinations, content, content_hash,
+    check_file, check_joined_parts, check_target, closure, collisions, combinations, content, content_hash,
     defining_files, drawing_names, drawn_path, effective_parameters, embeds, embeds_others, file_index,
     has_clamp_layer, has_part_layer, heights_of_shims, keep_outs, likely_file, listing_error, locate,
     name_table, path, path_index, path_names, path_place, placed_keep_outs, placed_parts, prefetch, program,

@@ -81,7 +81,7 @@ struct Search<'t> {
     clamps: Vec<PlacedKeepOut>,
 }
 
-/// Key of a finding: moves of one kind along one element into one clamp.
+/// Key of a finding, beside the kind of move: an element, and the clamp that its moves hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct CollisionKey {
     clamp: usize,
@@ -91,8 +91,6 @@ struct CollisionKey {
     element: Option<u32>,
     /// The probe, if the probing program makes the moves.
     probe: Option<ProbeOrigin>,
-    /// The kind of move, by its English name.
-    move_kind: &'static str,
 }
 
 /// Moves of one kind into one clamp: their number, and their lowest Z in mm.
@@ -107,12 +105,12 @@ pub struct Collision {
 
 impl Collision {
     /// Creates a collision without moves.
-    pub fn new(move_kind: &'static Text) -> Self {
+    fn new(move_kind: &'static Text) -> Self {
         Self { move_kind, moves: 0, lowest: f64::INFINITY, is_sideways: false }
     }
 
     /// Counts a move that hits the clamp.
-    pub fn add(&mut self, way: &TipMove) {
+    fn add(&mut self, way: &TipMove) {
         self.moves += 1;
         self.lowest = self.lowest.min(way.lowest());
         self.is_sideways |= !way.is_vertical();
@@ -136,6 +134,26 @@ impl Collision {
     }
 }
 
+/// Returns the collisions of a cutter's moves with clamps, ordered by the key that `key` derives from the origin of a move and the index of the clamp, and
+/// by the English name of the kind of move. Each has the origin of its first move.
+pub fn collisions<O: Copy, K: Ord>(
+    clamps: &[PlacedKeepOut],
+    cutter: f64,
+    moves: impl Iterator<Item = (O, &'static Text, TipMove)>,
+    key: impl Fn(O, usize) -> K,
+) -> BTreeMap<(K, &'static str), (O, Collision)> {
+    let map = KeepOutMap::new(clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline)));
+    let mut collisions = BTreeMap::new();
+    for (origin, move_kind, way) in moves {
+        for clamp in map.entered_clamps(&way, cutter / 2.0, 0.0) {
+            let entry = collisions.entry((key(origin, clamp), move_kind.en));
+            let (_, collision) = entry.or_insert((origin, Collision::new(move_kind)));
+            collision.add(&way);
+        }
+    }
+    collisions
+}
+
 impl<'t> Search<'t> {
     fn new(db: &'t dyn Db, traced: &'t TracedProgram) -> Self {
         Self { db, traced, clamps: compute_placed_keep_outs(db, traced) }
@@ -143,11 +161,6 @@ impl<'t> Search<'t> {
 
     fn findings(&self) -> Vec<Diagnostic> {
         let TracedProgram { program, trace, .. } = self.traced;
-        let map =
-            KeepOutMap::new(self.clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline)));
-        let radius = program.largest_cutter() / 2.0;
-        // The collisions, each with the occurrence of the path that makes its first move.
-        let mut entries: BTreeMap<CollisionKey, (u32, Collision)> = BTreeMap::new();
         // The last lift belongs to no step.
         let milling = program
             .moves()
@@ -156,22 +169,18 @@ impl<'t> Search<'t> {
             let probe = trace.probes[number];
             (StepOrigin { occurrence: probe.occurrence, element: None }, Some(probe), movement)
         });
-        for (step, probe, movement) in milling.chain(probing) {
-            let Some(way) = tip_move(&movement) else { continue };
-            let move_kind = kind_of_move(&movement);
-            for clamp in map.entered_clamps(&way, radius, 0.0) {
-                let (occurrence, element) =
-                    self.occurrences().innermost_common_path(step, self.clamps[clamp].occurrence);
-                let entry = CollisionKey { clamp, occurrence, element, probe, move_kind: move_kind.en };
-                let (_, collision) =
-                    entries.entry(entry).or_insert((step.occurrence, Collision::new(move_kind)));
-                collision.add(&way);
-            }
-        }
-        let finding = |(entry, (mover, collision)): (&CollisionKey, &(u32, Collision))| {
-            self.finding(entry, *mover, collision)
+        let moves = milling.chain(probing).filter_map(|(step, probe, movement)| {
+            Some(((step, probe), kind_of_move(&movement), tip_move(&movement)?))
+        });
+        let key = |(step, probe), clamp: usize| {
+            let (occurrence, element) =
+                self.occurrences().innermost_common_path(step, self.clamps[clamp].occurrence);
+            CollisionKey { clamp, occurrence, element, probe }
         };
-        entries.iter().map(finding).collect()
+        collisions(&self.clamps, program.largest_cutter(), moves, key)
+            .iter()
+            .map(|((entry, _), ((first, _), collision))| self.finding(entry, first.occurrence, collision))
+            .collect()
     }
 
     fn finding(&self, entry: &CollisionKey, mover: u32, collision: &Collision) -> Diagnostic {

@@ -33,7 +33,7 @@ pub use index::{
     FileIndex, NameKey, PathIndex, PathSummary, content, content_hash, file_index, has_clamp_layer,
     has_part_layer, keep_outs, path_index, path_names,
 };
-pub use keep_outs::{Collision, PlacedKeepOut, placed_keep_outs};
+pub use keep_outs::{Collision, PlacedKeepOut, collisions, placed_keep_outs};
 pub use lookup::{
     ResolvedPath, candidate_files, defining_files, drawing_names, embeds_others, likely_file, listing_error,
     name_table, prefetch, resolve_path, search_path, unlistable_error,

@@ -1,15 +1,16 @@
 //! Programs that join several paths: `emit --join`. (book: program/posts)
 
-use std::collections::BTreeMap;
 use std::ops::Add;
 use std::sync::Arc;
 
-use pathbuild_db::{Collision, Database, PlacedKeepOut, Target, closure, placed_keep_outs, summary};
+use pathbuild_db::{
+    Collision, Database, PlacedKeepOut, Target, closure, collisions, placed_keep_outs, summary,
+};
 use pathbuild_diagnostic::messages::{parameters, paths as messages};
 use pathbuild_diagnostic::{Diagnostic, Point, words};
 use pathbuild_gcode::statistics::statistics;
 use pathbuild_path::approx::near;
-use pathbuild_path::{Curve, KeepOutMap, Line, TipMove, Xy};
+use pathbuild_path::{Curve, Line, TipMove, Xy};
 use pathbuild_toolpath::{Program, Total, kind_of_move, tip_move};
 
 use super::plan::Job;
@@ -28,30 +29,24 @@ pub(super) fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Progra
     if clamps.is_empty() {
         return Vec::new();
     }
-    let outlines = clamps.iter().map(|clamp| (clamp.placed.height, &*clamp.placed.outline));
-    let map = KeepOutMap::new(outlines);
-    let mut collisions = BTreeMap::new();
-    for (number, (program, traverse)) in programs.iter().zip(traverses(programs)).enumerate() {
+    let diagnostics = |((program, traverse), target): ((&Arc<Program>, Option<TipMove>), &Target)| {
         let own =
-            program.moves().filter_map(|(_, movement)| Some((tip_move(&movement)?, kind_of_move(&movement))));
-        let ways = traverse.into_iter().map(|traverse| (traverse, &words::RAPID_MOVE)).chain(own);
-        for (way, what) in ways {
-            for clamp in map.entered_clamps(&way, program.largest_cutter() / 2.0, 0.0) {
-                let collision = collisions.entry((number, clamp, what.en));
-                collision.or_insert(Collision::new(what)).add(&way);
-            }
-        }
-    }
-    let diagnostic = |((number, clamp, _), collision): (&(usize, usize, _), &Collision)| {
-        let (clamp, program) = (&clamps[*clamp], &programs[*number]);
-        let found = collision.diagnostic(&messages::JOINED_INTO_CLAMP, program.largest_cutter(), clamp, 0.0);
-        let found = found
-            .quoting("drawing", &clamp.drawing)
-            .with("clamp", Point::new(clamp.placed.at.x, clamp.placed.at.y));
-        let found = found.in_path(&program.path);
-        found.in_file(job.targets[*number].file(db).path(db))
+            program.moves().filter_map(|(_, movement)| Some((kind_of_move(&movement), tip_move(&movement)?)));
+        let traverse = traverse.map(|traverse| (&words::RAPID_MOVE, traverse));
+        let moves = traverse.into_iter().chain(own).map(|(what, way)| ((), what, way));
+        let cutter = program.largest_cutter();
+        let diagnostic = |((clamp, _), (_, collision)): ((usize, _), (_, Collision))| {
+            let clamp = &clamps[clamp];
+            let found = collision.diagnostic(&messages::JOINED_INTO_CLAMP, cutter, clamp, 0.0);
+            let found = found
+                .quoting("drawing", &clamp.drawing)
+                .with("clamp", Point::new(clamp.placed.at.x, clamp.placed.at.y));
+            found.in_path(&program.path).in_file(target.file(db).path(db))
+        };
+        let found = collisions(&clamps, cutter, moves, |(), clamp| clamp);
+        found.into_iter().map(diagnostic).collect::<Vec<_>>()
     };
-    collisions.iter().map(diagnostic).collect()
+    programs.iter().zip(traverses(programs)).zip(&job.targets).flat_map(diagnostics).collect()
 }
 
 /// Returns the sum of the programs' lengths and times, with the rapid moves from one program to the next; `rapid` is the speed of rapid moves in
