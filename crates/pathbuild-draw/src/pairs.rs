@@ -163,7 +163,8 @@ pub fn ascii(pairs: &[Pair<'_>], encoding: Option<&'static Encoding>, line_end: 
     bytes
 }
 
-/// Appends a string. Characters missing from the encoding become `\U+XXXX`, control characters become carets.
+/// Appends a string. Characters missing from the encoding become `\U+XXXX`, and control characters are written in caret
+/// notation, such as `^J` for a line feed.
 pub fn encode(string: &str, encoding: Option<&'static Encoding>, bytes: &mut Vec<u8>) {
     for c in string.chars() {
         match c {

@@ -35,7 +35,8 @@ pub(crate) struct OpenedFiles {
 }
 
 impl OpenedFiles {
-    /// Opens the files; `None` if the configuration or its post is invalid. Also returns the answer, which contains the problems.
+    /// Opens the files. Returns the opened files, or `None` if the configuration or its post is invalid, and the JSON answer, which contains the
+    /// problems.
     pub(crate) fn new(files: &Arc<Files>, options: Options, lost: Vec<AbortedItem>) -> (Option<Self>, Value) {
         let system: Arc<dyn System> = Arc::<Files>::clone(files);
         let Options { feed, sweep_height, rapid, probe_feed, post, lang } = options;

@@ -274,8 +274,8 @@ messages! {
     }
     /// Note: a dwell of the program that the output lacks.
     DWELL_LOST: PostDiffers {
-        en: "the program dwells for {seconds} s here, but the rest of the output has no such dwell",
-        de: "das Programm wartet hier {seconds} s, diese Wartezeit fehlt aber im Rest der Ausgabe",
+        en: "the program dwells for {seconds} s, but this dwell is missing from the output or comes there in another order",
+        de: "das Programm wartet {seconds} s, diese Wartezeit fehlt aber in der Ausgabe oder steht dort in anderer Reihenfolge",
     }
     /// Note: the spindle is not started before the first cut.
     SPINDLE_NOT_STARTED: PostDiffers {

@@ -89,8 +89,8 @@ messages! {
     HEIGHT_TOO_FAR: CorrectionTooLarge {
         en: "this height would be changed by {off} mm; at most {limit} mm are allowed",
         de: "diese Höhe würde um {off} mm verändert; erlaubt sind höchstens {limit} mm",
-        help_en: "draw probes near this place, which lies far outside the others, or allow more with --max-correction",
-        help_de: "Proben in der Nähe dieser Stelle zeichnen, die weit außerhalb der anderen liegt, oder mit --max-correction mehr erlauben",
+        help_en: "draw probes near this place if it lies far from the existing ones, or allow more with --max-correction",
+        help_de: "Proben in der Nähe dieser Stelle zeichnen, falls sie weit von den vorhandenen entfernt liegt, oder mit --max-correction mehr erlauben",
     }
     /// A rapid move at S, which is not corrected, at or below the highest measured height.
     SWEEP_BELOW_MEASURED: CorrectionTooLarge {

@@ -80,8 +80,8 @@ messages! {
     }
     /// `verify --against`: a probing program that goes on after the end of the drawing's.
     PROBING_ENDED: MovesDiffer {
-        en: "the drawing's probing program has no line here: it has ended",
-        de: "das Antastprogramm der Zeichnung hat hier keine Zeile mehr: es ist zu Ende",
+        en: "this line is too many: the drawing's probing program ends before it",
+        de: "diese Zeile ist zu viel: das Antastprogramm der Zeichnung endet davor",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",
     }
@@ -460,8 +460,8 @@ messages! {
     STOCK_STATED_TWICE: HeaderContradiction {
         en: "comments place a corner of the stock at {axis} {one} and at {axis} {other}",
         de: "Kommentare geben eine Ecke des Rohteils mit {axis} {one} und mit {axis} {other} an",
-        help_en: "correct the wrong value; until then, the higher one is used",
-        help_de: "den falschen Wert berichtigen; bis dahin gilt der höhere",
+        help_en: "correct the wrong comment; until then, the corner with the higher Z is used, or the later one if Z is the same",
+        help_de: "den falschen Kommentar berichtigen; bis dahin gilt die Ecke mit dem höheren Z, bei gleichem Z die spätere",
     }
     /// Statistics at the end of a program that do not match its moves.
     LENGTH_DIFFERS: Disagreement {

@@ -96,12 +96,12 @@ pub(crate) fn label(fields: &Fields<'_>, max_text: usize) -> Option<(SmolStr, Ci
     Some((text.plain.finish(), Circle { centre, radius }))
 }
 
-/// Whether a tab is before the last letter of a row.
+/// Whether a tab is before the last visible character of a row.
 fn has_tab(plain: &str) -> bool {
     plain.contains('\t') && plain.split('\n').any(|row| row.trim_end().contains('\t'))
 }
 
-/// Whether empty rows follow the last letter.
+/// Whether empty rows follow the last visible character.
 fn has_empty_end(plain: &str) -> bool {
     let end = plain.trim_end().len();
     end > 0 && plain[end..].contains('\n')

@@ -292,7 +292,8 @@ fn position(report: &Captures<'_>) -> Result<[f64; 3], &'static Message> {
     }
 }
 
-/// Parses the first three of several comma-separated numbers; machines with more axes report more.
+/// Parses comma-separated numbers and returns the first three, because machines with more axes report more; `None` if there are fewer, or if any is
+/// not a number.
 fn first_three(text: &[u8]) -> Option<[f64; 3]> {
     let numbers: Option<Vec<f64>> = text.split(|byte| *byte == b',').map(parse).collect();
     numbers?.first_chunk().copied()

@@ -106,7 +106,8 @@ impl Program for Vec<Step> {
     }
 }
 
-/// A program given as text, which is interpreted each time. Its problems are only reported by [`interpret_each`].
+/// A program given as text, which is interpreted anew on every call of [`each`](Program::each). That call discards the problems found;
+/// [`interpret_each`] returns them.
 #[derive(Clone, Debug)]
 pub struct Text<'t> {
     /// Content of the file.

@@ -171,7 +171,7 @@ struct MaterialEstimate {
     pieces: u64,
     /// Upper bound of the area in mm² by which the parts of cutting moves overlap at the fine resolution.
     overlap: f64,
-    /// Bounding box of all cuts in X and Y.
+    /// Bounding box in X and Y of all cuts, enlarged on each side by the diameter of the cutter; `None` before the first cut.
     sides: Option<[(f64, f64); 2]>,
     /// The last line with a cut.
     line: u32,

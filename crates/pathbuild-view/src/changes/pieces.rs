@@ -106,7 +106,8 @@ impl Divider {
         self.is_exhausted
     }
 
-    /// Counts from the beginning again. Moves that were all divided within the limits are then divided in the same way.
+    /// Resets the counters that are compared with the limits. Moves whose first division stayed within the limits can then be divided again, with
+    /// the same result.
     pub(super) fn restart(&mut self) {
         (self.additional, self.searched) = (0, 0);
     }
