@@ -33,7 +33,10 @@ fn table(name: &str, lang: Lang) -> String {
         "commands" => commands(lang),
         "diagnostics" => diagnostics(lang),
         "configuration" => configuration(),
-        _ => posts(name, lang),
+        _ => match name.strip_prefix("configuration-") {
+            Some(section) => german_keys(section),
+            None => posts(name, lang),
+        },
     }
 }
 
@@ -203,6 +206,18 @@ fn configuration() -> String {
     format!("```toml\n{}```", pathbuild_workspace::config::template())
 }
 
+/// Returns the keys of a section of the configuration with their descriptions in German, and their defaults if any has one.
+fn german_keys(section: &str) -> String {
+    let rows = pathbuild_workspace::config::german_rows(section);
+    assert!(!rows.is_empty(), "the configuration has no section {section}");
+    let columns = if rows.iter().all(|[.., default]| default.is_empty()) { 2 } else { 3 };
+    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | ")).replace("  |", " |");
+    let heads = ["Schlüssel", "Bedeutung", "Vorgabe"].map(str::to_owned);
+    let rule = vec!["---".to_owned(); columns];
+    let rows = rows.iter().map(|row| line(&row[..columns]));
+    [line(&heads[..columns]), line(&rule)].into_iter().chain(rows).collect()
+}
+
 /// Returns every word in backticks in the first column of a page's tables.
 fn first_column(text: &str) -> BTreeSet<String> {
     let rows = text.lines().filter_map(|line| line.strip_prefix("| ")?.split(" | ").next());
@@ -221,7 +236,7 @@ fn the_letters_of_the_book_are_those_of_the_code() {
     }
 }
 
-/// The code describes the keys in English only, so the German page has its own table, which must be complete.
+/// The tables of keys are generated, except for the keys within other tables, such as those of a tool.
 #[test]
 fn the_german_page_explains_every_key_of_the_configuration() {
     let template = pathbuild_workspace::config::template();
@@ -231,7 +246,7 @@ fn the_german_page_explains_every_key_of_the_configuration() {
     let text =
         pages(Lang::De).into_iter().find(|page| page.name == "reference/configuration").unwrap().text();
     let explained = first_column(&text);
-    let missing: Vec<_> = keys.iter().filter(|key| !explained.contains(**key)).collect();
+    let missing: Vec<_> = keys.iter().filter(|key| !text.contains(&format!("`{key}`"))).collect();
     let unknown: Vec<_> =
         explained.iter().filter(|key| !keys.contains(key.as_str()) && is_key(key)).collect();
     assert!(missing.is_empty() && unknown.is_empty(), "missing {missing:?}, unknown {unknown:?}");

@@ -16,6 +16,7 @@ mod scratch;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use pathbuild_diagnostic::Lang;
 use rayon::prelude::*;
@@ -36,7 +37,11 @@ impl Page {
         project().join(&self.file)
     }
 
+    /// Returns the page's text, after a pending update of all pages.
     fn text(&self) -> String {
+        if is_updating() {
+            LazyLock::force(&DIFFERENCES);
+        }
         fs::read_to_string(self.path()).unwrap()
     }
 }
@@ -91,7 +96,7 @@ pub(crate) fn kept(file: &Path, now: &[u8]) -> Option<String> {
     if fs::read(file).is_ok_and(|content| content == now) {
         return None;
     }
-    if std::env::var_os("PATHBUILD_UPDATE").is_some() {
+    if is_updating() {
         fs::create_dir_all(file.parent().unwrap()).unwrap();
         fs::write(file, now).unwrap();
         return None;
@@ -100,23 +105,29 @@ pub(crate) fn kept(file: &Path, now: &[u8]) -> Option<String> {
     Some(format!("{shown} differs from what is made now (PATHBUILD_UPDATE=1 writes it: read what changed)"))
 }
 
+fn is_updating() -> bool {
+    std::env::var_os("PATHBUILD_UPDATE").is_some()
+}
+
 fn assert_none(wrong: &[String]) {
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
-/// Tables are regenerated before commands are run, so that both changes are written together.
+/// Differences between the pages and what is generated now; an updating run writes the pages instead.
+static DIFFERENCES: LazyLock<Vec<String>> =
+    LazyLock::new(|| all_pages().par_iter().filter_map(difference).collect());
+
+/// Compares a page with what is generated now. Tables are regenerated before commands are run, so that both changes are written together.
+fn difference(page: &Page) -> Option<String> {
+    let text = fs::read_to_string(page.path()).unwrap();
+    let now = console::replayed(page, &generated::filled(page, &text));
+    let difference = first_difference(&text, &now);
+    kept(&page.path(), now.as_bytes()).map(|wrong| format!("{wrong}\n{difference}"))
+}
+
 #[test]
 fn pages_show_what_is_printed_and_what_the_code_says() {
-    let wrong: Vec<String> = all_pages()
-        .par_iter()
-        .filter_map(|page| {
-            let text = page.text();
-            let now = console::replayed(page, &generated::filled(page, &text));
-            let difference = first_difference(&text, &now);
-            kept(&page.path(), now.as_bytes()).map(|wrong| format!("{wrong}\n{difference}"))
-        })
-        .collect();
-    assert_none(&wrong);
+    assert_none(&DIFFERENCES);
 }
 
 fn first_difference(text: &str, now: &str) -> String {

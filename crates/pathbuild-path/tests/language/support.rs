@@ -25,15 +25,15 @@ impl Compiled {
     }
 }
 
-/// Thresholds that disable doubts, because odd values do not matter in tests of other rules.
+/// Thresholds that disable doubts about values that are odd in tests of other rules.
 const NO_DOUBTS: DoubtThresholds = DoubtThresholds {
     below_plate: f64::INFINITY,
     infeed: f64::INFINITY,
     mark_depth: f64::INFINITY,
-    maximum_feed: None,
     has_cycles: true,
     text_margin: 0.0,
     hole_margin: 0.0,
+    ..DoubtThresholds::DEFAULT
 };
 
 pub(crate) fn language() -> Language {

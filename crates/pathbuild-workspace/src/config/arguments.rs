@@ -17,8 +17,6 @@ use crate::waivers::RunDate;
 pub struct SettingOption {
     /// The name of the key and, after two hyphens, of the option.
     pub name: &'static str,
-    /// Position among the common options in the help, from 0.
-    pub position: usize,
     /// Kind and number of the option's values.
     pub values: OptionValues,
     /// Help text of the option.

@@ -15,29 +15,29 @@ pub fn show(settings: &Settings, with_origin: bool) -> String {
         Some(file) => format!("# {}\n", shown::line(file.as_str())),
         None => "# no pathbuild.toml\n".to_owned(),
     };
-    for (_, _, shown) in without_header() {
-        write(&mut text, shown(settings), with_origin);
+    for table in without_header() {
+        write(&mut text, (table.shown)(settings), with_origin);
     }
-    for (header, _, shown) in with_header() {
-        _ = write!(text, "\n[{header}]\n");
-        write(&mut text, shown(settings), with_origin);
+    for table in with_header() {
+        _ = write!(text, "\n[{}]\n", table.header);
+        write(&mut text, (table.shown)(settings), with_origin);
     }
     text
 }
 
 /// Returns the tables without a header. Their keys come first in the file.
 fn without_header() -> impl Iterator<Item = &'static TableEntry> {
-    TABLES.iter().filter(|(header, ..)| header.is_empty())
+    TABLES.iter().filter(|table| table.header.is_empty())
 }
 
 fn with_header() -> impl Iterator<Item = &'static TableEntry> {
-    TABLES.iter().filter(|(header, ..)| !header.is_empty())
+    TABLES.iter().filter(|table| !table.header.is_empty())
 }
 
 /// Lists all keys of the configuration with their values, each with the header of its table, which is empty for keys before the first table.
 pub fn settings(settings: &Settings) -> impl Iterator<Item = (&'static str, ShownSetting)> {
     let all = without_header().chain(with_header());
-    all.flat_map(|(header, _, shown)| shown(settings).into_iter().map(|setting| (*header, setting)))
+    all.flat_map(|table| (table.shown)(settings).into_iter().map(|setting| (table.header, setting)))
 }
 
 fn write(text: &mut String, entries: Vec<ShownSetting>, with_origin: bool) {
@@ -51,8 +51,8 @@ fn write(text: &mut String, entries: Vec<ShownSetting>, with_origin: bool) {
 
 /// Returns the JSON schema (draft 2020-12) of `pathbuild.toml`.
 pub fn schema() -> Json {
-    let mut root: Map<String, Json> = without_header().flat_map(|(_, keys, _)| properties(keys)).collect();
-    root.extend(with_header().map(|(header, keys, _)| ((*header).to_owned(), object(&properties(keys)))));
+    let mut root: Map<String, Json> = without_header().flat_map(|table| properties(table.keys)).collect();
+    root.extend(with_header().map(|table| (table.header.to_owned(), object(&properties(table.keys)))));
     let mut schema = object(&root);
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     schema["title"] = json!("pathbuild.toml");
@@ -83,9 +83,9 @@ pub fn template() -> String {
     for key in tables::KEYS {
         table(&mut text, key);
     }
-    for (header, keys, _) in with_header() {
-        _ = write!(text, "\n[{header}]\n");
-        for key in *keys {
+    for section in with_header() {
+        _ = write!(text, "\n[{}]\n", section.header);
+        for key in section.keys {
             entry(&mut text, key, "#");
         }
     }
@@ -116,4 +116,22 @@ fn table(text: &mut String, key: &Key) {
     for line in key.example.lines() {
         _ = writeln!(text, "#{line}");
     }
+}
+
+/// Returns the German descriptions of the keys of a section, which is named like its module: name, meaning and default of each key.
+pub fn german_rows(section: &str) -> Vec<[String; 3]> {
+    let Some(table) = TABLES.iter().find(|table| table.name == section) else { return Vec::new() };
+    let defaults = (table.shown)(&Settings::default());
+    table.keys.iter().zip(defaults).map(|(key, default)| german_row(key, default.value.as_deref())).collect()
+}
+
+fn german_row(key: &Key, default: Option<&str>) -> [String; 3] {
+    let shown = match default {
+        None => "",
+        Some("[]") => "keine",
+        Some(_) => key.example,
+    };
+    let (meaning, default) = key.german.split_once(" | ").unwrap_or((key.german, shown));
+    let name = key.example.split_once('\n').map_or(key.name, |(header, _)| header);
+    [format!("`{name}`"), meaning.to_owned(), default.to_owned()]
 }

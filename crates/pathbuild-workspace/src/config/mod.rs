@@ -20,7 +20,7 @@ mod table_kinds;
 pub mod types;
 
 pub use arguments::{GivenOptions, OptionValues, Overrides, SettingOption, number, positive, regex};
-pub use describe::{schema, settings, show, template};
+pub use describe::{german_rows, schema, settings, show, template};
 pub use load::{UserSettings, check_text, load, repository};
 pub use origin::{Origin, ResultKind, ShownSetting, SourcedValue};
 pub use pathbuild_db::system::clean;

@@ -109,6 +109,8 @@ pub(super) struct Key {
     pub(super) name: &'static str,
     /// Description of the key, in one or more lines.
     pub(super) meaning: &'static [&'static str],
+    /// Description in German, with the default in words behind ` | ` if the book cannot show the value.
+    pub(super) german: &'static str,
     /// A value as TOML: the default, or an example if there is no default.
     pub(super) example: &'static str,
     pub(super) schema: fn() -> Json,

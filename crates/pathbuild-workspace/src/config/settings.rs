@@ -15,8 +15,15 @@ use super::reader::TomlReader;
 use super::sections::{emit, general, limits, machine, tables, verify, warnings, watch};
 use crate::waivers::RunDate;
 
-/// A table of the configuration: its header, its keys, and the function that returns their values.
-pub(super) type TableEntry = (&'static str, &'static [Key], fn(&Settings) -> Vec<ShownSetting>);
+/// A table of the configuration.
+pub(super) struct TableEntry {
+    /// Name of its module in [`sections`](super::sections).
+    pub(super) name: &'static str,
+    /// Its header; empty if its keys come before all headers, or are tables with headers of their own.
+    pub(super) header: &'static str,
+    pub(super) keys: &'static [Key],
+    pub(super) shown: fn(&Settings) -> Vec<ShownSetting>,
+}
 
 /// Declares the tables of the configuration, each with its header and the function that reads it. Keys of a table without a header come
 /// before all headers.
@@ -84,7 +91,12 @@ macro_rules! tables {
         }
 
         pub(super) const TABLES: &[TableEntry] =
-            &[$(($header, $table::KEYS, |settings| settings.$table.shown()),)*];
+            &[$(TableEntry {
+                name: stringify!($table),
+                header: $header,
+                keys: $table::KEYS,
+                shown: |settings| settings.$table.shown(),
+            },)*];
     };
 }
 

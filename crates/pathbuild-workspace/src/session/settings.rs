@@ -96,15 +96,10 @@ pub fn limits(settings: &config::Settings) -> Limits {
 }
 
 fn doubt_thresholds(settings: &config::Settings) -> DoubtThresholds {
-    let warnings = &settings.warnings;
     DoubtThresholds {
-        below_plate: warnings.below_plate.value,
-        infeed: warnings.infeed.value,
-        mark_depth: warnings.mark_depth.value,
         maximum_feed: settings.machine.max_feed.value,
         has_cycles: settings.general.cycles.value,
-        text_margin: warnings.text_margin.value,
-        hole_margin: warnings.hole_margin.value,
+        ..settings.warnings.thresholds()
     }
 }
 

@@ -23,14 +23,7 @@ pub struct CommonArgs {
     #[command(flatten)]
     pub settings: SettingArgs,
     /// Language of messages (also: `PATHBUILD_LANG`)
-    #[arg(
-        long,
-        global = true,
-        value_enum,
-        hide_possible_values = true,
-        value_name = "en|de",
-        display_order = 9
-    )]
+    #[arg(long, global = true, value_enum, hide_possible_values = true, value_name = "en|de")]
     pub lang: Option<LangArg>,
     /// Use this configuration instead of the drawing's pathbuild.toml
     #[arg(long, global = true, value_name = "FILE")]
@@ -134,11 +127,7 @@ impl FromArgMatches for SettingArgs {
 }
 
 fn argument(option: &SettingOption) -> Arg {
-    let argument = Arg::new(option.name)
-        .long(option.name)
-        .global(true)
-        .help(option.help.en)
-        .display_order(option.position);
+    let argument = Arg::new(option.name).long(option.name).global(true).help(option.help.en);
     match option.values {
         OptionValues::Switch => argument.action(ArgAction::SetTrue),
         OptionValues::Text(name) => argument.value_name(name).allow_hyphen_values(true),
