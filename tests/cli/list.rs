@@ -285,3 +285,27 @@ fn a_shell_completes_names_of_paths_posts_dialects_and_codes() {
     let broken = place.file("pathbuild.toml", "library = 1");
     assert_eq!(completed(&broken, &["check", "12"]), [""; 0], "a configuration with faults has no names");
 }
+
+/// Commands that answer questions end with 0 if the drawing has errors but known paths, and name only the error of a drawing that hides its paths.
+#[test]
+fn errors_of_a_drawing_with_known_paths_keep_no_question_from_being_answered() {
+    let options = "library = ['.']\nfeed = 150\nrapid = 1000\nsweep-height = 20\nkeep-out = 'clamps'\n";
+    let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 MPlate\"\nmill 0,0 40,0\nend 40,0\n";
+    let clamp = "layer clamps\npolyline 20,10 30,10 30,20 20,20 closed\n";
+    let place = |drawing: String| {
+        let place = Place::new().file("pathbuild.toml", options);
+        place.file("1234.dxf", sheet(&drawing).unwrap().to_dxf())
+    };
+    let (sound_units, inches) = (place(format!("{drawing}{clamp}")), place(format!("units inch\n{drawing}")));
+    assert!(sound_units.run("check .").stderr.contains("PB117"));
+    for command in ["list", "stats", "texts", "where", "deps", "rdeps", "graph"] {
+        for argument in [".", "1234.1P"] {
+            let run = sound_units.run(&format!("{command} {argument}"));
+            assert!(run.status == Some(0) && !run.stderr.contains("error["), "{command}: {run}");
+        }
+        let run = inches.run(&format!("{command} 1234.1P"));
+        assert!(run.status == Some(1) && run.stderr.contains("PB113"), "{command}: {run}");
+        assert!(!run.stderr.contains("PB503"), "{command}: {run}");
+        assert!(inches.run(&format!("{command} 1235.1P")).stderr.contains("PB503"), "{command}");
+    }
+}

@@ -24,7 +24,7 @@ pub use queries::{
     check_file, check_joined_parts, check_target, closure, collisions, combinations, content, content_hash,
     defining_files, drawing_names, drawn_path, effective_parameters, embeds, embeds_others, file_index,
     has_clamp_layer, has_part_layer, heights_of_shims, keep_outs, likely_file, listing_error, locate,
-    name_table, path, path_index, path_names, path_place, placed_keep_outs, placed_parts, prefetch, program,
-    q_project, q_project_findings, raw_file, remaining_layers, resolve_path, search_path, second_definitions,
-    summary, trace, traced_program, uncut_rings, unlistable_error,
+    may_define, name_table, path, path_index, path_names, path_place, placed_keep_outs, placed_parts,
+    prefetch, program, q_project, q_project_findings, raw_file, remaining_layers, resolve_path, search_path,
+    second_definitions, summary, trace, traced_program, uncut_rings, unlistable_error,
 };

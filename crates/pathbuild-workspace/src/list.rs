@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use camino::Utf8PathBuf;
-use pathbuild_db::{Database, Role, SourceFile, Target, check_file, closure, path_names, program, summary};
+use pathbuild_db::{Database, Role, SourceFile, Target, closure, may_define, path_names, program, summary};
 use pathbuild_diagnostic::messages::outputs as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_gcode::statistics::{AxisRanges, cutting_box, statistics};
@@ -101,8 +101,7 @@ impl ListArguments {
         session.parse_ahead(&files);
         let mut paths: Vec<(SourceFile, PathName)> = Vec::new();
         for file in &files {
-            let found = check_file(session.db(), *file);
-            listed.diagnostics.extend(found.iter().filter(|found| found.is_error()).cloned());
+            listed.diagnostics.extend(session.errors_without_paths(*file).cloned());
             let names = path_names(session.db(), *file).iter().filter(|name| self.matches(name));
             paths.extend(names.map(|name| (*file, name.clone())));
         }
@@ -112,11 +111,18 @@ impl ListArguments {
         listed.diagnostics.extend(build_errors);
         let unmatched = self
             .unmatched_patterns(&listed.paths)
+            .filter(|text| !files.iter().any(|file| may_hide_path(session, *file, text)))
             .map(|text| Diagnostic::new(&messages::NO_PATH_LIKE).quoting("name", text));
         listed.diagnostics.extend(unmatched);
         listed.diagnostics = session.with_hints(std::mem::take(&mut listed.diagnostics));
         listed
     }
+}
+
+/// Whether a drawing may define a path according to its file name, but has errors and no known path.
+fn may_hide_path(session: &Session<'_>, file: SourceFile, name: &str) -> bool {
+    may_define(session.db(), file.path(session.db()), &PathName::new(name))
+        && session.errors_without_paths(file).next().is_some()
 }
 
 /// Lists a single path of a drawing.

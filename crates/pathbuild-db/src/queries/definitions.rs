@@ -92,7 +92,7 @@ fn ambiguous(
 }
 
 /// Whether the name of a drawing's file says that it may define a path.
-fn may_define(db: &dyn Db, file: &Utf8Path, name: &PathName) -> bool {
+pub fn may_define(db: &dyn Db, file: &Utf8Path, name: &PathName) -> bool {
     let settings = Settings::get(db);
     let Some(key) = PathKey::new(name.as_str(), &settings.language(db).path_pattern) else { return false };
     let ranges = settings.file_pattern(db).ranges(file.file_stem().unwrap_or_default());

@@ -26,7 +26,7 @@ mod reading;
 mod results;
 
 pub use closures::{Closure, Destination, Edge, MissingOption, NameLookup, Trace, closure, trace};
-pub use definitions::{SecondDefinition, second_definitions};
+pub use definitions::{SecondDefinition, may_define, second_definitions};
 pub use embedding::{Embedding, Outcome, embeds};
 pub use embedding::{Instance, chains, path, summary};
 pub use index::{

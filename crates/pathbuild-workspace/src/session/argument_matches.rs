@@ -12,8 +12,8 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Listings;
 use pathbuild_db::system::{Entry, FileKind, is_drawing, join};
 use pathbuild_db::{
-    Db as _, Directory, PendingListing, SourceFile, candidate_files, catch_bugs, check_file, drawing_names,
-    likely_file, prefetch, search_path,
+    Db as _, Directory, PendingListing, SourceFile, candidate_files, catch_bugs, drawing_names, likely_file,
+    prefetch, search_path,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::outputs as messages;
@@ -182,9 +182,8 @@ impl Session<'_> {
             found.problems.extend(problems);
         }
         let known: FxHashSet<SourceFile> = paths.iter().map(|(_, file)| *file).collect();
-        let unknown = files.iter().filter(|file| !known.contains(file));
-        let problems = unknown.flat_map(|file| check_file(self.db(), *file));
-        found.problems.extend(problems.filter(|problem| problem.is_error()).cloned());
+        let unknown = files.into_iter().filter(|file| !known.contains(file));
+        found.problems.extend(unknown.flat_map(|file| self.errors_without_paths(file)).cloned());
         let matching = paths.into_iter().filter(|(name, _)| pattern.matches(name.as_str()));
         let before = found.arguments.len();
         for (path, file) in matching {

@@ -4,8 +4,8 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{
-    Closure, Database, Db, Destination, Instance, Role, SourceFile, Target, check_file, closure, file_index,
-    locate, path_index, summary,
+    Closure, Database, Db, Destination, Instance, Role, SourceFile, Target, closure, file_index, locate,
+    path_index, summary,
 };
 use pathbuild_diagnostic::messages::files;
 use pathbuild_diagnostic::{Code, Diagnostic};
@@ -174,7 +174,7 @@ struct GraphArguments {
 
 impl GraphArguments {
     fn new(session: &Session<'_>, inputs: &Inputs) -> Self {
-        let (db, selection) = (session.db(), session.select(inputs));
+        let selection = session.select(inputs);
         let files = selection.whole(session);
         session.parse_ahead(&files);
         let mut targets: Vec<Target> =
@@ -183,8 +183,7 @@ impl GraphArguments {
         let named = selection.paths.iter().filter(|path| !is_whole.contains(&path.file));
         targets.extend(named.map(|path| session.db().target(path.file, path.name.as_str(), Role::Checked)));
         let mut problems = selection.problems;
-        let broken = files.iter().flat_map(|file| check_file(db, *file)).filter(|problem| problem.is_error());
-        problems.extend(broken.cloned());
+        problems.extend(files.iter().flat_map(|file| session.errors_without_paths(*file)).cloned());
         let problems = session.with_hints(problems);
         Self { targets, files, problems }
     }

@@ -149,8 +149,15 @@ impl Session<'_> {
     fn read_errors(&self, candidates: &[SourceFile], names: NamesOf<'_>) -> Vec<Diagnostic> {
         let is_unread = |file: &SourceFile| names(*file).is_empty();
         let files = self.distinct_files(candidates.iter().copied().filter(is_unread));
-        let problems = files.iter().flat_map(|file| check_file(&self.db, *file));
-        problems.filter(|problem| problem.is_error()).cloned().collect()
+        files.into_iter().flat_map(|file| self.errors_without_paths(file)).cloned().collect()
+    }
+
+    /// Returns the errors of a drawing without any known path: they may hide its paths. Other errors of a drawing do not keep questions about its
+    /// paths from being answered.
+    pub fn errors_without_paths(&self, file: SourceFile) -> impl Iterator<Item = &Diagnostic> {
+        let is_unread = path_names(&self.db, file).is_empty();
+        let found = is_unread.then(|| check_file(&self.db, file)).into_iter().flatten();
+        found.filter(|problem| problem.is_error())
     }
 
     /// Returns the errors that may have kept a name from being found.

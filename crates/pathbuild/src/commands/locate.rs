@@ -2,7 +2,7 @@
 
 use std::cell::LazyCell;
 
-use pathbuild_db::{PathPlace, SourceFile, check_file, path_names, path_place};
+use pathbuild_db::{PathPlace, SourceFile, path_names, path_place};
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
 use serde_json::{Value, json};
@@ -54,7 +54,7 @@ fn definitions(
     let files = selection.whole(session);
     session.parse_ahead(&files);
     for file in files {
-        problems.extend(check_file(db, file).iter().filter(|problem| problem.is_error()).cloned());
+        problems.extend(session.errors_without_paths(file).cloned());
         let names = path_names(db, file).iter();
         found.extend(names.filter_map(|name| Some((file, path_place(db, file, name)?))));
     }

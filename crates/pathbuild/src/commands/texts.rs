@@ -4,8 +4,7 @@
 use std::fmt::Write;
 
 use pathbuild_db::{
-    Database, SourceFile, assigned_texts, check_file, drawn_path, effective_parameters, file_index,
-    path_names,
+    Database, SourceFile, assigned_texts, drawn_path, effective_parameters, file_index, path_names,
 };
 use pathbuild_diagnostic::{Diagnostic, Handle, Number, Point, shown};
 use pathbuild_path::{
@@ -66,7 +65,7 @@ fn texts(
     let db = session.db();
     let mut shown = Vec::new();
     for (file, path) in whole.chain(parts) {
-        problems.extend(check_file(db, file).iter().filter(|problem| problem.is_error()).cloned());
+        problems.extend(session.errors_without_paths(file).cloned());
         let is_wanted = |text: &&AssignedText| {
             path.is_none_or(|path| text.path == *path)
                 && pattern.is_none_or(|pattern| pattern.is_match(&text.text))
