@@ -548,3 +548,22 @@ fn names_like_one_that_is_not_found_are_named() {
         );
     }
 }
+
+/// `emit` reports the second definition of a path beside the errors of both definitions, as `check` does.
+#[test]
+fn a_path_with_errors_in_both_of_its_drawings_is_defined_twice() {
+    for (drawing, problems) in
+        [(SECOND.to_owned(), 0), (SECOND.replace("mill 0,0 40,0", "mill 0,0 40,0 \"X3\""), 2)]
+    {
+        let place = Place::of(&format!("== 1234.dxf ==\n{drawing}== 1234 old.dxf ==\n{drawing}"));
+        for command in [
+            "check",
+            "emit --feed 150 --rapid 1000 --sweep-height 20",
+            "emit --check --feed 150 --rapid 1000 --sweep-height 20",
+        ] {
+            let run = place.run(&format!("{command} . --format concise"));
+            let count = |code: &str| run.stderr.matches(&format!("error[{code}]")).count();
+            assert_eq!((count("PB504"), count("PB202")), (1, problems), "{command}: {run}");
+        }
+    }
+}

@@ -191,8 +191,8 @@ impl Emitter<'_> {
     ) {
         let Request { task, join, .. } = self.request;
         let are_together = builder.session.out_dir().is_some() && join.is_none();
-        let (db, drawings) = (builder.session.db(), selection.drawings());
-        diagnostics.extend(leave_out_second_definitions(db, drawings, are_together, jobs_mut(plans)));
+        let db = builder.session.db();
+        diagnostics.extend(leave_out_second_definitions(db, selection, are_together, jobs_mut(plans)));
         if !matches.is_library && *task != Task::Print {
             leave_out_files_of_others(builder, jobs_mut(plans), diagnostics);
         }

@@ -17,9 +17,10 @@ use serde::{Deserialize, Serialize};
 
 use super::options;
 use super::outcome::{ProgramOutcome, Task, is_of_other_version, write_error};
+use super::select::TargetSelection;
 use crate::common_findings::number_warnings;
 use crate::config::types::SheetFormat;
-use crate::memo::{Answer, DrawingResult, Inputs, Memo, OutputState};
+use crate::memo::{Answer, Inputs, Memo, OutputState};
 use crate::post_processor::PostProcessor;
 use crate::session::{CheckedTarget, OutputKind, ProgramFacts, Session, stem_fault};
 use crate::workspace::Workspace;
@@ -115,26 +116,19 @@ impl Job {
         &self,
         db: &Database,
         definitions: &'d BTreeSet<SecondDefinition>,
-    ) -> Vec<&'d SecondDefinition> {
-        let is_of = |definition: &SecondDefinition, target: &Target| {
-            definition.is_of(target.file(db).path(db), &PathName::new(target.name(db)))
-        };
-        let is_own =
-            |definition: &&SecondDefinition| self.targets.iter().any(|target| is_of(definition, target));
-        definitions.iter().filter(is_own).collect()
+    ) -> impl Iterator<Item = &'d SecondDefinition> {
+        definitions_of(db, &self.targets, definitions)
     }
 
-    /// Leaves out the job if two drawings define one of its paths. Returns these definitions.
-    pub(super) fn leave_out_if_defined_twice<'d>(
+    /// Leaves out the job if two drawings define one of its paths.
+    pub(super) fn leave_out_if_defined_twice(
         &mut self,
         db: &Database,
-        definitions: &'d BTreeSet<SecondDefinition>,
-    ) -> Vec<&'d SecondDefinition> {
-        let own = self.second_definitions(db, definitions);
-        if !own.is_empty() {
+        definitions: &BTreeSet<SecondDefinition>,
+    ) {
+        if self.second_definitions(db, definitions).next().is_some() {
             self.leave_out();
         }
-        own
     }
 
     fn name(&self, session: &Session<'_>) -> String {
@@ -422,24 +416,37 @@ fn leave_out_if_named_like_path(builder: &JobBuilder<'_>, name: &str, job: &mut 
     Some(problem)
 }
 
-/// Leaves out the jobs of paths that two of these drawings define (PB504): their programs could not be told apart. `are_together` says whether all
-/// programs are written into one directory.
+/// Returns the definitions that are about one of these targets.
+fn definitions_of<'d>(
+    db: &Database,
+    targets: &[Target],
+    definitions: &'d BTreeSet<SecondDefinition>,
+) -> impl Iterator<Item = &'d SecondDefinition> {
+    let is_of = |definition: &SecondDefinition, target: &Target| {
+        definition.is_of(target.file(db).path(db), &PathName::new(target.name(db)))
+    };
+    definitions.iter().filter(move |definition| targets.iter().any(|target| is_of(definition, target)))
+}
+
+/// Leaves out the jobs of paths that two of the selected drawings define, and returns PB504 for these paths, including paths with errors, which have no
+/// job: their programs could not be told apart. `are_together` says whether all programs are written into one directory.
 pub(super) fn leave_out_second_definitions<'p>(
     db: &Database,
-    drawings: impl Iterator<Item = &'p Answer<DrawingResult>>,
+    selection: &TargetSelection,
     are_together: bool,
     jobs: impl Iterator<Item = &'p mut Job>,
 ) -> Vec<Diagnostic> {
-    let names = drawings.map(|answer| (answer.drawing(), &*answer.value.names));
+    let names = selection.drawings().map(|answer| (answer.drawing(), &*answer.value.names));
     let found = second_definitions(db, names, are_together);
-    let mut of_jobs: BTreeSet<&SecondDefinition> = BTreeSet::new();
+    let mut targets: Vec<Target> = selection.targets.clone();
     for job in jobs {
         // Two programs with one file name are reported already (PB514).
-        let is_reported = job.is_left_out;
-        let own = job.leave_out_if_defined_twice(db, &found);
-        of_jobs.extend(own.into_iter().filter(|_| !is_reported));
+        if job.is_left_out {
+            targets.retain(|target| !job.targets.contains(target));
+        }
+        job.leave_out_if_defined_twice(db, &found);
     }
-    of_jobs.into_iter().map(SecondDefinition::diagnostic).collect()
+    definitions_of(db, &targets, &found).map(SecondDefinition::diagnostic).collect()
 }
 
 /// Leaves out jobs whose file another drawing of the library, which has the same name, would write in another run (PB514). Only a configured output
