@@ -459,3 +459,23 @@ fn a_drawing_that_is_missing_is_named_before_its_path() {
     let run = place.run("q-project nope.dxf");
     assert!(run.status == Some(2) && run.stderr.contains("--path-name"), "{run}");
 }
+
+/// The drawing may be named by a pattern or, if it has one path, by that path.
+#[test]
+fn its_drawing_is_named_as_for_other_commands() {
+    let place = Place::of(DRAWING);
+    for (argument, status, message) in [
+        ("gear*.dxf", 0, "1234_Q.dxf: written"),
+        ("1234.1P", 2, "name the drawing instead of 1234.1P"),
+        (".", 2, "name the drawing instead of ."),
+        ("gaer*.dxf", 1, "PB001"),
+    ] {
+        let run = place.run(&format!("q-project {argument}"));
+        assert!(run.status == Some(status) && run.stderr.contains(message), "{argument}: {run}");
+    }
+    let lone = Place::of(LONE);
+    assert!(lone.run("q-project 5678.1P").stderr.contains("5678_Q.dxf: written"));
+}
+
+const LONE: &str =
+    "== 5678.dxf ==\nlayer 5678.1P\nstart 0,0 \"T5 O2 I5 B0 F150 S20 MPlate\"\nmill 0,0 40,0\nend 40,0\n";

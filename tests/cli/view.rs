@@ -1236,3 +1236,11 @@ fn what_the_cutter_takes_is_whole_in_a_picture() {
     assert_eq!(numbers.len(), 2);
     assert!(numbers.iter().all(|(_, [a, b, r, _])| (a - x).hypot(b - y) >= radius + r), "{numbers:?}");
 }
+
+#[test]
+fn a_misspelled_drawing_gets_a_hint() {
+    let place =
+        Place::of("== 1234.dxf ==\nlayer 1234.1P\nstart 0,0 \"T5 O2 I5 B0\"\nmill 0,0 40,0\nend 40,0\n");
+    let run = place.run("view ./1243.dxf -o picture.svg");
+    assert!(run.status == Some(1) && run.stderr.contains("did you mean 1234.dxf?"), "{run}");
+}

@@ -392,7 +392,7 @@ pub struct DiffArgs {
 pub struct QProjectArgs {
     /// Drawing to embed
     #[arg(value_name = "DRAWING")]
-    pub drawing: Utf8PathBuf,
+    pub drawing: String,
     /// Name of the Q-project's path; without it the drawing's first number with .0Q
     #[arg(long, value_name = "NAME")]
     pub path_name: Option<String>,

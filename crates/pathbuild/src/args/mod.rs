@@ -148,7 +148,7 @@ impl Command {
             | Self::Where(args)
             | Self::Why(args) => args.inputs.get(),
             Self::List(args) | Self::Stats(args) => args.inputs(),
-            Self::QProject(args) => Inputs::places([&args.drawing]),
+            Self::QProject(args) => Inputs { inputs: vec![args.drawing.clone()] },
             Self::Adjust(args) => Inputs::places(&args.files),
             Self::Import(args) => Inputs::places(&args.files),
             Self::Verify(args) => args.inputs(),

@@ -7,7 +7,7 @@ use pathbuild_db::system::{FileKind, with_forward_slashes};
 use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::reasons::DRAWN_BY_USER;
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, Value};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Value, shown};
 use pathbuild_draw::EmbeddingPath;
 use pathbuild_path::{PathName, PathTools, QProject, q_project_name};
 
@@ -17,7 +17,7 @@ use crate::context::Context;
 use crate::exit::ExitStatus;
 use pathbuild_workspace::files::write_error;
 use pathbuild_workspace::protected_files::replace_error;
-use pathbuild_workspace::session::Session;
+use pathbuild_workspace::session::{NamedPaths, Session};
 
 /// Runs the command. Nothing is written if the drawing has errors, or if the resulting drawing would have any.
 pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
@@ -29,7 +29,17 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
         ));
     }
     let mut session = Session::new(context);
-    let drawing = session.file(&args.drawing);
+    let drawing = match session.with_stable_files(|session| named_drawing(session, &args.drawing)) {
+        Ok(Some(drawing)) => drawing,
+        Ok(None) => {
+            return context.usage(&context.phrase(
+                "q-project embeds all paths of one drawing: name the drawing instead of {}",
+                "q-project bettet alle Pfade einer Zeichnung ein: statt {} die Zeichnung nennen",
+                &shown::line(&args.drawing),
+            ));
+        }
+        Err(problems) => return context.fail(problems),
+    };
     let is_unread = |problem: &&Diagnostic| problem.code() == Code::UnreadableFile;
     let unread: Vec<Diagnostic> = session.with_stable_files(|session| {
         check_file(session.db(), drawing).iter().filter(is_unread).cloned().collect()
@@ -42,7 +52,8 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
         Ok(name) => name,
         Err(reason) => return context.usage(&reason),
     };
-    let output = session.normal(args.output.as_deref().unwrap_or(&q_project_file(&args.drawing)));
+    let output =
+        session.normal(args.output.as_deref().unwrap_or(&q_project_file(drawing.path(session.db()))));
     if output == *drawing.path(session.db()) {
         return context.usage(context.choose(
             "the Q-project would overwrite its own drawing",
@@ -56,6 +67,14 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
             ExitStatus::Errors
         }
     }
+}
+
+/// Returns the drawing that an argument names: by its file, by a pattern, or by the name of its only path. `None` for a directory, and for one of several
+/// paths.
+fn named_drawing(session: &Session<'_>, argument: &str) -> Result<Option<SourceFile>, Vec<Diagnostic>> {
+    let named = session.named_paths(argument)?;
+    let is_whole = |named: &NamedPaths| named.names.len() == path_names(session.db(), named.file).len();
+    Ok(named.filter(is_whole).map(|named| named.file))
 }
 
 /// Returns `NAME_Q.dxf` in the directory of the drawing `NAME.dxf`.

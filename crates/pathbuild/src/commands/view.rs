@@ -96,11 +96,11 @@ fn drawing(session: &Session<'_>, what: &str, format: Format) -> Result<TargetSc
     let mut report = session.scene(file, &names, text);
     let missing = session.no_path(file.path(db), &names, &report.diagnostics);
     report.diagnostics.extend(missing);
+    report.diagnostics = session.with_hints(report.diagnostics);
     if names.is_empty() {
         // Refuse to write an empty picture, which could replace one that shows something.
         return Err(Failure::Found(report.diagnostics));
     }
-    report.diagnostics = session.with_hints(report.diagnostics);
     Ok(TargetScene { report, file: file.path(db).to_string() })
 }
 
