@@ -20,6 +20,7 @@ use crate::config::ResultKind;
 use crate::memo::{
     Answer, Coverage, Dependencies, DrawingResult, Memo, NamedLayers, check_query, find, read_named, subject,
 };
+use crate::post_processor::PostProcessor;
 use crate::session::timings::{FINDING_DRAWINGS, STORING_RESULTS, VERIFYING_CACHE};
 use crate::session::{
     ArgumentMatches, CheckedTarget, Checker, Pair, SelectedPath, Selection, Session, compare_paths,
@@ -141,6 +142,10 @@ impl Request<'_> {
         let filter = ChangeFilter::new(session, memo, past, selected.iter().chain(&q_projects));
         let mut checked = CheckOutcome { diagnostics: matches.problems.clone(), ..CheckOutcome::default() };
         checked.diagnostics.extend(selection.problems);
+        if !selection.below.is_empty() {
+            let settings = &session.workspace().settings;
+            checked.diagnostics.extend(PostProcessor::unknown_name(settings));
+        }
         checked.diagnostics.extend(unused_configurations(session, &selection.below));
         if !session.is_compatible() {
             let named = selected.iter().skip(selection.drawings.len()).take(selection.named.len());

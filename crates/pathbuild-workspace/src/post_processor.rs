@@ -100,6 +100,13 @@ impl PostProcessor {
         Ok(Some(Self::new(settings, system, (post, bytes, Some(file)), arguments)))
     }
 
+    /// Returns PB766 if the configuration names a built-in post that does not exist.
+    pub(crate) fn unknown_name(settings: &Settings) -> Vec<Diagnostic> {
+        let name = &*settings.general.post.value.name;
+        let is_known = is_file_name(name) || BUILT_IN.iter().any(|post| post.name == name);
+        if is_known { Vec::new() } else { pathbuild_post::load(name).err().unwrap_or_default() }
+    }
+
     fn built_in(
         settings: &Settings,
         system: &Arc<dyn System>,
