@@ -666,3 +666,35 @@ fn a_number_is_that_of_one_cutter() {
     let others = tools("diameter = 3").replace("number = 5\ndiameter = 3", "number = 6\ndiameter = 3");
     assert_eq!(Place::new().file("pathbuild.toml", others).run("config show").status, Some(0));
 }
+
+/// `check` of directories reports a post that does not exist, `check` of a drawing does not need one.
+#[test]
+fn check_reports_a_misspelled_post() {
+    let drawing = "layer 1234.1P\nstart 0,0 \"T5 O2 I5 B0 F150 S20 MPlate\"\nmill 0,0 40,0\nend 40,0\n";
+    for (post, status) in [("GRBL", 1), ("grbl", 0), ("native", 0), ("missing.cbpp", 0)] {
+        let place = Place::new().file("pathbuild.toml", format!("library = ['.']\npost = \"{post}\"\n"));
+        let place = place.file("1234.dxf", sheet(drawing).unwrap().to_dxf());
+        for arguments in ["", "."] {
+            let run = place.run(&format!("check {arguments}"));
+            assert_eq!(
+                (run.status, run.stderr.contains("PB766")),
+                (Some(status), status == 1),
+                "{post}: {run}"
+            );
+        }
+        assert_eq!(place.run("check 1234.dxf").status, Some(0));
+    }
+}
+
+#[test]
+fn options_accept_no_exponents() {
+    let place = Place::new();
+    for (value, lang, help) in [("1e3", "en", "help: write 1000"), ("2.5E-1", "de", "Tipp: 0.25 schreiben")] {
+        let run = place.run(&format!("check . --feed {value} --lang {lang}"));
+        assert!(run.status == Some(2) && run.stderr.contains(help), "{run}");
+    }
+    for value in ["1e7", "e3", "nine"] {
+        let run = place.run(&format!("check . --feed {value}"));
+        assert!(run.stderr.contains("must be a number from 0.001 to 1000000"), "{run}");
+    }
+}

@@ -139,6 +139,13 @@ messages! {
         en: "`{key}` must be {expected}, not {found}",
         de: "`{key}` muss {expected} sein, nicht {found}",
     }
+    /// A number with an exponent as the value of an option.
+    EXPONENT: InvalidConfiguration {
+        en: "`{key}` must be a number without an exponent, not {found}",
+        de: "`{key}` muss eine Zahl ohne Exponenten sein, nicht {found}",
+        help_en: "write {number}",
+        help_de: "{number} schreiben",
+    }
     /// A path that leads out of an untrusted repository.
     OUTSIDE: InvalidConfiguration {
         en: "`{key}` leads out of the untrusted repository",

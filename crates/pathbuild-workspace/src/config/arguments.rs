@@ -110,6 +110,12 @@ fn restriction(name: &str, text: &str) -> Result<Restriction, Box<Diagnostic>> {
 }
 
 fn invalid_option(name: &str, text: &str, expected: &'static Text) -> Diagnostic {
+    let written_out = text.to_ascii_lowercase().contains('e').then(|| text.parse::<f64>().ok()).flatten();
+    if let Some(number) = written_out.filter(|number| MEASURE_BOUNDS.contains(number)) {
+        return fault(&messages::EXPONENT, name, text)
+            .quoting("found", text)
+            .quoting("number", number.to_string());
+    }
     let fault = fault(&messages::INVALID_VALUE, name, text);
     fault.with("expected", Value::Prose(expected)).quoting("found", text)
 }
