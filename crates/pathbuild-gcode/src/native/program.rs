@@ -216,10 +216,8 @@ impl Writer<'_> {
         for line in left_out_lines(self.program, self.options.lang) {
             self.comment(&line);
         }
-        for (index, probe) in self.program.probes.iter().enumerate() {
-            let number = FIRST_PARAMETER + index;
-            let ProbePoint { drawn_at, height, at, .. } = *probe;
-            let entry = ProgramProbe { drawn_at, height, at: Some(at), measured: None };
+        for (number, probe) in (FIRST_PARAMETER..).zip(&self.program.probes) {
+            let entry = ProgramProbe::from(probe);
             self.comment(&format!("{PROBE_COMMENT}{number}: {entry}"));
         }
     }

@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::LazyLock;
 
 use pathbuild_path::{Xy, parse_number};
+use pathbuild_toolpath::ProbePoint;
 use regex::Regex;
 
 use super::number::f3;
@@ -19,6 +20,13 @@ pub(crate) struct ProgramProbe {
     pub(crate) at: Option<Xy>,
     /// Measured height in mm; only in adjusted programs.
     pub(crate) measured: Option<f64>,
+}
+
+impl From<&ProbePoint> for ProgramProbe {
+    fn from(probe: &ProbePoint) -> Self {
+        let ProbePoint { drawn_at, height, at, .. } = *probe;
+        Self { drawn_at, height, at: Some(at), measured: None }
+    }
 }
 
 /// Beginning of a comment about a probe; the number of the probe's parameter follows.

@@ -14,7 +14,8 @@ use pathbuild_toolpath::{
 use crate::adjust::{FormulaText, formula_texts, probe_entries, without_comments};
 use crate::dialect::Dialect;
 use crate::interpret::{Heights, Options, interpret_each, interpret_parts};
-use crate::native::number::{FIRST_PARAMETER, Formulas, f3};
+use crate::native::ProgramProbe;
+use crate::native::number::{FIRST_PARAMETER, Formulas};
 use crate::provenance::Provenance;
 use crate::verify::{Difference, Rules, Tolerance, compare, is_near, is_same_move};
 
@@ -208,10 +209,9 @@ fn not_drawn_error(found: Option<FormulaText>, expected: Option<String>) -> Diag
 /// Reports the first probe that differs between a text and the drawing.
 fn probe_difference(text: &[u8], probes: &[ProbePoint]) -> Option<Diagnostic> {
     let mut stated = probe_entries(text).into_iter();
-    let mut drawn = (FIRST_PARAMETER..).zip(probes).map(|(number, probe)| {
-        let [x, y, at_x, at_y] = [probe.drawn_at.x, probe.drawn_at.y, probe.at.x, probe.at.y].map(f3);
-        format!("#{number} [{x} {y}] T={} X{at_x} Y{at_y}", f3(probe.height))
-    });
+    let mut drawn = (FIRST_PARAMETER..)
+        .zip(probes)
+        .map(|(number, probe)| format!("#{number} {}", ProgramProbe::from(probe)));
     let problem = |found: &str, expected: &str| {
         let problem = Diagnostic::new(&say::PROBE_NOT_DRAWN).quoting("found", found);
         problem.quoting("expected", expected)
