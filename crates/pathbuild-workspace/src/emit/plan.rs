@@ -111,22 +111,13 @@ impl Job {
         self.outcome = None;
     }
 
-    /// Returns the definitions that are about one of the job's paths.
-    pub(super) fn second_definitions<'d>(
-        &self,
-        db: &Database,
-        definitions: &'d BTreeSet<SecondDefinition>,
-    ) -> impl Iterator<Item = &'d SecondDefinition> {
-        definitions_of(db, &self.targets, definitions)
-    }
-
     /// Leaves out the job if two drawings define one of its paths.
     pub(super) fn leave_out_if_defined_twice(
         &mut self,
         db: &Database,
         definitions: &BTreeSet<SecondDefinition>,
     ) {
-        if self.second_definitions(db, definitions).next().is_some() {
+        if definitions_of(db, &self.targets, definitions).next().is_some() {
             self.leave_out();
         }
     }
@@ -417,7 +408,7 @@ fn leave_out_if_named_like_path(builder: &JobBuilder<'_>, name: &str, job: &mut 
 }
 
 /// Returns the definitions that are about one of these targets.
-fn definitions_of<'d>(
+pub(super) fn definitions_of<'d>(
     db: &Database,
     targets: &[Target],
     definitions: &'d BTreeSet<SecondDefinition>,

@@ -12,7 +12,7 @@ use pathbuild_diagnostic::Diagnostic;
 
 use super::options;
 use super::outcome::{ProgramOutcome, Task};
-use super::plan::{Job, JobBuilder, Plan, clashes, leave_out_clashes, warn_of_numbers};
+use super::plan::{Job, JobBuilder, Plan, clashes, definitions_of, leave_out_clashes, warn_of_numbers};
 use super::select::TargetPatterns;
 use super::settle::build_and_settle;
 use super::stale_programs::{EarlierPrograms, StaleProgram, UnselectedMoves, report_unselected};
@@ -139,9 +139,9 @@ impl WrittenPrograms {
 
     /// Returns the paths of targets that two drawings define, except those that share a file name, which is reported already.
     pub fn second_definitions(&self, db: &Database) -> BTreeSet<&SecondDefinition> {
-        let jobs = self.by_drawing.values().flatten().filter_map(|(_, plan)| plan.job.as_ref());
-        let jobs = jobs.filter(|job| !self.clashing.contains(&job.targets[0]));
-        jobs.flat_map(|job| job.second_definitions(db, &self.second_definitions)).collect()
+        let targets = self.by_drawing.values().flatten().map(|(target, _)| *target);
+        let targets: Vec<Target> = targets.filter(|target| !self.clashing.contains(target)).collect();
+        definitions_of(db, &targets, &self.second_definitions).collect()
     }
 
     /// Forgets the programs of removed drawings. Returns the other drawings whose programs may be written now.
