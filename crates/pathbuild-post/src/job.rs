@@ -7,6 +7,7 @@ use std::collections::HashSet;
 
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Point};
+use pathbuild_gcode::interpret::PECK_CLEARANCE;
 use pathbuild_motion::{Coolant, Move, MoveShape, Pace, Plane, Position, Turning};
 
 use crate::arcs;
@@ -486,8 +487,6 @@ impl Hole {
 
 /// Maximum number of pecks per hole. More are taken for an error.
 const MAX_PECKS: usize = 1_000;
-/// Height in mm above the depth already drilled at which the tool changes from rapid to feed. LinuxCNC's G83 uses the same height.
-const PECK_GAP: f64 = 0.254;
 
 impl Hole {
     /// Returns the moves that drill the hole: to its position at the start level, down, and up to its exit level.
@@ -503,7 +502,7 @@ impl Hole {
             if index > 0 {
                 let reached = depths[index - 1];
                 steps.push(JobStep::rapid(to(self.retract)));
-                steps.push(JobStep::rapid(to((reached + PECK_GAP).min(self.retract))));
+                steps.push(JobStep::rapid(to((reached + PECK_CLEARANCE).min(self.retract))));
             }
             steps.push(JobStep::feed(to(depth), self.feed));
         }

@@ -15,7 +15,9 @@ mod z_model;
 pub use correction::{Correction, UnprobedPoint};
 pub use fold::{FoldPaths, fold, fold_traced};
 pub use mill::{axis_circle, support_bars};
-pub use moves::{LAST_DIGIT, ToolTip, is_doubtful, is_point, is_short, kind_of_move, tip_move};
+pub use moves::{
+    LAST_DIGIT, LAST_DIGIT_SLACK, ToolTip, is_doubtful, is_point, is_short, kind_of_move, tip_move,
+};
 pub use part_cuts::part_cuts;
 pub use pathbuild_path::Xy;
 pub use program::{

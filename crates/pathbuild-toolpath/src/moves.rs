@@ -119,6 +119,9 @@ pub fn is_short(length: f64) -> bool {
 /// Unit of the last printed digit, in mm.
 pub const LAST_DIGIT: f64 = 0.001;
 
+/// Permitted difference of two printed numbers that may be rounded differently, in mm or mm/min: one unit of the last digit, plus the error of doubles.
+pub const LAST_DIGIT_SLACK: f64 = LAST_DIGIT * (1.0 + 1e-6);
+
 /// Difference in mm from an empty arc or a full circle up to which an arc is doubtful: several times the distance by which rounding moves an end
 /// along the arc.
 const DOUBTFUL_ARC_LENGTH: f64 = 10.0 * LAST_DIGIT;

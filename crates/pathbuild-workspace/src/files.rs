@@ -21,6 +21,9 @@ pub struct ExtraInput {
     pub hash: Option<[u8; 32]>,
 }
 
+/// Maximum number of symbolic links that are followed in a row, as on Linux.
+pub(crate) const MAX_LINKS: usize = 40;
+
 /// Whether this name exists and is not a directory. Also true for an unreadable file: the attempt to read it reports the error.
 pub fn is_file_name_taken(file: &Utf8Path) -> bool {
     file.as_std_path().metadata().is_ok_and(|data| !data.is_dir())

@@ -7,7 +7,7 @@ use pathbuild_db::system::{FileKind, is_drawing, join, with_forward_slashes};
 
 use crate::check::EarlierFiles;
 use crate::config::clean;
-use crate::files::{self, FILE_NAME};
+use crate::files::{self, FILE_NAME, MAX_LINKS};
 use crate::git::{self, EntryKind, Repository};
 use crate::workspace::Workspace;
 use crate::{Input, Inputs};
@@ -24,9 +24,6 @@ pub struct RevisionFiles<'a> {
     /// File names of the drawings, by directory.
     drawings: BTreeMap<Utf8PathBuf, Vec<String>>,
 }
-
-/// Maximum number of symbolic links that are followed in a row, as in operating systems.
-const MAX_LINKS: usize = 40;
 
 impl<'a> RevisionFiles<'a> {
     /// Reads a revision from the repository of the inputs, for a run with this baseline; `None` is the default one.

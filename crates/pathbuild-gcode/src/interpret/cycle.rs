@@ -11,8 +11,8 @@ use super::state::{CycleState, StatedLength};
 use crate::read::Block;
 
 /// Distance above the last depth at which a pecking cycle stops its rapid descent, and by which a chip-breaking cycle retracts: 0.010
-/// inches.
-const PECK_CLEARANCE: f64 = 0.254;
+/// inches, as in LinuxCNC. Posts drill with the same distance where they write the moves.
+pub const PECK_CLEARANCE: f64 = 0.254;
 
 /// Maximum number of moves per line, so that `Q0.000001 L99999` cannot exhaust the memory.
 const MAX_MOVES_PER_LINE: f64 = 100_000.0;

@@ -1,15 +1,13 @@
 //! Compares correction formulas of native programs with the numbers that are executed. (book: language/probes)
 
 use pathbuild_diagnostic::messages::gcode as say;
+use pathbuild_toolpath::LAST_DIGIT_SLACK;
 
 use super::evaluate::{NoValue, ProbeHeight};
 use super::execute::Interpreter;
 use crate::native::probe_entry;
 use crate::provenance::Provenance;
 use crate::read::{Block, Formula, Span};
-
-/// Permitted difference in mm between a formula and its number, which has three decimals.
-const ROUNDING_TOLERANCE: f64 = 0.001 * (1.0 + 1e-6);
 
 impl Interpreter<'_> {
     /// Stores the probes and the provenance that comments state before the first word of a native program.
@@ -76,7 +74,7 @@ impl Interpreter<'_> {
     }
 
     fn compare(&mut self, block: &Block<'_>, formula: &Formula, number: f64, value: f64) {
-        if libm::fabs(number - value) > ROUNDING_TOLERANCE {
+        if libm::fabs(number - value) > LAST_DIGIT_SLACK {
             self.report(block, &say::FORMULA_DIFFERS, formula.span, |d| {
                 d.with("number", number).with("value", libm::round(value * 1000.0) / 1000.0)
             });
@@ -89,7 +87,7 @@ impl Interpreter<'_> {
             return;
         }
         let start = *self.stated_probes.start_height.get_or_insert(number);
-        if libm::fabs(number - start) > ROUNDING_TOLERANCE {
+        if libm::fabs(number - start) > LAST_DIGIT_SLACK {
             self.report(block, &say::HEIGHT_WITHOUT_FORMULA, span, |d| d);
         }
     }

@@ -26,6 +26,7 @@ use pathbuild_motion::{Move, Step};
 pub use self::guess::{DisputedWords, UnionWord, union_word};
 pub use self::state::{Heights, MachineOffsets, Options, UnitCodes};
 pub use codes::name as code_name;
+pub use cycle::PECK_CLEARANCE;
 pub use guess::{Evidence, EvidenceKind, Guess, guess};
 pub(crate) use motion::LOWEST_RETRACT;
 pub(crate) use state::INCH;

@@ -7,6 +7,7 @@ use std::borrow::Cow;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Diagnostic, Message};
 use pathbuild_motion::{Axes, Course, Move, MoveShape, Pace, Position};
+use pathbuild_toolpath::LAST_DIGIT_SLACK;
 
 /// Tolerances in mm and mm/min within which two programs are equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -533,9 +534,6 @@ pub fn same_move_lines(found: &str, expected: &str) -> bool {
 
 type Word = (char, f64);
 
-/// One unit of the last printed digit in mm, plus the error of doubles.
-const LAST_DIGIT_UNIT: f64 = 0.001 * (1.0 + 1e-6);
-
 /// Returns the words of each line that moves the tool or sets a mode; `None` for a line that cannot be read.
 fn move_lines(text: &str) -> impl Iterator<Item = Option<Vec<Word>>> {
     let is_move = |words: &Option<Vec<Word>>| {
@@ -579,7 +577,7 @@ fn without_comments(line: &str) -> String {
 
 fn is_same_line(found: &[Word], expected: &[Word]) -> bool {
     let same_word = |((a, found), (b, expected)): (&Word, &Word)| {
-        let slack = if *a == 'G' { 0.0 } else { LAST_DIGIT_UNIT };
+        let slack = if *a == 'G' { 0.0 } else { LAST_DIGIT_SLACK };
         a == b && libm::fabs(found - expected) <= slack
     };
     found.len() == expected.len() && found.iter().zip(expected).all(same_word)

@@ -17,7 +17,7 @@ use crate::native::announces_probe;
 use crate::read::Problems;
 
 /// Tolerance in mm within which heights are equal.
-const HEIGHT_TOLERANCE: f64 = 0.002;
+pub(super) const HEIGHT_TOLERANCE: f64 = 0.002;
 
 /// The rules that need no map of the material: pass every step of a program, then call [`finish`](Self::finish). The cost is
 /// proportional to the number of steps.

@@ -13,6 +13,7 @@ use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, interpret};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance, is_same_program};
 use pathbuild_gcode::verify::{self, Ends, PostWords, Tolerance};
+use pathbuild_toolpath::LAST_DIGIT_SLACK;
 
 use super::build::{BuiltProgram, Output, build};
 use super::options::OutputSettings;
@@ -272,6 +273,6 @@ fn difference(present: &[u8], expected: &[u8], dialect: Dialect) -> Vec<Diagnost
     difference.iter().map(verify::Difference::diagnostic).collect()
 }
 
-/// One unit in the last printed digit of mm and mm/min, with a margin, because two programs may round the same value differently.
+/// Two programs may round the same value differently.
 const LAST_DIGIT_TOLERANCE: Tolerance =
-    Tolerance { place: 0.001 * (1.0 + 1e-6), feed: 0.001 * (1.0 + 1e-6), chord: 0.0, ends: Ends::All };
+    Tolerance { place: LAST_DIGIT_SLACK, feed: LAST_DIGIT_SLACK, chord: 0.0, ends: Ends::All };

@@ -13,6 +13,7 @@ use pathbuild_db::system::{FileKind, FileLink, is_drawing, join, or_current_dire
 use super::events::Request;
 use crate::Input;
 use crate::config::clean;
+use crate::files::MAX_LINKS;
 use crate::session::Session;
 
 /// Directories to watch, with the paths that events report.
@@ -336,9 +337,6 @@ pub(super) enum LinkPlace {
     /// A file with hard links, through any of which it may be written.
     File(Utf8PathBuf),
 }
-
-/// Upper bound on the number of links that are followed to a file, as on Linux.
-const MAX_LINKS: usize = 40;
 
 impl Links {
     /// Resolves a drawing's links again and returns the paths to watch. `as_event` converts an absolute path to the form in events.

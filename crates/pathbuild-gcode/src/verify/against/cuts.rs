@@ -5,6 +5,7 @@ use std::iter::Peekable;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode;
 use pathbuild_motion::{Axes, Move, MoveShape, Pace, Position};
+use pathbuild_toolpath::LAST_DIGIT_SLACK;
 
 use crate::dialect::Dialect;
 use crate::verify::compare::{
@@ -16,9 +17,6 @@ use crate::verify::is_near;
 /// Permitted difference of positions in mm: two roundings to the third decimal, and the unit by which an arc may be extended to keep it from becoming
 /// a full circle.
 pub(super) const POSITION_TOLERANCE: f64 = 0.0015 * (1.0 + 1e-6);
-
-/// Permitted difference of feeds in mm/min: one unit of the last printed digit.
-const FEED_TOLERANCE: f64 = 0.001 * (1.0 + 1e-6);
 
 /// Permitted difference of arc centres in mm: a centre is the sum of two rounded numbers, and its arc begins at the end of the previous one.
 const CENTRE_TOLERANCE: f64 = 3.0 * POSITION_TOLERANCE;
@@ -76,7 +74,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
             clearance,
             tolerance: Tolerance {
                 place: POSITION_TOLERANCE,
-                feed: FEED_TOLERANCE,
+                feed: LAST_DIGIT_SLACK,
                 chord: 0.0,
                 ends: Ends::All,
             },

@@ -14,11 +14,9 @@ use crate::dialect::Dialect;
 use crate::interpret::code_name;
 use crate::read::Problems;
 use crate::verify::corners::{BUILT_IN_ROUNDING, MARGIN};
+use crate::verify::rules::HEIGHT_TOLERANCE;
 use crate::verify::tool_state::{LengthFit, ToolState};
 use crate::verify::words::PostWords;
-
-/// Tolerance in mm within which heights are equal.
-const HEIGHT_TOLERANCE: f64 = 0.002;
 
 /// Tolerance in 1/min within which speeds are equal.
 const SPEED_TOLERANCE: f64 = 0.01;
