@@ -35,7 +35,7 @@ pub(super) fn moves_into_clamps(db: &Database, job: &Job, programs: &[Arc<Progra
         let traverse = traverse.map(|traverse| (&words::RAPID_MOVE, traverse));
         let moves = traverse.into_iter().chain(own).map(|(what, way)| ((), what, way));
         let cutter = program.largest_cutter();
-        let diagnostic = |((clamp, _), (_, collision)): ((usize, _), (_, Collision))| {
+        let diagnostic = |((clamp, _), ((), collision)): ((usize, _), ((), Collision))| {
             let clamp = &clamps[clamp];
             let found = collision.diagnostic(&messages::JOINED_INTO_CLAMP, cutter, clamp, 0.0);
             let found = found
