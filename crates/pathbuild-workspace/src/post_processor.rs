@@ -214,16 +214,15 @@ impl PostProcessor {
         !self.options.manual_spindle
     }
 
-    /// Whether programs of this post-processor are for controls without a tool changer and tool lengths, on which the operator changes the tool and
-    /// sets Z again.
+    /// Whether programs of this post-processor are for controls on which the operator changes the tool and sets Z again.
     pub fn has_manual_changes(&self) -> bool {
-        matches!(self.reader(), Some(Dialect::Grbl | Dialect::Marlin | Dialect::Estlcam))
+        self.reader().is_some_and(|reader| reader.rules().manual_changes)
     }
 
     /// Whether programs of this post-processor select the work offset G54, according to the text of its definition.
     pub fn selects_g54(&self) -> bool {
-        let has_offsets = !matches!(self.reader(), Some(Dialect::Estlcam | Dialect::Xpertmill));
-        has_offsets && self.definition.windows(3).any(|word| word == b"G54")
+        let has_offsets = |reader: Dialect| reader.rules().words.g.contains(&540);
+        self.reader().is_none_or(has_offsets) && self.definition.windows(3).any(|word| word == b"G54")
     }
 
     /// Returns the number by which the control identifies the program of this name; `None` if the definition writes none.

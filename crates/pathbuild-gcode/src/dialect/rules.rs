@@ -55,6 +55,8 @@ pub struct Rules {
     pub m_order: MCodeOrder,
     /// Whether the control or the operator changes the tool at M6.
     pub changer: ToolChanger,
+    /// Whether most machines with this control have neither a tool changer nor stored tool lengths: the operator changes the tool and sets Z again.
+    pub manual_changes: bool,
     /// Whether T alone is known to change no tool, so that the operator must change it where a program has no M6.
     pub t_only_selects: bool,
     /// Whether rapid moves use the feed F, as all other moves do.
@@ -322,6 +324,7 @@ const BASE: Rules = Rules {
     straight_rapids: true,
     m_order: MCodeOrder::First,
     changer: ToolChanger::Either,
+    manual_changes: false,
     t_only_selects: false,
     rapids_at_feed: false,
     program_numbers: false,
@@ -403,6 +406,7 @@ pub(super) static LINUXCNC: Rules = Rules {
 
 pub(super) static GRBL: Rules = Rules {
     dialect: Dialect::Grbl,
+    manual_changes: true,
     t_only_selects: true,
     spelling: Spelling {
         nested_comments: true,
@@ -567,6 +571,7 @@ pub(super) static HAAS: Rules = Rules {
 
 pub(super) static MARLIN: Rules = Rules {
     dialect: Dialect::Marlin,
+    manual_changes: true,
     spelling: Spelling {
         small_letters: false,
         round_comments: NotationSupport::Unknown,
@@ -614,6 +619,7 @@ pub(super) static ESTLCAM: Rules = Rules {
     motion_is_stated: true,
     one_word_each: true,
     changer: ToolChanger::Operator,
+    manual_changes: true,
     ..BASE
 };
 
