@@ -151,12 +151,11 @@ struct Checker<'a> {
 
 impl Checker<'_> {
     fn line(&mut self) {
-        let (mut at, mut bare) = (0, 0);
+        let mut at = 0;
         for piece in self.target.pieces(self.line) {
             let text = match piece {
                 LinePart::Code(code) => {
                     self.code(code, at);
-                    bare += code.bytes().filter(|byte| !byte.is_ascii_whitespace()).count();
                     code
                 }
                 LinePart::Comment(comment) => {
@@ -166,10 +165,11 @@ impl Checker<'_> {
             };
             at += text.len();
         }
-        self.length(bare);
+        self.length();
     }
 
-    fn length(&mut self, bare: usize) {
+    fn length(&mut self) {
+        let bare = LineLength::bare(self.line.as_bytes());
         let (length, longest) = match self.target.spelling.line_length {
             Some(LineLength::Bare(longest)) => (bare, longest),
             Some(LineLength::BeforeSemicolon(longest)) => {

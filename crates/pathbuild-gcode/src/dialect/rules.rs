@@ -745,7 +745,7 @@ pub enum LineLength {
     Whole(usize),
     /// Limits the part in front of the first `;`.
     BeforeSemicolon(usize),
-    /// Limits the line without its blanks and comments.
+    /// Limits the line without its blanks and comments, see [`Self::bare`].
     Bare(usize),
 }
 
@@ -753,6 +753,22 @@ impl LineLength {
     /// Returns the length of the part of a line in front of the first `;`.
     pub fn before_semicolon(line: &[u8]) -> usize {
         memchr::memchr(b';', line).unwrap_or(line.len())
+    }
+
+    /// Returns the number of characters of a line that GRBL stores: it drops blanks, `/`, comments in `( )` and what follows `;`.
+    pub fn bare(line: &[u8]) -> usize {
+        let (mut count, mut is_comment) = (0, false);
+        for byte in line {
+            match byte {
+                b')' if is_comment => is_comment = false,
+                _ if is_comment => {}
+                b'(' => is_comment = true,
+                b';' => break,
+                b'\0'..=b' ' | b'/' => {}
+                _ => count += 1,
+            }
+        }
+        count
     }
 }
 

@@ -321,29 +321,12 @@ impl<'t> BlockReader<'t> {
         let (length, most) = match self.rules.spelling.line_length {
             Some(LineLength::Whole(most)) if line.len() > most => (line.len(), most),
             Some(LineLength::BeforeSemicolon(most)) => (LineLength::before_semicolon(line), most),
-            Some(LineLength::Bare(most)) if line.len() > most => (self.bare_length(line), most),
+            Some(LineLength::Bare(most)) if line.len() > most => (LineLength::bare(line), most),
             _ => return,
         };
         if length > most {
             self.report(&say::LINE_TOO_LONG, line, |d| d.with("length", length).with("most", most));
         }
-    }
-
-    /// Returns the length of the line without blanks and comments.
-    fn bare_length(&self, line: &[u8]) -> usize {
-        let words: usize =
-            self.parts.words.iter().map(|word| length_without_blanks(&line[word.span.range()])).sum();
-        let settings: usize = self
-            .parts
-            .settings
-            .iter()
-            .map(|setting| length_without_blanks(&line[setting.span.range()]))
-            .sum();
-        let number = self.parts.number.map_or(0, |_| {
-            let digits = line.iter().skip_while(|byte| !byte.is_ascii_alphabetic()).skip(1);
-            1 + digits.take_while(|byte| byte.is_ascii_digit()).count()
-        });
-        words + settings + number
     }
 
     fn report(
@@ -371,10 +354,6 @@ enum PercentEffect {
 fn block_number_length(line: &[u8]) -> usize {
     let [b'N' | b'n', digits @ ..] = line else { return 0 };
     1 + digits.iter().take_while(|byte| matches!(byte, b'0'..=b'9' | b' ' | b'\t')).count()
-}
-
-fn length_without_blanks(bytes: &[u8]) -> usize {
-    bytes.iter().filter(|byte| !matches!(byte, b' ' | b'\t')).count()
 }
 
 /// Whether a line after the end of the program consists of a comment.
