@@ -75,5 +75,6 @@ pub use read::{
     stray_findings,
 };
 pub use text::{LetterValue, ParameterText, ParameterTexts, TextId, as_seen};
+pub use values::has_thousands;
 pub use variables::{AllowedValues, Bindings, Combinations, Definition};
 pub use walk::{walk, walk_watched};

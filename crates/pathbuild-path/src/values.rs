@@ -1,6 +1,7 @@
 //! The values of a parameter text: their bounds, and values that are permitted but suspicious to a machinist. (book: language/letters)
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Message, TextFault};
@@ -545,11 +546,10 @@ impl DoubtCheck<'_> {
     /// Returns the finding about a feed like F1.200 or F1,200, which was probably meant as 1200 mm/min.
     fn feed_with_thousands(&self) -> Option<Diagnostic> {
         let (feed, written) = (self.value(Letter::F)?, self.own.text(Letter::F)?);
-        let (thousands, rest) = written.split_once(['.', ','])?;
-        if rest.len() != 3 || !(MIN_FEED..MIN_FEED_WITH_DECIMALS).contains(&feed) {
+        if !has_thousands(written, feed) {
             return None;
         }
-        let meant = [thousands, rest].concat();
+        let meant = written.replace(['.', ','], "");
         let meant = meant.trim_start_matches(['+', '0']);
         let problem = Diagnostic::new(&messages::FEED_WITH_THOUSANDS)
             .quoting("written", written)
@@ -575,8 +575,14 @@ impl DoubtCheck<'_> {
     }
 }
 
-/// Feed in mm/min below which three decimals were probably meant as thousands: F1.200 is slower than any cutter should go.
-const MIN_FEED_WITH_DECIMALS: f64 = 10.0;
+/// Whether a speed in mm/min or 1/min was probably written with a thousands separator, such as 1.200 or 12,000.
+pub fn has_thousands(written: &str, speed: f64) -> bool {
+    let decimals = written.split_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len());
+    decimals == 3 && SPEEDS_WITH_THOUSANDS.contains(&speed)
+}
+
+/// Speeds that are so low that three decimals were probably meant as thousands. Below, there is no digit before the separator but 0.
+const SPEEDS_WITH_THOUSANDS: Range<f64> = 1.0..100.0;
 
 /// The letters with lengths in mm.
 const LENGTHS: [Letter; 12] = [

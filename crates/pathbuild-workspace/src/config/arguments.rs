@@ -6,8 +6,9 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message, Text, TextFault, Value};
+use pathbuild_path::has_thousands;
 
-use super::kinds::{MEASURE_BOUNDS, has_thousands, number_from_text, regex_fault, split_restriction};
+use super::kinds::{MEASURE_BOUNDS, number_from_text, regex_fault, split_restriction};
 use super::origin::SourcedValue;
 use super::types::{Directories, Restriction};
 use crate::waivers::RunDate;

@@ -7,7 +7,7 @@ use std::time::Duration;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::configuration as messages;
 use pathbuild_diagnostic::{Value, nearest, shown};
-use pathbuild_path::regex_reason;
+use pathbuild_path::{has_thousands, regex_reason};
 use regex::RegexBuilder;
 use serde_json::{Value as Json, json};
 use toml::Spanned;
@@ -151,15 +151,6 @@ pub(in crate::config) const SWITCH: ValueType<bool> =
 fn switch(value: &Spanned<DeValue<'_>>, reader: &mut TomlReader<'_>) -> Option<bool> {
     reader.require(value.get_ref().as_bool(), &messages::SWITCH, value)
 }
-
-/// Whether a speed was probably written with a thousands separator, such as 1.200.
-pub(super) fn has_thousands(written: &str, speed: f64) -> bool {
-    let decimals = written.split_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len());
-    decimals == 3 && SPEEDS_WITH_THOUSANDS.contains(&speed)
-}
-
-/// Speeds that are so low that three decimals were probably meant as thousands, in mm/min or 1/min.
-const SPEEDS_WITH_THOUSANDS: Range<f64> = 1.0..100.0;
 
 /// Parses a number as written in drawings: an optional sign, digits, at most one decimal point or comma. (book: language/letters)
 pub(in crate::config) fn number_from_text(text: &str) -> Option<f64> {
