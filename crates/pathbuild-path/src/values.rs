@@ -581,8 +581,8 @@ pub fn has_thousands(written: &str, speed: f64) -> bool {
     decimals == 3 && SPEEDS_WITH_THOUSANDS.contains(&speed)
 }
 
-/// Speeds that are so low that three decimals were probably meant as thousands. Below, there is no digit before the separator but 0.
-const SPEEDS_WITH_THOUSANDS: Range<f64> = 1.0..100.0;
+/// Speeds that are so low that three decimals were probably meant as thousands, F0.150 as F150. Nobody writes 0.050 for 50.
+const SPEEDS_WITH_THOUSANDS: Range<f64> = 0.1..100.0;
 
 /// The letters with lengths in mm.
 const LENGTHS: [Letter; 12] = [

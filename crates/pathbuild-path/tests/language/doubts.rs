@@ -412,10 +412,10 @@ fn a_text_on_an_element_of_another_path_is_doubtful() {
 
 #[test]
 fn a_feed_has_no_separator_of_thousands() {
-    for doubtful in ["F1.000", "F1.200", "F1,200", "F12.000", "F99.999"] {
+    for doubtful in ["F0.100", "F,150", "F1.200", "F1,200", "F12.000", "F99.999"] {
         assert_eq!(line("T5 O2 I1 B0", doubtful), [format!("PB211 {doubtful}")]);
     }
-    for usual in ["F0.999", "F,150", "F100.000", "F1.20", "F1.2000", "F1200"] {
+    for usual in ["F0.099", "F100.000", "F1.20", "F1.2000", "F1200"] {
         assert_eq!(line("T5 O2 I1 B0", usual), [""; 0], "{usual}");
     }
     assert_eq!(line("T5 O2 I1 B0", "F0.000"), ["PB203 F0.000"]);

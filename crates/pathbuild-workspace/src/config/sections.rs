@@ -80,6 +80,9 @@ pub mod general {
     use crate::config::table_kinds::POST;
     use crate::config::types::{Directories, PartHolding, PostChoice, Restriction, SpindleControl};
 
+    /// Length in mm of the longest pieces of moves without `z-split`, except with idw4; the description of the key states it.
+    pub const Z_SPLIT: f64 = 20.0;
+
     /// Like [`section!`], for keys that command-line options can set. Such a key also declares its option: whether the value replaces the configured
     /// one or adds to it (a function of [`OptionReader`]), the parser, the values, and the help in both languages.
     macro_rules! overridable {

@@ -147,7 +147,7 @@ impl Settings {
     /// Returns the upper bound in mm on the length of the pieces into which moves are split for height correction; 0 disables splitting. (book:
     /// language/probes)
     pub fn z_split(&self) -> f64 {
-        let default = if self.general.z_model.value == ZModel::Idw4 { 0.0 } else { 20.0 };
+        let default = if self.general.z_model.value == ZModel::Idw4 { 0.0 } else { general::Z_SPLIT };
         self.general.z_split.value.unwrap_or(default)
     }
 }
