@@ -266,8 +266,8 @@ impl ChainSegment {
     fn letters_without_effect(&self, path: &Path) -> impl Iterator<Item = Diagnostic> {
         let own = path.drawn.text(self.cut(path).chain_letters).into_iter();
         let faults = own.flat_map(|text| {
-            [Letter::I, Letter::W]
-                .into_iter()
+            Letter::all()
+                .filter(|letter| letter.is_of_chain())
                 .filter_map(move |letter| Some((letter, text.fault_of(letter)?)))
         });
         faults.map(|(letter, fault)| {

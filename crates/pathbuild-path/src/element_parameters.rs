@@ -94,7 +94,6 @@ impl ParameterTable<'_> {
         let own = self.values_of(text, class);
         let chain = first.map(|first| self.values_of(first.text, first.class(self.raw.tool())));
         let texts = Texts { class, own: &own, chain: chain.as_ref(), path: &self.values };
-        let letters = Letter::ALL.into_iter().map(|(_, letter)| letter);
         let parameter = |letter| {
             let (value, from) = self.parameter(&texts, letter)?;
             Some(Parameter { letter, value, from })
@@ -104,7 +103,7 @@ impl ParameterTable<'_> {
         ElementParameters {
             origin,
             what,
-            parameters: self.share_parameters(letters.filter_map(parameter).collect()),
+            parameters: self.share_parameters(Letter::all().filter_map(parameter).collect()),
         }
     }
 

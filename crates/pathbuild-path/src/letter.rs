@@ -1,8 +1,11 @@
-//! The parameter letters, and which of them are permitted on which elements: the table of book: language/letters, used by binding, messages
-//! and the manual.
+//! The parameter letters, each declared in one line: its value, its bound, its effect, and the elements on which it is permitted, which is the table
+//! of book: language/letters. Binding, messages and the manual follow from these lines.
 
 macro_rules! letters {
-    ($($(#[$doc:meta])* $letter:ident $character:literal,)*) => {
+    ($(
+        $(#[$doc:meta])*
+        $letter:ident $character:literal $value:ident $writing:ident $bound:ident $usual:literal $effect:ident $uses:literal,
+    )*) => {
         /// The letter of a parameter.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[expect(missing_docs, reason = "the letters are the names; book: language/letters has the table")]
@@ -10,39 +13,110 @@ macro_rules! letters {
             $($(#[$doc])* $letter,)*
         }
 
-        impl Letter {
-            pub(crate) const ALL: [(char, Self); [$($character),*].len()] = [$(($character, Self::$letter)),*];
-        }
+        /// The declarations of the letters, in their order.
+        static DECLARATIONS: [Declaration; [$($character),*].len()] = [$(Declaration {
+            letter: Letter::$letter,
+            character: $character,
+            value: ValueType::$value,
+            writing: Writing::$writing,
+            bound: Bound::$bound,
+            usual: $usual,
+            effect: LetterEffect::$effect,
+            uses: LetterUse::of_classes($uses),
+        }),*];
     };
 }
 
+// The fields of each letter are those of `Declaration`. Its uses are a mark of `LetterUse` for each `ElementClass`. M of a path is only required if the
+// path is embedded; `>` and M of a subpath are checked together with the embedded path.
 letters! {
-    A 'A',
-    B 'B',
-    C 'C',
-    D 'D',
-    E 'E',
-    F 'F',
-    H 'H',
-    I 'I',
-    L 'L',
-    M 'M',
-    N 'N',
-    O 'O',
-    P 'P',
-    Q 'Q',
-    R 'R',
-    S 'S',
-    T 'T',
-    U 'U',
-    W 'W',
-    Z 'Z',
+    //                                                            start
+    //                                                            |  milling, marking, support, sweep
+    //                                                            |  |     drilled hole, mark
+    //                                                            |  |     |   helical circle, mark, support
+    //                                                            |  |     |   |    unknown circle
+    //                                                            |  |     |   |    |  subpath
+    //           value   writing  bound           usual  effect   |  |     |   |    |  |  probe
+    A        'A' Length  Variable Positive        "8"    Cuts    "o  ....  ..  ppp  p  .  .",
+    B        'B' Length  Variable Any             "-0.3" Cuts    "o  !-!.  !-  !-!  o  .  .",
+    C        'C' Length  Variable Positive        "1"    Cuts    "o  ---.  oo  ...  o  .  .",
+    D        'D' Length  Variable Any             "0.3"  Cuts    "o  -!!.  -!  -!!  o  .  .",
+    E        'E' Text    Variable Any             ""     Nothing "o  ....  ..  ...  .  .  .",
+    F        'F' Feed    Variable Positive        "150"  Moves   "o  ooo.  oo  ooo  o  .  .",
+    H        'H' Length  Variable Any             "0.3"  Cuts    ".  ....  ..  ...  .  o  o",
+    I        'I' Length  Variable Positive        "0.5"  Cuts    "o  CCC.  ..  !!!  o  .  .",
+    L        'L' Text    Variable Any             ""     Nothing ".  ....  ..  ...  .  .  o",
+    M        'M' Text    Variable Any             ""     Nothing "o  pppp  pp  ppp  p  !  p",
+    N        'N' Integer Literal  Any             "1"    Cuts    ".  oooo  ..  ...  .  o  .",
+    O        'O' Length  Literal  Positive        "2"    Cuts    "!  pppp  pp  ppp  p  !  p",
+    P        'P' Length  Variable PositiveForBars "1"    Cuts    "o  ..!.  ..  ..!  o  .  .",
+    Q        'Q' Text    Variable Any             ""     Nothing ".  ooo.  oo  ooo  o  .  .",
+    R        'R' Text    Variable Any             ""     Nothing "o  ....  ..  ...  .  .  .",
+    S        'S' Length  Variable Any             "5.5"  Moves   "o  ---o  pp  ppp  p  .  p",
+    T        'T' Length  Variable Positive        "5"    Cuts    "!  pppp  pp  ppp  p  !  !",
+    U        'U' Length  Variable PositiveForBars "5"    Cuts    "o  ..!.  ..  ..!  o  .  .",
+    W        'W' Length  Variable Positive        "4"    Cuts    "o  ccc.  ..  ...  .  .  .",
+    Z        'Z' Feed    Variable Positive        "50"   Moves   "o  ....  ..  ...  .  .  o",
     /// `>`: the path to embed.
-    Embed '>',
+    Embed    '>' Text    Variable Any             ""     Cuts    ".  ....  ..  ...  .  !  .",
     /// `@`: the path from which parameters are borrowed.
-    At '@',
+    At       '@' Text    Literal  Any             ""     Cuts    "o  ....  ..  ...  .  .  .",
     /// `:`: the definition or value of a variable.
-    Variable ':',
+    Variable ':' Text    Variable Any             ""     Cuts    "o  ....  ..  ...  .  o  .",
+}
+
+/// What is true of a letter wherever it stands.
+struct Declaration {
+    letter: Letter,
+    character: char,
+    value: ValueType,
+    writing: Writing,
+    bound: Bound,
+    /// A usual value for help, without the letter; empty for texts.
+    usual: &'static str,
+    effect: LetterEffect,
+    uses: [LetterUse; ElementClass::COUNT],
+}
+
+/// The type of a letter's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ValueType {
+    Text,
+    Integer,
+    /// A number of mm.
+    Length,
+    /// A number of mm/min.
+    Feed,
+}
+
+/// How the value of a letter may be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Writing {
+    /// Without variables: the value is needed before variables have values. (The help of PB206 names these letters.)
+    Literal,
+    /// With variables.
+    Variable,
+}
+
+/// The bound of a letter's value. Bounds that are the values of other letters are in `check_limits`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Bound {
+    Any,
+    /// Greater than 0.
+    Positive,
+    /// Greater than 0 on paths and on elements with bars.
+    PositiveForBars,
+}
+
+/// What a letter's value decides about a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LetterEffect {
+    /// Comments, labels, materials, names of files, and permissions.
+    Nothing,
+    /// Feeds, and moves above the material.
+    Moves,
+    /// Where and how deep the path cuts.
+    Cuts,
 }
 
 /// A set of letters.
@@ -50,15 +124,12 @@ letters! {
 pub(crate) struct Letters(u32);
 
 impl Letter {
-    pub(crate) const COUNT: usize = Self::ALL.len();
-
     /// The letters by their characters, all of which are ASCII.
     const BY_CHARACTER: [Option<Self>; 128] = {
         let mut letters = [None; 128];
         let mut index = 0;
-        while index < Self::COUNT {
-            let (character, letter) = Self::ALL[index];
-            letters[character as usize] = Some(letter);
+        while index < DECLARATIONS.len() {
+            letters[DECLARATIONS[index].character as usize] = Some(DECLARATIONS[index].letter);
             index += 1;
         }
         letters
@@ -69,20 +140,61 @@ impl Letter {
         if character.is_ascii() { Self::BY_CHARACTER[character as usize] } else { None }
     }
 
-    /// Returns the letter's character.
-    pub fn as_char(self) -> char {
-        Self::ALL[self as usize].0
+    /// Returns every letter of the language.
+    pub fn all() -> impl Iterator<Item = Self> {
+        DECLARATIONS.iter().map(|declaration| declaration.letter)
     }
 
-    /// Whether the value of the letter must not contain variables.
-    pub fn is_literal(self) -> bool {
-        matches!(self, Self::N | Self::O | Self::At)
+    fn declaration(self) -> &'static Declaration {
+        &DECLARATIONS[self as usize]
+    }
+
+    /// Returns the letter's character.
+    pub fn as_char(self) -> char {
+        self.declaration().character
+    }
+
+    pub(crate) fn value_type(self) -> ValueType {
+        self.declaration().value
     }
 
     /// Whether the value of the letter is a text rather than a number.
     pub fn is_text(self) -> bool {
-        use Letter::{At, E, Embed, L, M, Q, R, Variable};
-        matches!(self, E | L | M | Q | R | Embed | At | Variable)
+        self.value_type() == ValueType::Text
+    }
+
+    /// Whether the value of the letter must not contain variables.
+    pub(crate) fn is_literal(self) -> bool {
+        self.declaration().writing == Writing::Literal
+    }
+
+    pub(crate) fn bound(self) -> Bound {
+        self.declaration().bound
+    }
+
+    /// Whether the value must be greater than 0, at least where there are bars.
+    pub fn is_positive(self) -> bool {
+        self.bound() != Bound::Any
+    }
+
+    /// Returns a usual value for help, without the letter.
+    pub(crate) fn usual_value(self) -> &'static str {
+        self.declaration().usual
+    }
+
+    pub(crate) fn effect(self) -> LetterEffect {
+        self.declaration().effect
+    }
+
+    /// Whether the path's start gives the letter to elements rather than to the path as a whole.
+    pub(crate) fn is_inherited(self) -> bool {
+        let [start, elements @ ..] = &self.declaration().uses;
+        start.counts() && elements.iter().any(|usage| usage.takes_value())
+    }
+
+    /// Whether the letter applies to a whole chain and is given by its first segment.
+    pub(crate) fn is_of_chain(self) -> bool {
+        self.declaration().uses.iter().any(|usage| matches!(usage, LetterUse::Chain | LetterUse::ChainNeeded))
     }
 }
 
@@ -112,6 +224,10 @@ impl Letters {
         others.0 & self.0 != 0
     }
 
+    pub(crate) fn iter(self) -> impl Iterator<Item = Letter> {
+        Letter::all().filter(move |letter| self.contains(*letter))
+    }
+
     /// Adds a letter. Returns whether it was new.
     pub(crate) fn insert(&mut self, letter: Letter) -> bool {
         let is_new = !self.contains(letter);
@@ -120,8 +236,11 @@ impl Letters {
     }
 }
 
-/// Letters that apply to a whole chain and are given by its first segment.
-pub(crate) const CHAIN_LETTERS: Letters = Letters::of(&[Letter::I, Letter::W]);
+impl FromIterator<Letter> for Letters {
+    fn from_iter<T: IntoIterator<Item = Letter>>(letters: T) -> Self {
+        letters.into_iter().fold(Self::default(), |all, letter| Self(all.0 | 1 << letter as u32))
+    }
+}
 
 /// The class of an element, which determines its permitted letters: a row of the table in the book.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -165,49 +284,22 @@ pub enum LetterUse {
     Unknown,
 }
 
-/// The letters of the columns in [`ROWS`], from left to right.
-const COLUMNS: &str = "F B D I C W P U S N Q T O M A H Z L > : E R @";
-
-/// The rows of the table. M of a path is only required if the path is embedded; `>` and M of a subpath are checked together with the embedded path.
-const ROWS: [(ElementClass, &str); 13] = [
-    (ElementClass::PathStart, "o o o o o o o o o . . ! ! o o . o . . o o o o"),
-    (ElementClass::Mill, "o ! - C - c . . - o o p p p . . . . . . . . ."),
-    (ElementClass::Mark, "o - ! C - c . . - o o p p p . . . . . . . . ."),
-    (ElementClass::Support, "o ! ! C - c ! ! - o o p p p . . . . . . . . ."),
-    (ElementClass::Sweep, ". . . . . . . . o o . p p p . . . . . . . . ."),
-    (ElementClass::DrilledHole, "o ! - . o . . . p . o p p p . . . . . . . . ."),
-    (ElementClass::DrilledMark, "o - ! . o . . . p . o p p p . . . . . . . . ."),
-    (ElementClass::HelicalCircle, "o ! - ! . . . . p . o p p p p . . . . . . . ."),
-    (ElementClass::HelicalMark, "o - ! ! . . . . p . o p p p p . . . . . . . ."),
-    (ElementClass::HelicalSupport, "o ! ! ! . . ! ! p . o p p p p . . . . . . . ."),
-    (ElementClass::UnknownCircle, "o o o o o . o o p . o p p p p . . . . . . . ."),
-    (ElementClass::Subpath, ". . . . . . . . . o . ! ! ! . o . . ! o . . ."),
-    (ElementClass::Probe, ". . . . . . . . p . . ! p p . o o o . . . . ."),
-];
-
-const CELLS: [[LetterUse; Letter::COUNT]; ROWS.len()] = {
-    let mut cells = [[LetterUse::Unknown; Letter::COUNT]; ROWS.len()];
-    let (columns, mut row) = (COLUMNS.as_bytes(), 0);
-    while row < ROWS.len() {
-        let (class, marks) = (ROWS[row].0, ROWS[row].1.as_bytes());
-        assert!(
-            class as usize == row && marks.len() == columns.len(),
-            "a row for each class, a cell for each column"
-        );
-        let mut column = 0;
-        while column < columns.len() {
-            let Some(letter) = Letter::new(columns[column] as char) else {
-                panic!("a column for each letter")
-            };
-            cells[row][letter as usize] = LetterUse::of(marks[column]);
-            column += 2;
-        }
-        row += 1;
-    }
-    cells
-};
-
 impl LetterUse {
+    /// Reads the marks of a letter, one for each class of elements.
+    const fn of_classes(marks: &str) -> [Self; ElementClass::COUNT] {
+        let (marks, mut uses) = (marks.as_bytes(), [Self::Unknown; ElementClass::COUNT]);
+        let (mut index, mut class) = (0, 0);
+        while index < marks.len() {
+            if marks[index] != b' ' {
+                uses[class] = Self::of(marks[index]);
+                class += 1;
+            }
+            index += 1;
+        }
+        assert!(class == ElementClass::COUNT, "a mark for each class");
+        uses
+    }
+
     const fn of(mark: u8) -> Self {
         match mark {
             b'!' => Self::Needed,
@@ -217,8 +309,13 @@ impl LetterUse {
             b'-' => Self::Ignored,
             b'p' => Self::PathOnly,
             b'.' => Self::Unknown,
-            _ => panic!("a mark of the table"),
+            _ => panic!("unknown mark"),
         }
+    }
+
+    /// Whether the element takes a value, from its own text or the path's.
+    const fn takes_value(self) -> bool {
+        !matches!(self, Self::Unknown | Self::Ignored)
     }
 
     /// Whether the letter has an effect in the element's own text.
@@ -228,24 +325,28 @@ impl LetterUse {
 }
 
 impl ElementClass {
+    /// The number of classes with uses of their own.
+    const COUNT: usize = Self::Unread as usize;
+
     /// Returns the use of a letter on this element.
     pub fn use_of(self, letter: Letter) -> LetterUse {
-        CELLS.get(self as usize).map_or(LetterUse::Allowed, |cells| cells[letter as usize])
+        letter.declaration().uses.get(self as usize).copied().unwrap_or(LetterUse::Allowed)
+    }
+
+    /// Whether elements of this class take a value of the letter, from their own text or the path's.
+    pub(crate) fn takes(self, letter: Letter) -> bool {
+        self.use_of(letter).takes_value()
     }
 
     /// Returns the letters that have an effect in the text of an element of this class, for help. @ is left out: it needs a text of its own.
     pub fn known_letters(self) -> impl Iterator<Item = char> {
-        Letter::ALL
-            .into_iter()
-            .filter(move |(_, letter)| *letter != Letter::At && self.use_of(*letter).counts())
-            .map(|(character, _)| character)
+        Letter::all()
+            .filter(move |letter| *letter != Letter::At && self.use_of(*letter).counts())
+            .map(Letter::as_char)
     }
 
     pub(crate) fn needed_letters(self) -> impl Iterator<Item = Letter> {
-        Letter::ALL
-            .into_iter()
-            .map(|(_, letter)| letter)
-            .filter(move |letter| self.use_of(*letter) == LetterUse::Needed)
+        Letter::all().filter(move |letter| self.use_of(*letter) == LetterUse::Needed)
     }
 
     /// Whether elements of this class have support bars, or give the parameters for the support bars of others.

@@ -8,7 +8,7 @@ use std::ops::Range;
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 
-use crate::letter::{ElementClass, Letter, LetterUse, Letters};
+use crate::letter::{ElementClass, Letter, LetterUse, Letters, ValueType};
 use crate::look_alikes;
 use crate::numbers::{parse_integer, parse_number};
 use crate::variables::Definition;
@@ -379,10 +379,10 @@ impl LetterValue {
 impl ValueKind {
     /// Classifies a value of a letter.
     pub(crate) fn of(letter: Letter, value: &str) -> Self {
-        let number = match letter {
-            _ if letter.is_text() => None,
-            Letter::N => parse_integer(value).map(|number| number as f64),
-            _ => parse_number(value),
+        let number = match letter.value_type() {
+            ValueType::Text => None,
+            ValueType::Integer => parse_integer(value).map(|number| number as f64),
+            ValueType::Length | ValueType::Feed => parse_number(value),
         };
         match number {
             Some(number) => Self::Number(number),

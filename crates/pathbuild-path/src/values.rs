@@ -10,7 +10,7 @@ use crate::approx::{above, at_least, is_written_above};
 use pathbuild_motion::ChipLoad;
 
 use crate::language::DoubtThresholds;
-use crate::letter::{ElementClass, Letter, LetterUse, Letters};
+use crate::letter::{Bound, ElementClass, Letter, LetterUse, Letters, ValueType};
 use crate::look_alikes;
 use crate::part::MAX_WEAK_BRIDGE;
 use crate::text::{
@@ -219,20 +219,16 @@ fn not_a_number(letter: Letter, value: &str) -> Diagnostic {
     if let Some(problem) = look_alike_mistake(letter, value) {
         return problem;
     }
-    let is_integer = letter == Letter::N;
-    let message = match is_integer {
+    let message = match letter.value_type() {
         _ if value.contains(is_special_space) => &messages::SPECIAL_SPACE,
-        true => &messages::NOT_AN_INTEGER,
-        false => &messages::NOT_A_NUMBER,
+        ValueType::Integer => &messages::NOT_AN_INTEGER,
+        _ => &messages::NOT_A_NUMBER,
     };
     let visible = with_visible_spaces(value);
-    // Only B is usually negative, S is above the material, and a feed is in mm/min.
-    let example = match letter {
-        Letter::B => "-0.3",
-        Letter::S => "5.5",
-        Letter::F => "150",
-        Letter::Z => "50",
-        _ => "0.3",
+    // A decimal point, which may be what is wrong, suits every length above 0.
+    let example = match letter.value_type() {
+        ValueType::Length if letter.is_positive() => "0.3",
+        _ => letter.usual_value(),
     };
     let problem = Diagnostic::new(message).with("letter", letter.as_char()).quoting("value", visible);
     problem.quoting("example", example)
@@ -253,34 +249,19 @@ fn look_alike_mistake(letter: Letter, value: &str) -> Option<Diagnostic> {
     Some(problem.with("letter", letter.as_char()).quoting("value", value))
 }
 
-/// A letter that must be positive, with a usual value for messages.
-type PositiveLetter = (Letter, &'static str);
-
-/// Letters that must always be positive. (book: language/letters)
-const POSITIVE: [PositiveLetter; 8] = [
-    (Letter::F, "F150"),
-    (Letter::I, "I0.5"),
-    (Letter::C, "C1"),
-    (Letter::O, "O2"),
-    (Letter::T, "T5"),
-    (Letter::A, "A8"),
-    (Letter::W, "W4"),
-    (Letter::Z, "Z50"),
-];
-
 /// Feed in mm/min below which a program, which gives three decimals, would give a feed of 0.
 const MIN_FEED: f64 = 0.0005;
-
-/// Letters that must be positive on paths and on elements with bars.
-const POSITIVE_BARS: [PositiveLetter; 2] = [(Letter::P, "P1"), (Letter::U, "U5")];
 
 /// Returns findings about values of `own` that are outside their limits. If such a limit is another letter that `own` does not give, the path's value
 /// counts.
 pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementClass) -> Vec<Diagnostic> {
     let mut limits = LimitCheck { own, path, class, problems: Vec::new() };
-    let is_known =
-        |letter: &Letter| !matches!(class.use_of(*letter), LetterUse::Unknown | LetterUse::PathOnly);
-    limits.check_positive(POSITIVE.into_iter().filter(|(letter, _)| is_known(letter)));
+    let is_positive = |letter: &Letter| match letter.bound() {
+        Bound::Any => false,
+        Bound::Positive => !matches!(class.use_of(*letter), LetterUse::Unknown | LetterUse::PathOnly),
+        Bound::PositiveForBars => class.has_bars(),
+    };
+    limits.check_positive(Letter::all().filter(is_positive));
     limits.check_above(Letter::S, Letter::T, &messages::NOT_ABOVE);
     // For a probe or a subpath, T is the thickness at its place, which is unrelated to the path's depths.
     for depth in [Letter::B, Letter::D].into_iter().filter(|depth| class.use_of(*depth) != LetterUse::Unknown)
@@ -289,7 +270,6 @@ pub(crate) fn check_limits(own: &Values<'_>, path: &Values<'_>, class: ElementCl
     }
     if class.has_bars() {
         limits.check_above(Letter::D, Letter::B, &messages::NOT_ABOVE);
-        limits.check_positive(POSITIVE_BARS.into_iter());
     }
     limits.problems
 }
@@ -302,10 +282,10 @@ struct LimitCheck<'a> {
 }
 
 impl LimitCheck<'_> {
-    fn check_positive(&mut self, letters: impl Iterator<Item = PositiveLetter>) {
-        for (letter, example) in letters {
+    fn check_positive(&mut self, letters: impl Iterator<Item = Letter>) {
+        for letter in letters {
             let GivenNumber::Number(value) = self.own.number(letter) else { continue };
-            let is_feed = matches!(letter, Letter::F | Letter::Z);
+            let is_feed = letter.value_type() == ValueType::Feed;
             let is_rounded_off = is_feed && value > 0.0 && value < MIN_FEED;
             if is_rounded_off || !above(value, 0.0) {
                 let message = match letter {
@@ -316,7 +296,7 @@ impl LimitCheck<'_> {
                 let problem = Diagnostic::new(message)
                     .with("letter", letter.as_char())
                     .with("value", value)
-                    .quoting("example", example);
+                    .quoting("example", format!("{}{}", letter.as_char(), letter.usual_value()));
                 self.problems.push(self.own.underline(letter, problem));
             }
         }
@@ -448,7 +428,8 @@ pub(crate) fn check_doubts(
         doubts.pecks_without_cycles(),
         doubts.feed_with_thousands(),
     ];
-    let zeros = LENGTHS.into_iter().filter_map(|letter| doubts.zero_before_number(letter));
+    let lengths = Letter::all().filter(|letter| letter.value_type() == ValueType::Length);
+    let zeros = lengths.filter_map(|letter| doubts.zero_before_number(letter));
     found.into_iter().flatten().chain(zeros).collect()
 }
 
@@ -583,19 +564,3 @@ pub fn has_thousands(written: &str, speed: f64) -> bool {
 
 /// Speeds that are so low that three decimals were probably meant as thousands, F0.150 as F150. Nobody writes 0.050 for 50.
 const SPEEDS_WITH_THOUSANDS: Range<f64> = 0.1..100.0;
-
-/// The letters with lengths in mm.
-const LENGTHS: [Letter; 12] = [
-    Letter::A,
-    Letter::B,
-    Letter::C,
-    Letter::D,
-    Letter::H,
-    Letter::I,
-    Letter::O,
-    Letter::P,
-    Letter::S,
-    Letter::T,
-    Letter::U,
-    Letter::W,
-];

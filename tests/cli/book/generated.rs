@@ -70,7 +70,7 @@ const POST_HEADS: [(&str, &str, &str); 10] = [
     ("cambam-calls", "macro | takes", "Makro | nimmt"),
 ];
 
-/// Letters in the order of the columns of their table, which is familiar to machinists.
+/// Letters in the order of the columns of their table, which is familiar to machinists. New letters follow.
 const COLUMNS: &str = "OTSIFBDPUWCNQAHMZL>:ER@";
 
 const ROWS: [ElementClass; 12] = [
@@ -90,8 +90,10 @@ const ROWS: [ElementClass; 12] = [
 
 fn letters(lang: Lang) -> String {
     let element = if lang == Lang::De { "Element" } else { "element" };
-    let columns: Vec<Letter> = COLUMNS.chars().map(|letter| Letter::new(letter).unwrap()).collect();
-    let heads: Vec<String> = COLUMNS.chars().map(|letter| format!("`{letter}`")).collect();
+    let familiar = COLUMNS.chars().map(|letter| Letter::new(letter).unwrap());
+    let new = Letter::all().filter(|letter| !COLUMNS.contains(letter.as_char()));
+    let columns: Vec<Letter> = familiar.chain(new).collect();
+    let heads: Vec<String> = columns.iter().map(|letter| format!("`{}`", letter.as_char())).collect();
     let mut table =
         format!("| {element} | {} |\n| --- |{}\n", heads.join(" | "), " --- |".repeat(columns.len()));
     for class in ROWS {
@@ -226,13 +228,17 @@ fn first_column(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn the_letters_of_the_book_are_those_of_the_code() {
-    let known: BTreeSet<char> = (' '..='~').filter(|it| Letter::new(*it).is_some()).collect();
-    assert_eq!(known, COLUMNS.chars().collect());
-    for lang in [Lang::En, Lang::De] {
+    let known: BTreeSet<char> = Letter::all().map(Letter::as_char).collect();
+    let positive: BTreeSet<char> = Letter::all().filter(|it| it.is_positive()).map(Letter::as_char).collect();
+    for (lang, limit) in [(Lang::En, "must be greater than 0"), (Lang::De, "müssen größer als 0 sein")] {
         let text = pages(lang).into_iter().find(|page| page.name == "language/letters").unwrap().text();
         let (meanings, _) = text.split_once(BEGIN).unwrap();
         let explained = first_column(meanings).into_iter().filter_map(|cell| cell.chars().next());
         assert_eq!(known, explained.collect(), "{lang:?}");
+        let (before, _) = text.split_once(limit).unwrap();
+        let letters = before.lines().last().unwrap().split_whitespace().map(|word| word.trim_matches(','));
+        let letters = letters.filter(|word| word.len() == 1).filter_map(|word| word.chars().next());
+        assert_eq!(positive, letters.collect(), "{lang:?}");
     }
 }
 

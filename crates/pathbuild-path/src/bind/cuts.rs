@@ -8,7 +8,7 @@ use crate::bind::uncut_runs::missing_gap;
 use crate::bind::{Binder, FaultSite, Scope, push_indexed};
 use crate::element::{Cut, Element};
 use crate::geometry::{Curve, Xy};
-use crate::letter::{CHAIN_LETTERS, ElementClass, Letter};
+use crate::letter::{ElementClass, Letter};
 use crate::path::{Bars, ChainParameters, CutParameters, Helix, Hole, SegmentKind};
 use crate::text::TextId;
 use crate::values::{check_bar, check_bar_length};
@@ -50,7 +50,7 @@ impl Binder<'_> {
                 infeed: self.value(scope, Letter::I),
                 first_depth: self.value(scope, Letter::W),
             },
-            chain_letters: text.filter(|_| scope.values.letters().has_any(CHAIN_LETTERS)),
+            chain_letters: text.filter(|_| scope.values.letters().iter().any(Letter::is_of_chain)),
             comment: scope.values.text(Letter::Q).map(Into::into),
         }
     }

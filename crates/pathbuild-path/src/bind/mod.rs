@@ -19,7 +19,7 @@ use crate::effective::Texts;
 use crate::element::{Cut, Element, Marker, Origin, Role, Shape, diagnostic_point};
 use crate::geometry::{Curve, PlaceKey};
 use crate::language::{Language, PathTool};
-use crate::letter::{ElementClass, Letter, LetterUse, Letters};
+use crate::letter::{ElementClass, Letter, LetterEffect, LetterUse, Letters};
 use crate::names::name_regex;
 use crate::part::first_enclosing;
 use crate::path::{
@@ -202,7 +202,6 @@ impl<'a> Binder<'a> {
     fn add_uncertainty(&self, path: &mut Path) {
         let DrawingUncertainty { has_broken_entity, has_second_start, other_ends, unclear_circles, .. } =
             &self.raw.uncertainty;
-        let letters = Letter::ALL.into_iter().map(|(_, letter)| letter);
         let is_unknown = |letter: &Letter| match letter {
             Letter::O | Letter::T => self.path_number(*letter).is_none(),
             _ => self.values.is_unknown(*letter),
@@ -218,9 +217,7 @@ impl<'a> Binder<'a> {
             WalkCertainty::Known
         };
         path.uncertainty = Some(Box::new(PathUncertainty {
-            letters: letters
-                .filter(is_unknown)
-                .fold(Letters::default(), |all, one| all.union(Letters::of(&[one]))),
+            letters: Letter::all().filter(is_unknown).collect(),
             is_infeed_unknown: self.unknown.infeed || self.values.is_unknown(Letter::I),
             are_cuts_known: self.are_cuts_known(),
             walk,
@@ -233,7 +230,7 @@ impl<'a> Binder<'a> {
     fn are_cuts_known(&self) -> bool {
         let mut errors = self.raw.diagnostics.iter().chain(&self.problems).filter(|found| found.is_error());
         !self.unknown.needed
-            && !self.raw.uncertainty.stray_letters.has_any(CUTTING_LETTERS)
+            && !self.raw.uncertainty.stray_letters.iter().any(|letter| letter.effect() == LetterEffect::Cuts)
             && errors.all(|error| error.code() == Code::TextWithoutElement)
     }
 
@@ -434,25 +431,6 @@ pub fn regex_reason(error: &regex::Error) -> Value {
     let last = text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default();
     Value::foreign(last.trim().trim_start_matches("error: "))
 }
-
-/// Letters that decide where and how deep a path cuts.
-const CUTTING_LETTERS: Letters = Letters::of(&[
-    Letter::B,
-    Letter::D,
-    Letter::I,
-    Letter::C,
-    Letter::W,
-    Letter::P,
-    Letter::U,
-    Letter::N,
-    Letter::T,
-    Letter::O,
-    Letter::A,
-    Letter::H,
-    Letter::Embed,
-    Letter::Variable,
-    Letter::At,
-]);
 
 /// Order of elements without N among the segments that meet at a point. (book: language/chains-and-passes)
 const UNNUMBERED: f64 = 9998.0;

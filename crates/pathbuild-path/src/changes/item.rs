@@ -10,7 +10,7 @@ use crate::effective::Provider;
 use crate::element::{END_RADIUS, Element, Marker, PROBE_RADIUS, Role, START_RADIUS, Shape, TURN_RADIUS};
 use crate::element_parameters::{ElementParameters, Parameter};
 use crate::geometry::{Arc, Curve, Xy};
-use crate::letter::Letter;
+use crate::letter::{Letter, LetterEffect};
 use crate::line_type::LineType;
 use crate::text::{LetterValue, ParameterText};
 
@@ -80,10 +80,9 @@ fn moving_parameters(row: &ElementParameters) -> impl Iterator<Item = &Parameter
     row.parameters.iter().filter(|parameter| can_move(parameter.letter))
 }
 
-/// Whether the value of a letter can change moves. Comments (Q), labels (L), materials (M), names of files (R) and permissions (E) cannot. Nor can @
-/// itself: the borrowed parameters are compared instead.
+/// Whether the value of a letter can change moves. @ itself cannot: the borrowed parameters are compared instead.
 fn can_move(letter: Letter) -> bool {
-    !matches!(letter, Letter::E | Letter::L | Letter::M | Letter::Q | Letter::R | Letter::At)
+    letter.effect() != LetterEffect::Nothing && letter != Letter::At
 }
 
 impl Item<'_> {
@@ -123,8 +122,7 @@ impl Item<'_> {
         }
         let is_changed = |letter| self.value(letter) != new.value(letter);
         let gives = |item: &Self, letter| item.parameter(letter).is_some_and(|own| own.from == Provider::Own);
-        let letters = Letter::ALL.into_iter().map(|(_, letter)| letter);
-        let letters: Vec<Letter> = letters
+        let letters: Vec<Letter> = Letter::all()
             .filter(|letter| is_changed(*letter) && (gives(self, *letter) || gives(new, *letter)))
             .collect();
         differing_pieces(self.text, new.text, &letters)
@@ -157,8 +155,7 @@ pub(super) fn start_text(old: DrawnSide<'_>, new: DrawnSide<'_>) -> Option<Eleme
         let own = row.parameters.iter().find(|own| own.letter == letter)?;
         matches!(own.from, Provider::Path | Provider::Lender(_)).then(|| own.value.clone())
     };
-    let letters = Letter::ALL.into_iter().map(|(_, letter)| letter);
-    let letters = letters.filter(|letter| can_move(*letter) && *letter != Letter::Variable);
+    let letters = Letter::all().filter(|letter| can_move(*letter) && *letter != Letter::Variable);
     let letters: Vec<Letter> =
         letters.filter(|letter| value(old, *letter) != value(new, *letter) && is_used(*letter)).collect();
     differing_pieces(old.raw.parameters(), new.raw.parameters(), &letters).map(ElementChange::Text)

@@ -207,10 +207,6 @@ impl PathCheck<'_> {
     }
 }
 
-/// Letters that only cuts of the path itself use.
-const LETTERS_OF_CUTS: [Letter; 8] =
-    [Letter::A, Letter::B, Letter::C, Letter::D, Letter::I, Letter::P, Letter::U, Letter::W];
-
 impl PathCheck<'_> {
     /// Reports PB210 for letters of the path's start that none of its elements uses: W without a chain, and everything about cutting in a path that
     /// only embeds others. Not called for drawings whose paths borrow texts from each other.
@@ -228,17 +224,21 @@ impl PathCheck<'_> {
         let only_embeds = !has_cut && !is_cut_hidden && subpaths.peek().is_some() && subpaths.all(names_path);
         let is_chain =
             |element: &Element| matches!((element.role, element.shape), (Role::Cut(_), Shape::Curve(_)));
-        let (letters, message) = if only_embeds {
-            (&LETTERS_OF_CUTS[..], &parameters::WITHOUT_EFFECT_ON_EMBEDDED)
+        let probe = (!self.raw.probes.is_empty()).then_some(ElementClass::Probe);
+        let is_used = |letter: Letter| {
+            let mut classes = [ElementClass::Sweep, ElementClass::Subpath].into_iter().chain(probe);
+            // F of the path also serves as Z of its Z-probes.
+            letter == Letter::F && probe.is_some() || classes.any(|class| class.takes(letter))
+        };
+        let is_unused = |letter: &Letter| letter.is_inherited() && !is_used(*letter);
+        let (letters, message): (Letters, _) = if only_embeds {
+            (Letter::all().filter(is_unused).collect(), &parameters::WITHOUT_EFFECT_ON_EMBEDDED)
         } else if !drawn.elements.iter().any(is_chain) {
-            (&[Letter::W][..], &parameters::FIRST_DEPTH_WITHOUT_CHAIN)
+            (Letters::of(&[Letter::W]), &parameters::FIRST_DEPTH_WITHOUT_CHAIN)
         } else {
             return;
         };
-        // F and Z of the path are used by its Z-probes, if it has any.
-        let of_probes =
-            [Letter::F, Letter::Z].into_iter().filter(|_| only_embeds && self.raw.probes.is_empty());
-        let unused = letters.iter().copied().chain(of_probes).filter_map(|letter| {
+        let unused = letters.iter().filter_map(|letter| {
             let fault = self.raw.parameters().fault_of(letter)?;
             let problem = Diagnostic::new(message).with("letter", letter.as_char()).with_text(Some(fault));
             Some(self.raw.at_parameters(problem))

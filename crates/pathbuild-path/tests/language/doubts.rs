@@ -662,7 +662,7 @@ fn letters_of_cuts_have_no_effect_in_a_path_that_only_embeds() {
         without_effect(&format!("{lender}\nlayer 1234.2P\nstart 0,50 \"{text}\"\nmill 0,50 40,50\nend 40,50"))
     };
     assert_eq!(borrowed("@1234.1P"), [""; 0]);
-    assert_eq!(borrowed("T5 O2 B1 I1"), ["B1", "I1", "F99"]);
+    assert_eq!(borrowed("T5 O2 B1 I1"), ["B1", "F99", "I1"]);
     // A line of an unknown line type may be meant as a cut.
     let unclear = path("T5 O2 I1", &format!("{EMBEDDING}line \"UNKNOWN\" 40,0 80,0\nend 80,0"));
     assert_eq!(without_effect(&unclear), [""; 0]);

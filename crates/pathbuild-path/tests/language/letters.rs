@@ -1,33 +1,48 @@
 //! Tests where each letter is permitted: every cell of the table of book: language/letters.
 
+use pathbuild_path::Letter;
+
 use crate::support::{path, wrong};
 
-/// All letters, each with a value that is valid wherever the letter is permitted.
-const LETTERS: [(char, &str); 23] = [
-    ('A', "20"),
-    ('B', "0.5"),
-    ('C', "1"),
-    ('D', "2.5"),
-    ('E', "x"),
-    ('F', "100"),
-    ('H', "1"),
-    ('I', "0.5"),
-    ('L', "x"),
-    ('M', "x"),
-    ('N', "1"),
-    ('O', "3"),
-    ('P', "0.9"),
-    ('Q', "x"),
-    ('R', "x"),
-    ('S', "10"),
-    ('T', "4"),
-    ('U', "4.1"),
-    ('W', "4"),
-    ('Z', "50"),
-    ('>', "1111.1P"),
-    ('@', "1111.1P"),
-    (':', "a1~2"),
+/// All letters, each with a value of the path and another value, both of which are valid wherever the letter is permitted. The value of the path is empty
+/// if no element inherits it.
+pub(crate) const LETTERS: [(char, [&str; 2]); 23] = [
+    ('A', ["20", "25"]),
+    ('B', ["1", "0.5"]),
+    ('C', ["1", "2"]),
+    ('D', ["3", "2.5"]),
+    ('E', ["", "x"]),
+    ('F', ["200", "100"]),
+    ('H', ["", "1"]),
+    ('I', ["1", "0.5"]),
+    ('L', ["", "x"]),
+    ('M', ["x", "y"]),
+    ('N', ["", "1"]),
+    ('O', ["3", "2.5"]),
+    ('P', ["1", "0.9"]),
+    ('Q', ["", "x"]),
+    ('R', ["", "x"]),
+    ('S', ["20", "10"]),
+    ('T', ["5", "4.5"]),
+    ('U', ["4", "4.1"]),
+    ('W', ["4", "4.2"]),
+    ('Z', ["50", "60"]),
+    ('>', ["", "1111.1P"]),
+    ('@', ["", "1111.1P"]),
+    (':', ["", "a1~2"]),
 ];
+
+/// The letters that must be greater than 0.
+pub(crate) const POSITIVE: &str = "ACFIOPTUWZ";
+
+/// The letters that have a value even if no text gives one.
+pub(crate) const WITH_DEFAULT: &str = "AFHSZ";
+
+#[test]
+fn every_letter_is_tested() {
+    let tested: Vec<char> = LETTERS.iter().map(|(letter, _)| *letter).collect();
+    assert_eq!(Letter::all().map(Letter::as_char).collect::<Vec<_>>(), tested);
+}
 
 /// Text of the start that gives every value that any element needs.
 const PATH: &str = "T5 O3 Mx F200 B1 D3 I1 P1 U4";
@@ -65,7 +80,7 @@ fn cell(row: &str, letter: char) -> Cell {
 
 /// Checks a row. `element` draws the element with a text, and everything else that the path needs.
 fn check_row(row: &str, element: impl Fn(&str) -> String) {
-    for (letter, value) in LETTERS {
+    for (letter, [_, value]) in LETTERS {
         let (cell, own) = (cell(row, letter), format!("{letter}{value}"));
         // W with support bars is a doubt of its own (PB211).
         let found = |parameters: &str, text: &str| {
@@ -91,7 +106,7 @@ fn check_row(row: &str, element: impl Fn(&str) -> String) {
 /// Checks a row, and that the letters of a chain have no effect on segments other than the first.
 fn check_chain_row(row: &str, statement: &str) {
     check_row(row, |text| format!("{statement} 0,0 40,0{}\nend 40,0", note(text)));
-    for (letter, value) in LETTERS {
+    for (letter, [_, value]) in LETTERS {
         let text = format!("{letter}{value}");
         let second =
             path(PATH, &format!("{statement} 0,0 40,0\n{statement} 40,0 80,0{}\nend 80,0", note(&text)));
@@ -120,7 +135,7 @@ fn circle(circle: &'static str) -> impl Fn(&str) -> String {
 #[test]
 fn path_start() {
     let row = "F:o B:o D:o I:o C:o W:o P:o U:o S:o T:! O:! M:o A:o Z:o ::o E:o R:o";
-    for (letter, value) in LETTERS {
+    for (letter, [_, value]) in LETTERS {
         let own = format!("{letter}{value}");
         let found = |parameters: &str| wrong(&path(parameters, "mill 0,0 40,0\nend 40,0"));
         let expected = match cell(row, letter) {
@@ -212,7 +227,7 @@ fn probe() {
 /// The text of a DOT line is ignored, and a HIDDEN line takes none.
 #[test]
 fn silent_sweeps() {
-    for (letter, value) in LETTERS {
+    for (letter, [_, value]) in LETTERS {
         let drawing = format!("skip 0,0 40,0 \"{letter}{value} {letter}{value} ?\"\nend 40,0");
         assert_eq!(wrong(&path(PATH, &drawing)), [""; 0]);
     }

@@ -5,46 +5,16 @@ use pathbuild_path::{
     fallback,
 };
 
+use crate::letters::{LETTERS, WITH_DEFAULT};
 use crate::support::{compile, path, read, wrong};
 
-const PATH: [(char, &str); 13] = [
-    ('T', "5"),
-    ('O', "3"),
-    ('M', "x"),
-    ('F', "200"),
-    ('B', "1"),
-    ('D', "3"),
-    ('I', "1"),
-    ('C', "1"),
-    ('W', "4"),
-    ('P', "1"),
-    ('U', "4"),
-    ('Z', "50"),
-    ('A', "20"),
-];
-
-/// Returns a second value for each letter.
-fn other(letter: char) -> &'static str {
-    match letter {
-        'T' => "4.5",
-        'O' | 'D' => "2.5",
-        'M' => "y",
-        'F' => "100",
-        'B' | 'I' => "0.5",
-        'C' => "2",
-        'W' => "4.2",
-        'P' => "0.9",
-        'U' => "4.1",
-        'Z' => "60",
-        _ => panic!("{letter}"),
-    }
-}
-
+/// Returns the text of a start that gives every value of the path, one of them changed.
 fn parameters(changed: Option<char>) -> String {
-    let piece = |(letter, value): &(char, &str)| {
-        format!("{letter}{}", if changed == Some(*letter) { other(*letter) } else { value })
+    let given = LETTERS.iter().filter(|(_, [value, _])| !value.is_empty());
+    let piece = |(letter, [value, other]): &(char, [&str; 2])| {
+        format!("{letter}{}", if changed == Some(*letter) { other } else { value })
     };
-    PATH.iter().map(piece).collect::<Vec<_>>().join(" ")
+    given.map(piece).collect::<Vec<_>>().join(" ")
 }
 
 /// Returns the parameters of a path's first segment and its probe, without their origins.
@@ -68,17 +38,21 @@ fn known(parameters: &str, statements: &str) -> String {
     format!("{segment} {probe:?}")
 }
 
-/// Checks that these letters come from the element if it gives them, and otherwise from the path.
-fn check(letters: &str, statement: impl Fn(&str) -> String) {
-    for letter in letters.chars() {
-        let own = format!("{letter}{}", other(letter));
+/// Checks that each letter that both the path and an element of this class may give comes from the element, or else from the path.
+fn check(class: ElementClass, statement: impl Fn(&str) -> String) {
+    // The values of variables are those of the embedded path.
+    let is_inherited = |letter: &Letter| {
+        let counts = |class: ElementClass| class.use_of(*letter).counts();
+        counts(class) && counts(ElementClass::PathStart) && *letter != Letter::Variable
+    };
+    for letter in Letter::all().filter(is_inherited).map(Letter::as_char) {
+        let (_, [value, other]) = LETTERS.into_iter().find(|(known, _)| *known == letter).unwrap();
         let plain = known(&parameters(None), &statement(""));
-        let from_element = known(&parameters(None), &statement(&own));
+        let from_element = known(&parameters(None), &statement(&format!("{letter}{other}")));
         let from_path = known(&parameters(Some(letter)), &statement(""));
-        let back = format!("{letter}{}", PATH.iter().find(|(known, _)| *known == letter).unwrap().1);
         assert_ne!(plain, from_path, "{letter} of the path matters");
         assert_eq!(from_element, from_path, "{letter} of the element is as good as the path's");
-        let over = known(&parameters(Some(letter)), &statement(&back));
+        let over = known(&parameters(Some(letter)), &statement(&format!("{letter}{value}")));
         assert_eq!(over, plain, "{letter} of the element wins over the path's");
     }
 }
@@ -93,24 +67,29 @@ fn on_circle(circle: &'static str) -> impl Fn(&str) -> String {
 
 #[test]
 fn segments_of_chains() {
-    check("FBIW", on_line("mill"));
-    check("FDIW", on_line("mark"));
-    check("FBDIWPU", on_line("bars"));
+    check(ElementClass::Mill, on_line("mill"));
+    check(ElementClass::Mark, on_line("mark"));
+    check(ElementClass::Support, on_line("bars"));
+}
+
+#[test]
+fn sweeps() {
+    check(ElementClass::Sweep, |text| format!("line DASHED 0,0 40,0 \"N1 {text}\"\nend 40,0"));
 }
 
 #[test]
 fn subpaths_and_probes() {
-    check("TOM", |text| format!("subpath 0,0 40,0 \">1111.1P {text}\"\nend 40,0"));
-    check("TZ", |text| format!("mill 0,0 40,0\nprobe 20,40 \"Lx {text}\"\nend 40,0"));
+    check(ElementClass::Subpath, |text| format!("subpath 0,0 40,0 \">1111.1P {text}\"\nend 40,0"));
+    check(ElementClass::Probe, |text| format!("mill 0,0 40,0\nprobe 20,40 \"Lx {text}\"\nend 40,0"));
 }
 
 #[test]
 fn circles() {
-    check("FBC", on_circle("40,0 d 3"));
-    check("FDC", on_circle("DIVIDE 40,0 d 3"));
-    check("FBI", on_circle("40,0 d 8"));
-    check("FDI", on_circle("DIVIDE 40,0 d 8"));
-    check("FBDIPU", on_circle("BORDER 40,0 d 10"));
+    check(ElementClass::DrilledHole, on_circle("40,0 d 3"));
+    check(ElementClass::DrilledMark, on_circle("DIVIDE 40,0 d 3"));
+    check(ElementClass::HelicalCircle, on_circle("40,0 d 8"));
+    check(ElementClass::HelicalMark, on_circle("DIVIDE 40,0 d 8"));
+    check(ElementClass::HelicalSupport, on_circle("BORDER 40,0 d 10"));
 }
 
 #[test]
@@ -124,17 +103,6 @@ fn h_and_n_and_s_have_no_value_of_the_path() {
     let path_with = compiled.path.unwrap();
     let SegmentKind::Subpath(subpath) = &path_with.segments[0].kind else { panic!() };
     assert_eq!(subpath.height, 1.5);
-}
-
-#[test]
-fn a_sweep_has_its_own_height_or_that_of_the_path() {
-    let height = |text: &str| {
-        let path =
-            compile(&path("T5 O3 S20", &format!("line DASHED 0,0 40,0 {text}\nend 40,0"))).path.unwrap();
-        let SegmentKind::Sweep { height } = path.segments[0].kind else { panic!() };
-        height
-    };
-    assert_eq!((height(""), height("\"S12\"")), (Some(20.0), Some(12.0)));
 }
 
 #[test]
@@ -224,10 +192,13 @@ fn faults_of_borrowed_parameters_are_reported_with_the_path_they_belong_to() {
     }
 }
 
-/// Tests F, S, A, H and Z if no text gives them, for a path with O2, T5 and F90.
+/// Tests each letter if no text gives it, for a path with O2, T5 and F90.
 #[test]
 fn defaults_follow_from_one_function() {
-    use ElementClass::{HelicalCircle, Mill, PathStart, Probe, Subpath};
+    use ElementClass::{
+        DrilledHole, DrilledMark, HelicalCircle, HelicalMark, HelicalSupport, Mark, Mill, PathStart, Probe,
+        Subpath, Support, Sweep, UnknownCircle,
+    };
 
     let path = PathNumbers { tool: Some(2.0), thickness: Some(5.0), feed: Some(90.0) };
     let options =
@@ -252,4 +223,11 @@ fn defaults_follow_from_one_function() {
     ] {
         assert_eq!(fallback(letter, class, path, options, role), expected, "{letter:?} {class:?} {role:?}");
     }
+    let has_default = |letter: &Letter| {
+        let default = |class| fallback(*letter, class, path, &options, embedded);
+        let lines = [Mill, Mark, Support, Sweep, Subpath].into_iter();
+        let circles = [DrilledHole, DrilledMark, HelicalCircle, HelicalMark, HelicalSupport, UnknownCircle];
+        lines.chain(circles).chain([PathStart, Probe]).any(|class| default(class).is_some())
+    };
+    assert_eq!(Letter::all().filter(has_default).map(Letter::as_char).collect::<String>(), WITH_DEFAULT);
 }
