@@ -3,7 +3,7 @@
 #![cfg(unix)]
 
 use crate::support::{Place, Run};
-use pathbuild_diagnostic::shown;
+use pathbuild_diagnostic::escaping;
 
 const FORMATS: [&str; 9] =
     ["full", "concise", "json", "sarif", "github", "gitlab", "junit", "dot", "mermaid"];
@@ -79,7 +79,7 @@ fn toml_text() -> String {
 #[track_caller]
 fn assert_harmless(run: &Run, is_github: bool) {
     for text in [&run.stdout, &run.stderr] {
-        let acting: Vec<char> = text.chars().filter(|it| *it != '\n' && shown::is_active(*it)).collect();
+        let acting: Vec<char> = text.chars().filter(|it| *it != '\n' && escaping::is_active(*it)).collect();
         assert!(acting.is_empty(), "{acting:?} in {:?}\n{text:?}", run.arguments);
         assert!(!text.contains("##[") && !text.contains("##vso["), "{:?}\n{text}", run.arguments);
         for line in text.lines() {
@@ -194,7 +194,7 @@ fn what_is_seen_of_hostile_names_acts_on_nobody() {
         // The page's own script is left out of the comparison.
         let text = place.read(output).replace(pathbuild_view::SCRIPT, "");
         let acting: Vec<char> =
-            text.chars().filter(|it| !matches!(it, '\n' | '\t') && shown::is_active(*it)).collect();
+            text.chars().filter(|it| !matches!(it, '\n' | '\t') && escaping::is_active(*it)).collect();
         assert!(
             acting.is_empty() && !text.contains("##[") && text.contains("1303.1P"),
             "{output}: {acting:?}"

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use camino::Utf8PathBuf;
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_workspace::Workspace;
-use pathbuild_workspace::settle::{self, BaselineTask, Settled};
+use pathbuild_workspace::settle::{self, BaselineOutcome, BaselineTask};
 use pathbuild_workspace::waivers::{Coverage, Waiver};
 
 use crate::options::{date, utf8};
@@ -99,13 +99,13 @@ impl SettledFindings {
         baseline: &settle::BaselineOptions,
         coverage: impl FnOnce() -> Coverage,
     ) -> Result<Self, Error> {
-        let settled = workspace.settle(workspace.findings(diagnostics), baseline, coverage);
+        let settled = workspace.apply_baseline_options(workspace.findings(diagnostics), baseline, coverage);
         match settled.map_err(Error::from_failure)? {
-            Settled::Findings(findings) => {
+            BaselineOutcome::Findings(findings) => {
                 let (findings, accepted) = Finding::reported_and_accepted(findings);
                 Ok(Self { findings, accepted, baseline: None })
             }
-            Settled::Written(settle::WrittenBaseline { file, findings }) => {
+            BaselineOutcome::Written(settle::WrittenBaseline { file, findings }) => {
                 let baseline = Some(WrittenBaseline { file: Utf8PathBuf::into_string(file), findings });
                 Ok(Self { findings: Vec::new(), accepted: Vec::new(), baseline })
             }

@@ -68,7 +68,7 @@ impl Library {
     pub fn check_with(&self, inputs: &[&str], options: &CheckOptions) -> Result<CheckReport, Error> {
         let (inputs, options) = (to_inputs(inputs), options.clone());
         let baseline = options.baseline.clone().resolve(&self.workspace)?;
-        let is_traced = self.workspace.keeps_results() || options.changed_since.is_some();
+        let is_traced = self.workspace.caches_results() || options.changed_since.is_some();
         self.work(move |open| {
             let session = open.session(is_traced);
             let workspace = session.workspace();
@@ -190,7 +190,7 @@ impl Library {
         if let Some(text) = &options.request.post_arguments.date {
             date(text, Some(self.workspace.lang()))?;
         }
-        let is_traced = self.workspace.keeps_results() && options.request.uses_cache();
+        let is_traced = self.workspace.caches_results() && options.request.uses_cache();
         self.work(move |open| {
             let session = open.session(is_traced);
             let emission = options.request.run(session, &inputs).map_err(Error::from_failure)?;
@@ -245,7 +245,7 @@ impl Library {
     pub fn changed(&self, file: &str) -> Result<(), Error> {
         let file = file.to_owned();
         self.ask(move |session| {
-            let file = session.normal(Utf8Path::new(&file));
+            let file = session.normalize(Utf8Path::new(&file));
             session.touch_file(&file);
             session.touch_directory(file.parent().unwrap_or(Utf8Path::new("")));
             Ok(())
@@ -317,7 +317,7 @@ impl Library {
         &self,
         work: impl FnOnce(&mut Session<'_>) -> Result<R, Error> + Send + 'static,
     ) -> Result<R, Error> {
-        let is_traced = self.workspace.keeps_results();
+        let is_traced = self.workspace.caches_results();
         self.work(move |open| work(open.session(is_traced)))
     }
 
@@ -363,7 +363,7 @@ fn to_inputs(inputs: &[&str]) -> Inputs {
 /// Returns the inputs that stand for the configured library, or for the directory if none is configured.
 fn whole_library(workspace: &Workspace) -> Inputs {
     let directory = (!workspace.has_library()).then_some(&workspace.working_directory);
-    Inputs::places(directory)
+    Inputs::of_files(directory)
 }
 
 fn revision_files<'w>(

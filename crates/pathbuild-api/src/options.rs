@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
-use pathbuild_db::system::{BasedSystem, FileKind, MemorySystem, OsSystem, clean};
+use pathbuild_db::system::{FileKind, FixedDirectorySystem, MemorySystem, OsSystem, clean};
 use pathbuild_diagnostic::Lang;
 use pathbuild_workspace::config::sections::general::OPTIONS;
 use pathbuild_workspace::config::{self, GivenOptions, OptionValues, Overrides};
@@ -330,7 +330,7 @@ impl Source {
                     let [en, de] = ["there is no directory {}", "es gibt kein Verzeichnis {}"];
                     return Err(refusal(lang, en, de, directory.as_str()));
                 }
-                Ok((Arc::new(BasedSystem::new(OsSystem::shared(), directory.clone())), directory))
+                Ok((Arc::new(FixedDirectorySystem::new(OsSystem::shared(), directory.clone())), directory))
             }
             Self::Files(files) => {
                 let system = MemorySystem::default();

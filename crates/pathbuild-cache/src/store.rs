@@ -196,7 +196,7 @@ impl TreeStore {
     /// # Errors
     /// If one of them cannot be removed. If the directory is not a cache, nothing is removed.
     pub fn prune(&self, build: &Key) -> Result<usize, RemoveError> {
-        refuse_others(self.directory())?;
+        refuse_foreign_directory(self.directory())?;
         let unused = self.entries(build).into_iter();
         let unused = unused.filter(|entry| entry.fault.is_some() || is_older(&entry.path, UNUSED_AGE));
         let abandoned = entry_names(self.directory()).filter(|name| is_temporary(name));
@@ -255,7 +255,7 @@ fn is_temporary(name: &str) -> bool {
 
 /// Removes pathbuild's files from a directory, and the directory itself if it is then empty.
 fn clean(directory: &Utf8Path) -> Result<(), RemoveError> {
-    refuse_others(directory)?;
+    refuse_foreign_directory(directory)?;
     // The tag that marks the directory as a cache is removed last.
     let ours: Vec<String> =
         entry_names(directory).filter(|name| name != TAG_FILE && is_ours(directory, name)).collect();
@@ -271,7 +271,7 @@ fn clean(directory: &Utf8Path) -> Result<(), RemoveError> {
 }
 
 /// Refuses directories reached through a symbolic link or not created by pathbuild: other programs may use the same file names.
-fn refuse_others(directory: &Utf8Path) -> Result<(), RemoveError> {
+fn refuse_foreign_directory(directory: &Utf8Path) -> Result<(), RemoveError> {
     let refused = |word| RemoveError { path: directory.to_owned(), reason: Value::Prose(word) };
     if let Some(word) = private::refusal(directory) {
         return Err(refused(word));

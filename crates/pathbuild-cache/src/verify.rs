@@ -72,7 +72,7 @@ pub fn verify(catalogue: &Catalogue, context: VerifyContext<'_>, mut listings: L
     let is_sound = if is_current {
         vec![true; catalogue.records.len()]
     } else {
-        sound_records(catalogue, &files, &changes, context.covers)
+        record_validity(catalogue, &files, &changes, context.covers)
     };
     let is_valid = is_requested
         .iter()
@@ -108,7 +108,7 @@ enum FileRole {
 }
 
 /// Determines for each record whether none of its checked files has changed and all its lookups give the same answers.
-fn sound_records(
+fn record_validity(
     catalogue: &Catalogue,
     files: &[FileState],
     changes: &[DirectoryChange],

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::limits::{TIME_OF_PATH, exceeded, seconds};
+use pathbuild_diagnostic::limits::{TIME_OF_PATH, limit_error, seconds};
 use pathbuild_diagnostic::messages::files as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_dxf::Drawing;
@@ -105,7 +105,7 @@ impl Database {
     pub fn files(&self, paths: Vec<Utf8PathBuf>) -> Vec<SourceFile> {
         let mut inputs = self.inputs();
         inputs.files.reserve(paths.len());
-        paths.into_iter().map(|path| self.file_among(&mut inputs, Cow::Owned(path))).collect()
+        paths.into_iter().map(|path| self.intern_file(&mut inputs, Cow::Owned(path))).collect()
     }
 
     /// Returns the input for a path of a drawing in a role. The same arguments always give the same input.
@@ -175,7 +175,7 @@ impl Database {
         salsa::Database::trigger_lru_eviction(self);
     }
 
-    fn file_among(&self, inputs: &mut Inputs, path: Cow<'_, Utf8Path>) -> SourceFile {
+    fn intern_file(&self, inputs: &mut Inputs, path: Cow<'_, Utf8Path>) -> SourceFile {
         if let Some(file) = inputs.files.get(path.as_str()) {
             return *file;
         }
@@ -205,7 +205,7 @@ impl Db for Database {
     }
 
     fn file(&self, path: &Utf8Path) -> SourceFile {
-        self.file_among(&mut self.inputs(), Cow::Borrowed(path))
+        self.intern_file(&mut self.inputs(), Cow::Borrowed(path))
     }
 
     fn directory(&self, path: &Utf8Path) -> Directory {
@@ -292,9 +292,9 @@ impl Database {
             let problem = match payload.downcast_ref::<Cancelled>() {
                 // The query panicked on another thread. Running it here gives the reason, if it panics again.
                 Some(Cancelled::PropagatedPanic) => continue,
-                Some(_) => too_slow(limit),
+                Some(_) => time_limit_error(limit),
                 None if payload.is::<DriftPanic>() => Diagnostic::new(&messages::CHANGES_WHILE_READ),
-                None if payload.is::<TimeoutPanic>() => too_slow(limit),
+                None if payload.is::<TimeoutPanic>() => time_limit_error(limit),
                 None => internal_error(&*payload),
             };
             return Err(Box::new(problem));
@@ -427,7 +427,7 @@ pub fn catch_bugs<R>(work: impl FnOnce() -> R) -> Result<R, Box<Diagnostic>> {
         if payload.is::<Cancelled>() {
             resume_unwind(payload);
         }
-        let too_long = payload.downcast_ref().map(|TimeoutPanic(limit)| too_slow(*limit));
+        let too_long = payload.downcast_ref().map(|TimeoutPanic(limit)| time_limit_error(*limit));
         Box::new(too_long.unwrap_or_else(|| internal_error(&*payload)))
     })
 }
@@ -448,6 +448,6 @@ pub fn bug(reason: &str) -> Diagnostic {
 pub(crate) struct DriftPanic;
 
 /// Returns PB005 for work that exceeded this time limit, without a place.
-pub fn too_slow(limit: Duration) -> Diagnostic {
-    exceeded(&TIME_OF_PATH, seconds(limit), "seconds-per-path")
+pub fn time_limit_error(limit: Duration) -> Diagnostic {
+    limit_error(&TIME_OF_PATH, seconds(limit), "seconds-per-path")
 }

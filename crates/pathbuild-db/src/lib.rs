@@ -13,7 +13,9 @@ mod database;
 mod inputs;
 mod queries;
 
-pub use database::{Database, Db, PendingListing, ScratchPool, WorkInProgress, bug, catch_bugs, too_slow};
+pub use database::{
+    Database, Db, PendingListing, ScratchPool, WorkInProgress, bug, catch_bugs, time_limit_error,
+};
 pub use inputs::{Directory, Limits, Reading, Role, Settings, SourceFile, Target};
 pub use pathbuild_files as system;
 pub use pathbuild_files::System;
@@ -22,9 +24,9 @@ pub use queries::{
     MissingOption, NameKey, NameLookup, Outcome, PathIndex, PathPlace, PathSummary, PlacedKeepOut,
     ResolvedPath, SecondDefinition, Trace, TracedProgram, assigned_texts, candidate_files, chains,
     check_file, check_joined_parts, check_target, closure, collisions, combinations, content, content_hash,
-    defining_files, drawing_names, drawn_path, effective_parameters, embeds, embeds_others, file_index,
-    has_clamp_layer, has_part_layer, heights_of_shims, keep_outs, likely_file, listing_error, locate,
-    may_define, name_table, path, path_index, path_names, path_place, placed_keep_outs, placed_parts,
+    defining_files, direct_embeddings, drawing_names, drawn_path, effective_parameters, embeds_others,
+    file_index, has_clamp_layer, has_part_layer, heights_of_shims, keep_outs, likely_file, listing_error,
+    locate, may_define, name_table, path, path_index, path_names, path_place, placed_keep_outs, placed_parts,
     prefetch, program, q_project, q_project_findings, raw_file, remaining_layers, resolve_path, search_path,
     second_definitions, summary, trace, traced_program, uncut_rings, unlistable_error,
 };

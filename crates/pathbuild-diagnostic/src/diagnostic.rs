@@ -171,7 +171,7 @@ impl Diagnostic {
     }
 
     /// Replaces the message by another one, with the argument `nearest`, if there is a similar name to suggest.
-    pub fn or_nearest(mut self, message: &'static Message, nearest: Option<impl AsRef<str>>) -> Self {
+    pub fn suggest_nearest(mut self, message: &'static Message, nearest: Option<impl AsRef<str>>) -> Self {
         let Some(nearest) = nearest else { return self };
         self.message = message;
         self.quoting("nearest", nearest)

@@ -8,21 +8,21 @@
 mod code;
 mod diagnostic;
 pub mod drawn_changes;
+pub mod escaping;
 pub mod limits;
 mod location;
 mod message;
 pub mod messages;
 mod nearest;
 pub mod reasons;
-pub mod shown;
 pub mod words;
 
 pub use code::{Code, Severity};
 pub use diagnostic::{Diagnostic, Note, TraceStep};
 pub use location::{ElementId, EntityKind, Handle, Number, Place, Point, TextFault, with_decimal_separator};
 pub use message::{Message, Sentence, Value};
-pub use nearest::{is_slip, nearest};
-pub use words::{Lang, Noun, Text, count, counted};
+pub use nearest::{is_typo, nearest};
+pub use words::{Lang, Noun, Text, counted, format_count};
 
 /// Returns all texts of this crate that can be arguments of messages.
 pub fn texts() -> impl Iterator<Item = &'static Text> {

@@ -29,13 +29,13 @@ words! {
 }
 
 /// Returns PB005: `what` exceeds the limit that the key `key` of `[limits]` sets.
-pub fn exceeded(what: impl Into<Value>, limit: impl Into<Value>, key: &str) -> Diagnostic {
+pub fn limit_error(what: impl Into<Value>, limit: impl Into<Value>, key: &str) -> Diagnostic {
     Diagnostic::new(&files::LIMIT).with("what", what).with("limit", limit).quoting("key", key)
 }
 
 /// Returns PB005 for a file of `size` bytes.
 pub fn file_too_large(size: u64, limit: u64, key: &str) -> Diagnostic {
-    exceeded(Sentence::new(&FILE_SIZE).with("size", size), bytes(limit), key)
+    limit_error(Sentence::new(&FILE_SIZE).with("size", size), bytes(limit), key)
 }
 
 /// Returns the reason why a file of `size` bytes is not read.

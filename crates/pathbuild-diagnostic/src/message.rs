@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::location::{Number, Point, with_decimal_separator};
 use crate::words::{Lang, NONE, Text, interned_str, interned_text};
-use crate::{Code, Severity, shown};
+use crate::{Code, Severity, escaping};
 
 /// A [`Text`] with the values of its arguments, for use in another message: "it has 17219 bytes, the limit is 1000".
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -153,16 +153,16 @@ impl Value {
     /// Renders the value for a message: on one line, with special characters escaped.
     pub fn render(&self, lang: Lang) -> String {
         match self {
-            Self::Quoted(text) => shown::line(text).into_owned(),
+            Self::Quoted(text) => escaping::line(text).into_owned(),
             Self::Number(number) => number.prose(lang),
             Self::Count(count) => count.to_string(),
             Self::Point(point) => format!("({}, {})", point.x, point.y),
             Self::List(items) if items.is_empty() => NONE.in_lang(lang).to_owned(),
-            Self::List(items) => shown::line(&items.join(", ")).into_owned(),
+            Self::List(items) => escaping::line(&items.join(", ")).into_owned(),
             Self::Prose(text) => text.in_lang(lang).to_owned(),
             Self::Sentence(sentence) => fill(sentence.text.in_lang(lang), &sentence.arguments, lang),
             Self::Foreign(text) => {
-                let text = shown::line(text);
+                let text = escaping::line(text);
                 lang.choose(text.to_string(), format!("„{text}“"))
             }
         }

@@ -9,7 +9,7 @@ const MAX_NAME_BYTES: usize = 200;
 
 /// Minimum number of digits of a number in which a typing error is considered. Shorter numbers are mere counters: `3101.2P` follows
 /// `3101.1P` and is not a misspelling of it.
-const LONG_NUMBER: usize = 3;
+const MIN_DIGITS_FOR_TYPO: usize = 3;
 
 /// Returns the known name most similar to a misspelt one: at most a third of its letters (rounded up) differ, and its numbers are the same except
 /// for a single typing error. Of several equally similar names, the first is returned.
@@ -41,7 +41,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 
 /// Whether two names differ by a single typing error: a character changed, added, left out or swapped with its neighbour. Case and leading zeros are
 /// ignored. A changed digit does not count as a typing error, because names with different numbers are different names.
-pub fn is_slip(name: &str, other: &str) -> bool {
+pub fn is_typo(name: &str, other: &str) -> bool {
     let plain = |name: &str| {
         let name = name.to_lowercase();
         let parts: Vec<&str> = name.split('.').map(|part| part.trim_start_matches('0')).collect();
@@ -94,7 +94,7 @@ impl Numbers {
 /// Whether two numbers, at least one of them long, differ by one additional digit or by two neighbouring digits that are swapped.
 fn is_misspelt(number: &str, other: &str) -> bool {
     let (long, short) = if number.len() < other.len() { (other, number) } else { (number, other) };
-    if long.len() < LONG_NUMBER {
+    if long.len() < MIN_DIGITS_FOR_TYPO {
         return false;
     }
     let same = long.bytes().zip(short.bytes()).take_while(|(a, b)| a == b).count();
@@ -113,7 +113,7 @@ fn letters(name: &str) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_slip, nearest};
+    use super::{is_typo, nearest};
 
     #[test]
     fn a_slip_finds_the_word() {
@@ -126,13 +126,13 @@ mod tests {
     #[test]
     fn a_neighbour_in_a_numbering_is_no_slip() {
         for other in ["3101.1P", "3101.22P", "3102.2P", "3111.2P", "31011.1P"] {
-            assert!(!is_slip("3101.2P", other), "{other}");
+            assert!(!is_typo("3101.2P", other), "{other}");
             assert_eq!(nearest("3101.2P", [other]), None, "{other}");
         }
         for other in [
             "3101.02P", "3101.2Q", "3101.2p", "311.2P", "3011.2P", "31101.2P", "31O1.2P", "31012P", "3101,2P",
         ] {
-            assert!(is_slip("3101.2P", other), "{other}");
+            assert!(is_typo("3101.2P", other), "{other}");
             assert_eq!(nearest("3101.2P", [other]), Some(other));
         }
         assert_eq!(nearest("PB599", ["PB509", "PB590"]), None);

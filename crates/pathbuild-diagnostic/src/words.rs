@@ -47,7 +47,7 @@ impl Lang {
 }
 
 /// Formats a count with thousands separators: `2,014`, in German `2.014`.
-pub fn count(number: impl Display, lang: Lang) -> String {
+pub fn format_count(number: impl Display, lang: Lang) -> String {
     let separator = lang.choose(',', '.');
     let digits = number.to_string();
     let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
@@ -66,7 +66,7 @@ pub type Noun = [[&'static str; 2]; 2];
 /// Formats a count with its noun: `1 path`, `2,014 paths`.
 pub fn counted(number: impl Display, [en, de]: Noun, lang: Lang) -> String {
     let [one, many] = lang.choose(en, de);
-    let count = count(number, lang);
+    let count = format_count(number, lang);
     let noun = if count == "1" { one } else { many };
     format!("{count} {noun}")
 }

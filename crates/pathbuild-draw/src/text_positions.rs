@@ -33,7 +33,7 @@ impl ElementPart {
             }
             Self::Arc(arc) => {
                 let distance = (centre.distance(arc.centre) - arc.radius).abs();
-                (covers(arc, centre) && distance <= radius).then_some((1, distance))
+                (contains_direction(arc, centre) && distance <= radius).then_some((1, distance))
             }
             Self::Line(line) => {
                 let foot = perpendicular_foot(line, centre)?;
@@ -48,7 +48,9 @@ impl ElementPart {
         let to_ends = |a: Point, b: Point| point.distance(a).min(point.distance(b));
         match self {
             Self::Circle(circle) => point.distance(circle.centre) - circle.radius,
-            Self::Arc(arc) if covers(arc, point) => (point.distance(arc.centre) - arc.radius).abs(),
+            Self::Arc(arc) if contains_direction(arc, point) => {
+                (point.distance(arc.centre) - arc.radius).abs()
+            }
             Self::Arc(arc) => to_ends(arc.point(arc.start), arc.point(arc.end)),
             Self::Line(line) => perpendicular_foot(line, point)
                 .map_or_else(|| to_ends(line.from, line.to), |foot| point.distance(foot)),
@@ -90,7 +92,7 @@ impl ElementPart {
 }
 
 /// Whether a point's direction from the centre lies within the arc.
-fn covers(arc: &Arc, point: Point) -> bool {
+fn contains_direction(arc: &Arc, point: Point) -> bool {
     (arc.centre.direction(point) - arc.start).rem_euclid(360.0) <= arc.sweep()
 }
 

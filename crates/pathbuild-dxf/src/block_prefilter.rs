@@ -9,7 +9,7 @@ use crate::pairs::{Pairs, line_length, without_cr};
 /// Whether any entity in these blocks may itself be on a wanted layer; the layers on which the blocks are inserted are not considered.
 /// `false` is definitive, however codes are padded and however broken the section is, because every line after a possible code 8 counts as
 /// a layer name.
-pub(crate) fn may_hold_wanted<'a>(
+pub(crate) fn may_have_wanted_entities<'a>(
     blocks: &Pairs<'a>,
     layers: &mut Layers<'a, '_>,
     decoder: &mut Decoder<'_>,
@@ -31,7 +31,7 @@ pub(crate) fn may_hold_wanted<'a>(
 }
 
 /// Whether any text (code 1) in these blocks satisfies `is_noted`. Texts in records on a wanted layer are left out.
-pub(crate) fn has_text<'a>(
+pub(crate) fn has_noted_text_in<'a>(
     blocks: &Pairs<'a>,
     is_noted: &dyn Fn(&[u8]) -> bool,
     layers: &mut Layers<'a, '_>,
@@ -136,7 +136,7 @@ mod tests {
     use crate::header::Header;
     use crate::layers::LayerTable;
 
-    /// Returns the answer of [`may_hold_wanted`], found by reading pair by pair.
+    /// Returns the answer of [`may_have_wanted_entities`], found by reading pair by pair.
     fn holds_wanted(mut pairs: Pairs<'_>, is_wanted: impl Fn(&[u8]) -> bool) -> bool {
         iter::from_fn(|| pairs.next().ok()).any(|pair| pair.code == 8 && is_wanted(pair.value))
     }
@@ -154,7 +154,7 @@ mod tests {
             let mut decoder = Decoder::new(text.as_bytes(), &Header::default(), false);
             let mut layers = Layers::new(&|layer| layer == "A", LayerTable::new(None));
             let blocks = Pairs::new(text.as_bytes());
-            let found = may_hold_wanted(&blocks, &mut layers, &mut decoder);
+            let found = may_have_wanted_entities(&blocks, &mut layers, &mut decoder);
             prop_assert!(found || !holds_wanted(blocks, |layer| layer.trim_ascii() == b"A"), "{:?}", text);
         }
     }

@@ -86,11 +86,11 @@ impl<'a> Blocks<'a> {
         let EntityReader { fields, decoder, .. } = reader;
         let mut groups = Groups::new(pairs);
         let (mut blocks, mut inserted) = (Self::default(), HashSet::new());
-        let mut head = groups.next_zero()?;
+        let mut head = groups.next_record_head()?;
         while !head.is("ENDSEC") {
             let is_block = head.is("BLOCK");
             if !is_block && !head.is("INSERT") {
-                head = groups.next_zero()?;
+                head = groups.next_record_head()?;
                 continue;
             }
             (head, _) = fields.fill(&mut groups, head.line, 0, |_| FillDecision::Keep)?;
@@ -187,7 +187,7 @@ impl<'a> Blocks<'a> {
                 let inner = inserted.and_then(|name| self.find(&name));
                 ahead.extend(inner.filter(|inner| seen.insert(*inner)));
                 let name = reader.layers.name(layer);
-                if !reader.layers.is_inheriting(layer) && !layers.iter().any(|known| known == name) {
+                if !reader.layers.is_layer_zero(layer) && !layers.iter().any(|known| known == name) {
                     layers.push(SmolStr::new(name));
                 }
             }
@@ -216,7 +216,7 @@ impl<'a> Blocks<'a> {
             }
             if let BlockLayers::Known(layers) = self.layers(block, reader)? {
                 steps.spend(layers.len())?;
-                let layers = layers.iter().map(|layer| reader.layers.inherited(*layer, inherited));
+                let layers = layers.iter().map(|layer| reader.layers.effective_layer(*layer, inherited));
                 let kept = layers.filter(|layer| reader.layers.is_kept(*layer));
                 wanted.extend(kept.filter(|layer| known.insert(*layer)));
                 continue;
@@ -224,7 +224,7 @@ impl<'a> Blocks<'a> {
             let items = self.items(block, reader)?;
             steps.spend(items.len())?;
             for item in items.iter() {
-                let layer = reader.layers.inherited(item.traits.layer, inherited);
+                let layer = reader.layers.effective_layer(item.traits.layer, inherited);
                 if let Some(inner) = self.inserted_block(item) {
                     ahead.extend(seen.insert((inner, layer)).then_some((inner, layer)));
                     continue;

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::sync::Arc;
 
-use pathbuild_diagnostic::limits::{ENTITIES, TEXT_LENGTH, exceeded};
+use pathbuild_diagnostic::limits::{ENTITIES, TEXT_LENGTH, limit_error};
 use pathbuild_diagnostic::messages::drawing::{
     BLOCK_MISSING, BLOCK_NESTED, BLOCK_TWICE, CURVE_WITHOUT_LENGTH, INSERTED_FROZEN, INVISIBLE,
     NOT_COMPATIBLE, TILTED, TOO_LARGE, WIDTH_IGNORED,
@@ -235,7 +235,7 @@ impl<'d> Collector<'d> {
             }
             EntityError::TooManyParts => return Err(self.entity_limit_error()),
             EntityError::TextTooLong => {
-                let diagnostic = exceeded(&TEXT_LENGTH, self.options.max_text, "text-length");
+                let diagnostic = limit_error(&TEXT_LENGTH, self.options.max_text, "text-length");
                 return Err(Box::new(self.located(diagnostic, placed, layer)));
             }
         };
@@ -360,7 +360,7 @@ impl<'d> Collector<'d> {
     }
 
     /// Fills in the number of entities that each note is about.
-    pub(crate) fn count_noted(&mut self) {
+    pub(crate) fn fill_in_counts(&mut self) {
         for note in std::mem::take(&mut self.noted).into_values() {
             self.drawing.diagnostics[note.index].arguments.push(("count", note.count.into()));
         }
@@ -447,5 +447,5 @@ fn with_block(mut problem: Diagnostic, block: Option<&str>, layers: &[SmolStr]) 
 
 #[cold]
 pub(crate) fn too_many_entities(most: usize) -> FatalError {
-    Box::new(exceeded(&ENTITIES, most, "entities"))
+    Box::new(limit_error(&ENTITIES, most, "entities"))
 }

@@ -69,7 +69,7 @@ impl<'a> Decoder<'a> {
     }
 
     /// Returns PB008 for the first string that could not be decoded with certainty, if there was one.
-    pub(crate) fn into_doubt(self) -> Option<Diagnostic> {
+    pub(crate) fn into_decoding_warning(self) -> Option<Diagnostic> {
         self.doubt
     }
 
@@ -81,7 +81,7 @@ impl<'a> Decoder<'a> {
         };
         let (text, escapes_known) = unescape(text);
         if !(bytes_known && escapes_known) {
-            self.doubt.get_or_insert_with(|| doubt(self.charset, &self.name, &text, line));
+            self.doubt.get_or_insert_with(|| decoding_warning(self.charset, &self.name, &text, line));
         }
         text
     }
@@ -107,7 +107,7 @@ fn is_plain(bytes: &[u8]) -> bool {
     bytes.iter().all(|byte| byte.is_ascii() && *byte != b'\\')
 }
 
-fn doubt(charset: Charset<'_>, encoding: &str, text: &str, line: u32) -> Diagnostic {
+fn decoding_warning(charset: Charset<'_>, encoding: &str, text: &str, line: u32) -> Diagnostic {
     let message = match charset {
         Charset::Unknown => &UNKNOWN_CODE_PAGE,
         _ if encoding == "UTF-8" => &INVALID_UTF8,
@@ -160,7 +160,7 @@ pub(crate) fn code_page(name: &[u8]) -> CodePage {
         name if name.starts_with("MAC") => CodePage::Standard(MACINTOSH),
         name => match (name.split_once("8859"), trailing_number(name)) {
             (Some(_), Some(part)) => iso_8859(part),
-            (None, Some(page)) => numbered(page),
+            (None, Some(page)) => code_page_by_number(page),
             (_, None) => CodePage::Unknown,
         },
     }
@@ -171,7 +171,7 @@ fn trailing_number(name: &str) -> Option<u32> {
     name[letters.len()..].parse().ok()
 }
 
-fn numbered(page: u32) -> CodePage {
+fn code_page_by_number(page: u32) -> CodePage {
     let encoding = match page {
         1252 => return CodePage::Usual,
         866 => IBM866,
@@ -297,7 +297,7 @@ pub(crate) fn without_carets(text: Cow<'_, str>) -> Cow<'_, str> {
     let mut rest = &*replaced;
     while let Some(caret) = rest.find('^') {
         decoded.push_str(&rest[..caret]);
-        let (character, length) = control(&rest[caret..]).unwrap_or(('^', 1));
+        let (character, length) = caret_character(&rest[caret..]).unwrap_or(('^', 1));
         decoded.push(character);
         rest = &rest[caret + length..];
     }
@@ -306,7 +306,7 @@ pub(crate) fn without_carets(text: Cow<'_, str>) -> Cow<'_, str> {
 }
 
 /// Returns the character that the caret code at the start of `text` stands for, and the length of the code in bytes.
-pub(crate) fn control(text: &str) -> Option<(char, usize)> {
+pub(crate) fn caret_character(text: &str) -> Option<(char, usize)> {
     let mut characters = text.chars();
     characters.next().filter(|first| *first == '^')?;
     let character = match characters.next()? {

@@ -9,7 +9,7 @@ use pathbuild_diagnostic::messages::drawing::{FOREIGN, NOT_APPROXIMATED};
 use pathbuild_diagnostic::{EntityKind, Point};
 use smol_str::SmolStr;
 
-use crate::block_prefilter::has_text;
+use crate::block_prefilter::has_noted_text_in;
 use crate::encoding::Decoder;
 use crate::faults::{EntityError, first_point};
 use crate::fields::{Fields, FillDecision, Value};
@@ -172,7 +172,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         let Pair { line, value: name, .. } = records.head;
         let (want, layer) = self.fill(records, kind, space)?;
         if want == FillDecision::Skip {
-            records.skip_alike(name, self.layers.last_spelling())?;
+            records.skip_similar_records(name, self.layers.last_spelling())?;
             return Ok(None);
         }
         if self.is_in_paper_space() || !self.is_drawn(kind, space) {
@@ -219,7 +219,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
         let mut found = None;
         let want = |layer: Value<'a>| {
             let id = layers.id(layer.bytes, || layer.line, decoder);
-            let id = insertion.map_or(id, |insertion| layers.inherited(id, insertion));
+            let id = insertion.map_or(id, |insertion| layers.effective_layer(id, insertion));
             found = Some(id);
             match fill_decision(layers, id, kind, space) {
                 FillDecision::Skip if notes_texts => FillDecision::Note,
@@ -239,7 +239,8 @@ impl<'a, 'o> EntityReader<'a, 'o> {
     fn note_text_in_blocks(&mut self) {
         if let (Some(blocks), Some(is_noted)) = (self.unnoted_blocks.take(), self.options.note_text) {
             let Self { layers, decoder, .. } = self;
-            self.has_noted_text = self.has_noted_text || has_text(&blocks, is_noted, layers, decoder);
+            self.has_noted_text =
+                self.has_noted_text || has_noted_text_in(&blocks, is_noted, layers, decoder);
         }
     }
 
@@ -331,7 +332,7 @@ impl<'a, 'o> EntityReader<'a, 'o> {
 fn fill_decision(layers: &Layers<'_, '_>, layer: LayerId, kind: RecordKind, space: Space) -> FillDecision {
     let may_be_wanted = layers.is_kept(layer)
         || kind == RecordKind::Insert
-        || (space == Space::Block && layers.is_inheriting(layer));
+        || (space == Space::Block && layers.is_layer_zero(layer));
     if may_be_wanted { FillDecision::Keep } else { FillDecision::Skip }
 }
 

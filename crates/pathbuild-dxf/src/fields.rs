@@ -147,7 +147,7 @@ impl<'a> Fields<'a> {
                 let value = Value { bytes: group.value(), line: group.line(), entity: self.entity };
                 match want(value) {
                     FillDecision::Keep => {}
-                    FillDecision::Skip => return Ok(Some((groups.next_zero()?, FillDecision::Skip))),
+                    FillDecision::Skip => return Ok(Some((groups.next_record_head()?, FillDecision::Skip))),
                     FillDecision::Note => {
                         let is_text = |role| role == TEXT || role == Role::LEADER_TEXT;
                         return Ok(Some((self.store_first(is_text, TEXT, groups)?, FillDecision::Note)));
@@ -191,7 +191,7 @@ impl<'a> Fields<'a> {
             return Ok(group.pair());
         }
         self.store(&group.with_role(to));
-        groups.next_zero()
+        groups.next_record_head()
     }
 
     /// Whether repeated groups may have been dropped.

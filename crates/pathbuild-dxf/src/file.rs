@@ -159,7 +159,7 @@ impl<'a> File<'a> {
             return Err(pair_error(&SECTION_MISPLACED, &section));
         }
         drawing.has_noted_text = reader.has_noted_text;
-        drawing.diagnostics.extend(reader.decoder.into_doubt());
+        drawing.diagnostics.extend(reader.decoder.into_decoding_warning());
         drawing
             .diagnostics
             .extend((!ends_with_eof(&records.groups.pairs())).then(|| Diagnostic::new(&NO_END_OF_FILE)));

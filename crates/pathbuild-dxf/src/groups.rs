@@ -99,7 +99,7 @@ impl<'a> Groups<'a> {
     }
 
     /// Skips to the next pair that starts an entity and returns it.
-    pub(crate) fn next_zero(&mut self) -> Result<Pair<'a>, Stop<'a>> {
+    pub(crate) fn next_record_head(&mut self) -> Result<Pair<'a>, Stop<'a>> {
         let group = self.pass_until(|role| role == Role::BEGIN, |_| {})?;
         Ok(group.pair())
     }
@@ -144,12 +144,12 @@ impl<'a> Records<'a> {
     /// Creates the records and moves to the first pair with code 0.
     pub(crate) fn new(pairs: Pairs<'a>) -> Result<Self, Stop<'a>> {
         let mut groups = Groups::new(pairs);
-        let head = groups.next_zero()?;
+        let head = groups.next_record_head()?;
         Ok(Self { groups, head })
     }
 
     /// Skips the following records of this kind on this layer. Entities of one layer mostly follow each other.
-    pub(crate) fn skip_alike(&mut self, kind: &[u8], layer: &[u8]) -> Result<(), Stop<'a>> {
+    pub(crate) fn skip_similar_records(&mut self, kind: &[u8], layer: &[u8]) -> Result<(), Stop<'a>> {
         while self.head.value == kind {
             let begin = self.groups;
             let group = self.groups.pass_until(|role| !role.is_plain(), |_| {})?;
@@ -157,13 +157,13 @@ impl<'a> Records<'a> {
                 self.groups = begin;
                 break;
             }
-            self.head = self.groups.next_zero()?;
+            self.head = self.groups.next_record_head()?;
         }
         Ok(())
     }
 
     pub(crate) fn skip(&mut self) -> Result<(), Stop<'a>> {
-        self.head = self.groups.next_zero()?;
+        self.head = self.groups.next_record_head()?;
         Ok(())
     }
 }

@@ -38,7 +38,7 @@ struct LayerSpelling<'a> {
     full_name: Cow<'a, str>,
     is_kept: bool,
     /// Whether the layer is layer `0`, which inside a block stands for the layer of the insertion.
-    is_inheriting: bool,
+    is_layer_zero: bool,
     used: Option<Box<LayerProperties>>,
 }
 
@@ -108,36 +108,36 @@ impl<'a, 'o> Layers<'a, 'o> {
     /// Whether entities on the layer are wanted.
     #[inline]
     pub(crate) fn is_kept(&self, id: LayerId) -> bool {
-        self.found(id).is_kept
+        self.spelling(id).is_kept
     }
 
     /// Returns the name of a layer: trimmed, decoded, without xref prefix.
     pub(crate) fn name(&self, id: LayerId) -> &str {
-        without_xref(&self.found(id).full_name)
+        without_xref(&self.spelling(id).full_name)
     }
 
     /// Returns the effective layer of an entity in an inserted block: that of the insertion if the entity is on layer `0`.
-    pub(crate) fn inherited(&self, layer: LayerId, of_insert: LayerId) -> LayerId {
-        if self.is_inheriting(layer) { of_insert } else { layer }
+    pub(crate) fn effective_layer(&self, layer: LayerId, of_insert: LayerId) -> LayerId {
+        if self.is_layer_zero(layer) { of_insert } else { layer }
     }
 
     /// Whether a layer is layer `0`.
     #[inline]
-    pub(crate) fn is_inheriting(&self, layer: LayerId) -> bool {
-        self.found(layer).is_inheriting
+    pub(crate) fn is_layer_zero(&self, layer: LayerId) -> bool {
+        self.spelling(layer).is_layer_zero
     }
 
     #[inline]
-    fn found(&self, id: LayerId) -> &LayerSpelling<'a> {
+    fn spelling(&self, id: LayerId) -> &LayerSpelling<'a> {
         &self.found[id.0 as usize]
     }
 
     fn first_use(&mut self, spelling: &'a [u8], line: u32, decoder: &mut Decoder<'_>) -> LayerId {
         let full_name = decoder.decode(spelling, line);
         let name = without_xref(&full_name);
-        let (is_kept, is_inheriting) = ((self.keep)(name), name == "0");
+        let (is_kept, is_layer_zero) = ((self.keep)(name), name == "0");
         let id = LayerId(u32::try_from(self.found.len()).unwrap_or(u32::MAX));
-        self.found.push(LayerSpelling { full_name, is_kept, is_inheriting, used: None });
+        self.found.push(LayerSpelling { full_name, is_kept, is_layer_zero, used: None });
         self.by_spelling.insert(spelling, id);
         id
     }

@@ -13,7 +13,7 @@ use pathbuild_diagnostic::{Handle, Message, Point};
 use smol_str::SmolStr;
 
 use crate::Origin;
-use crate::block_prefilter::may_hold_wanted;
+use crate::block_prefilter::may_have_wanted_entities;
 use crate::blocks::{BlockId, Blocks, StepBudget};
 use crate::clips::clipping_dictionaries;
 use crate::collect::{Collector, PlacedEntity};
@@ -107,14 +107,14 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         {
             self.add_item(item, &around)?;
         }
-        self.collector.count_noted();
+        self.collector.fill_in_counts();
         Ok(())
     }
 
     #[inline(always)]
     fn add_item(&mut self, item: Item<'a>, around: &EntityContext) -> Result<(), FatalError> {
         let layer = match &around.insertion {
-            Some(insertion) => self.reader.layers.inherited(item.traits.layer, insertion.layer),
+            Some(insertion) => self.reader.layers.effective_layer(item.traits.layer, insertion.layer),
             None => item.traits.layer,
         };
         match item.shape {
@@ -182,7 +182,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         }
         let has_wanted = wanted.iter().any(|layer| self.reader.layers.is_kept(*layer));
         if !has_wanted {
-            self.check_elsewhere(site, block)?;
+            self.check_drawn_on_other_layers(site, block)?;
         }
         if wanted.is_empty() {
             return Ok(());
@@ -195,7 +195,7 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
                 let before = self.collector.drawn;
                 self.add_copies(site, block, copies)?;
                 if has_wanted && self.collector.drawn == before {
-                    self.check_elsewhere(site, block)?;
+                    self.check_drawn_on_other_layers(site, block)?;
                 }
                 Ok(())
             }
@@ -233,7 +233,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
     /// Indexes the BLOCKS section at the first insertion.
     fn index_blocks(&mut self) {
         let Some(section) = self.section.take() else { return };
-        self.blocks_matter = may_hold_wanted(&section, &mut self.reader.layers, &mut self.reader.decoder);
+        self.blocks_matter =
+            may_have_wanted_entities(&section, &mut self.reader.layers, &mut self.reader.decoder);
         match Blocks::index(section, self.reader) {
             Ok(blocks) => {
                 self.blocks_matter |= blocks.has_missing;
@@ -271,7 +272,11 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
 
     /// Reports PB111 for an insertion on a wanted layer whose block draws elements on other layers, but nothing visible, except for hatches, on
     /// wanted ones.
-    fn check_elsewhere(&mut self, site: &InsertionSite<'_, 'a>, block: BlockId) -> Result<(), FatalError> {
+    fn check_drawn_on_other_layers(
+        &mut self,
+        site: &InsertionSite<'_, 'a>,
+        block: BlockId,
+    ) -> Result<(), FatalError> {
         if !self.reader.layers.is_kept(site.layer) {
             return Ok(());
         }

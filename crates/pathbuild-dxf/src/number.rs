@@ -49,12 +49,12 @@ fn parse_general(value: &[u8]) -> Result<f64, NotANumber> {
     match number {
         Ok(number) if f64::is_finite(number) => Ok(number),
         Ok(_) => Err(NotANumber::NotFinite),
-        Err(_) if is_with_comma(text) => Err(NotANumber::Comma),
+        Err(_) if has_decimal_comma(text) => Err(NotANumber::Comma),
         Err(_) => Err(NotANumber::Invalid),
     }
 }
 
-fn is_with_comma(text: &str) -> bool {
+fn has_decimal_comma(text: &str) -> bool {
     text.matches(',').count() == 1 && text.replace(',', ".").parse::<f64>().is_ok_and(f64::is_finite)
 }
 

@@ -18,7 +18,7 @@ pub use path_spelling::{
 };
 pub use replace::is_temporary;
 pub use stamp::{CLOCK, Clock, Stamp};
-pub use wrappers::{BasedSystem, ConfinedSystem};
+pub use wrappers::{ConfinedSystem, FixedDirectorySystem};
 
 use std::fmt::{self, Debug};
 use std::ops::ControlFlow;

@@ -169,7 +169,7 @@ fn open(path: &Utf8Path) -> Result<File, ReadError> {
         // A socket, and a directory on Windows, cannot be opened at all: report its type instead of the system's message.
         match path.as_std_path().metadata() {
             Ok(data) if data.is_dir() => ReadError::IsDirectory,
-            Ok(data) if !data.is_file() => not_regular(),
+            Ok(data) if !data.is_file() => not_regular_error(),
             _ => error.into(),
         }
     })
@@ -217,12 +217,12 @@ fn regular_size(file: &File) -> Result<u64, ReadError> {
         return Err(ReadError::IsDirectory);
     }
     if !data.is_file() {
-        return Err(not_regular());
+        return Err(not_regular_error());
     }
     Ok(data.len())
 }
 
-fn not_regular() -> ReadError {
+fn not_regular_error() -> ReadError {
     ReadError::Other(Value::Prose(&NOT_REGULAR))
 }
 

@@ -21,7 +21,7 @@ pub(crate) fn write(path: &Utf8Path, bytes: &[u8], is_private: bool) -> io::Resu
     if fs::symlink_metadata(path).is_ok_and(|data| data.is_file() && data.permissions().readonly()) {
         return Err(text_error(ErrorKind::PermissionDenied, &WRITE_PROTECTED));
     }
-    let (temporary, mut file) = temporary(path, is_private)?;
+    let (temporary, mut file) = create_temporary(path, is_private)?;
     let written = file.write_all(bytes).and_then(|()| file.flush());
     // The lock is held until the file has its final name.
     let renamed = written.and_then(|()| retry_while_busy(|| fs::rename(&temporary, path)));
@@ -34,7 +34,7 @@ pub(crate) fn write(path: &Utf8Path, bytes: &[u8], is_private: bool) -> io::Resu
 /// # Errors
 /// If it cannot be created.
 #[cfg_attr(not(unix), expect(unused_variables, reason = "elsewhere the directory decides who has access"))]
-pub(crate) fn temporary(path: &Utf8Path, is_private: bool) -> io::Result<(Utf8PathBuf, File)> {
+pub(crate) fn create_temporary(path: &Utf8Path, is_private: bool) -> io::Result<(Utf8PathBuf, File)> {
     let name = path.file_name().unwrap_or("output");
     let mut options = OpenOptions::new();
     options.write(true).create_new(true);

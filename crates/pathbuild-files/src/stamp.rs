@@ -97,7 +97,7 @@ impl Clock {
     /// # Errors
     /// If no file can be created there.
     pub fn of(directory: &Utf8Path) -> io::Result<Self> {
-        let (probe, file) = replace::temporary(&directory.join(CLOCK), true)?;
+        let (probe, file) = replace::create_temporary(&directory.join(CLOCK), true)?;
         let time = file.metadata().and_then(|data| data.modified());
         // Best effort: a leftover temporary file does no harm.
         _ = fs::remove_file(&probe);

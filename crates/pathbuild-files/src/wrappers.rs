@@ -72,7 +72,7 @@ impl ConfinedSystem {
     /// Whether a path may lie in one of the directories: as written, with links resolved, or because its links cannot be resolved.
     pub fn may_hold(&self, path: &Utf8Path) -> bool {
         let contains_as_written = |root: &Root| self.contains_as_written(path, root);
-        let leads = || match self.real(path) {
+        let leads = || match self.resolve_links(path) {
             Some(Ok(real)) => self.roots.iter().any(|root| real.starts_with(&root.real)),
             // A link that cannot be resolved may lead anywhere.
             Some(Err(_)) => true,
@@ -88,12 +88,12 @@ impl ConfinedSystem {
 
     fn leads_into(&self, path: &Utf8Path, root: &Root) -> bool {
         // A link that cannot be resolved may lead anywhere.
-        self.real(path).is_none_or(|real| real.is_ok_and(|target| target.starts_with(&root.real)))
+        self.resolve_links(path).is_none_or(|real| real.is_ok_and(|target| target.starts_with(&root.real)))
     }
 
     /// Returns the path with links resolved. If nothing exists at the path yet, resolves the nearest existing parent directory instead; `None` if no
     /// parent exists.
-    fn real(&self, path: &Utf8Path) -> Option<io::Result<Utf8PathBuf>> {
+    fn resolve_links(&self, path: &Utf8Path) -> Option<io::Result<Utf8PathBuf>> {
         let path = self.working_directory.join(path);
         let mut ancestors = path.ancestors();
         let existing = ancestors.find(|path| self.below.kind(path) != FileKind::Missing)?;
@@ -170,12 +170,12 @@ impl System for ConfinedSystem {
 /// A wrapper that resolves relative paths against a fixed directory. The working directory of the process may change at any time, and a program that
 /// embeds pathbuild chooses it for reasons of its own.
 #[derive(Clone, Debug)]
-pub struct BasedSystem {
+pub struct FixedDirectorySystem {
     below: Arc<dyn System>,
     directory: Utf8PathBuf,
 }
 
-impl BasedSystem {
+impl FixedDirectorySystem {
     /// Creates a system that resolves relative paths against `directory`, which is absolute.
     pub fn new(below: Arc<dyn System>, directory: Utf8PathBuf) -> Self {
         Self { below, directory }
@@ -186,7 +186,7 @@ impl BasedSystem {
     }
 }
 
-impl System for BasedSystem {
+impl System for FixedDirectorySystem {
     fn read_into(&self, path: &Utf8Path, limit: u64, buffer: &mut Vec<u8>) -> Result<Stamp, ReadError> {
         self.below.read_into(&self.resolve(path), limit, buffer)
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use camino::Utf8Path;
 use pathbuild_files::{
-    BasedSystem, Entry, FileKind, MemorySystem, OverlaySystem, ReadError, System, WriteOutcome,
+    Entry, FileKind, FixedDirectorySystem, MemorySystem, OverlaySystem, ReadError, System, WriteOutcome,
 };
 #[cfg(unix)]
 use pathbuild_files::{FileLink, OsSystem};
@@ -65,7 +65,7 @@ fn relative_paths_begin_at_a_directory() {
     let below = Arc::new(MemorySystem::without_clock());
     below.put("/library/parts/1001.dxf", "drawing");
     below.put("/other/1002.dxf", "another");
-    let system = BasedSystem::new(below.clone(), "/library".into());
+    let system = FixedDirectorySystem::new(below.clone(), "/library".into());
     let (inside, outside) = (Utf8Path::new("parts/1001.dxf"), Utf8Path::new("/other/1002.dxf"));
     assert_eq!(system.read(inside, 99).as_deref(), Ok(&b"drawing"[..]));
     assert_eq!(system.read(outside, 99).as_deref(), Ok(&b"another"[..]));
@@ -95,6 +95,6 @@ fn links_are_found_from_a_directory() {
     let directory = tempfile::TempDir::new().unwrap();
     let root = Utf8Path::from_path(directory.path()).unwrap();
     std::os::unix::fs::symlink("1001.dxf", root.join("1002.dxf")).unwrap();
-    let system = BasedSystem::new(OsSystem::shared(), root.to_owned());
+    let system = FixedDirectorySystem::new(OsSystem::shared(), root.to_owned());
     assert_eq!(system.link(Utf8Path::new("1002.dxf")), Some(FileLink::Symbolic("1001.dxf".into())));
 }

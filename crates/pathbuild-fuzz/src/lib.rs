@@ -137,7 +137,7 @@ fn judge<'d>(found: impl IntoIterator<Item = &'d Diagnostic>) {
     for diagnostic in found {
         let text = diagnostic.text(Lang::En) + &diagnostic.text(Lang::De);
         assert!(diagnostic.code() != Code::InternalError, "{text}");
-        assert!(!text.contains(pathbuild_diagnostic::shown::is_active), "{text:?}");
+        assert!(!text.contains(pathbuild_diagnostic::escaping::is_active), "{text:?}");
         _ = (diagnostic.help(Lang::En), diagnostic.help(Lang::De));
     }
 }
@@ -239,7 +239,7 @@ fn config(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else { return };
     for fault in config::check_text(Utf8Path::new("pathbuild.toml"), text) {
         let text = fault.text(Lang::En) + &fault.text(Lang::De);
-        assert!(!text.contains(pathbuild_diagnostic::shown::is_active), "{text:?}");
+        assert!(!text.contains(pathbuild_diagnostic::escaping::is_active), "{text:?}");
     }
 }
 

@@ -68,7 +68,7 @@ impl TimedMove {
         if !(length > 0.0 && length.is_finite()) {
             return None;
         }
-        let shares = movement.axis_shares();
+        let shares = movement.axis_speed_fractions();
         let limit = |limits: &[f64; 3]| {
             let along = limits.iter().zip(shares).filter(|(_, share)| *share > 0.0);
             along.map(|(limit, share)| limit / share).fold(f64::INFINITY, f64::min)
@@ -79,7 +79,7 @@ impl TimedMove {
         let (begin, end) = directions(movement, length);
         Some(Self {
             length,
-            speed: wanted.min(fastest).min(turning_speed(movement, kinematics)),
+            speed: wanted.min(fastest).min(max_arc_speed(movement, kinematics)),
             acceleration,
             begin,
             end,
@@ -89,7 +89,7 @@ impl TimedMove {
 }
 
 /// Returns the speed in mm/s at which the axes of an arc's plane can still keep the tool on the arc.
-fn turning_speed(movement: &Move, kinematics: &Kinematics) -> f64 {
+fn max_arc_speed(movement: &Move, kinematics: &Kinematics) -> f64 {
     let MoveShape::Arc(arc) = movement.shape else { return f64::INFINITY };
     let weakest =
         arc.plane.axes().map(|axis| kinematics.accelerations[axis]).into_iter().fold(f64::INFINITY, f64::min);

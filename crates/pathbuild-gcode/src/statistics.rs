@@ -35,7 +35,7 @@ pub struct LengthFilter {
 
 impl LengthFilter {
     /// Whether the length of the next step is included in totals. Must be called for every step.
-    pub fn counts(&mut self, step: &Step) -> bool {
+    pub fn includes_length(&mut self, step: &Step) -> bool {
         let stated = std::mem::replace(&mut self.stated, step.stated);
         match &step.action {
             Action::Move(movement) => [stated, step.stated, movement.from.known, movement.to.known]
@@ -194,7 +194,7 @@ struct KnownTool {
 
 impl Collector {
     fn step(&mut self, step: &Step) {
-        let has_length = self.counting.counts(step);
+        let has_length = self.counting.includes_length(step);
         match &step.action {
             Action::Move(movement) if !movement.is_standstill() => self.add_move(movement, has_length),
             Action::Dwell(seconds) => self.summary.dwell += seconds,

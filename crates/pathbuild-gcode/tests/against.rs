@@ -6,7 +6,7 @@ use common::fault_text;
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_gcode::dialect::Dialect::{self, Native, Xpertmill};
 use pathbuild_gcode::interpret::{Options, interpret};
-use pathbuild_gcode::verify::{Agreement, DrawingComparison, ExpectedProgram, PostWords, ToolUse};
+use pathbuild_gcode::verify::{ComparisonResult, DrawingComparison, ExpectedProgram, PostWords, ToolUse};
 use pathbuild_motion::{Coolant, Position};
 
 const FINE: [&str; 0] = [];
@@ -24,7 +24,13 @@ fn differences_with_pecks(dialect: Dialect, program: &str, drawn: &str, peck: Op
     agreement(dialect, program, drawn, peck, ToolUse::default()).differences.iter().map(fault_text).collect()
 }
 
-fn agreement(dialect: Dialect, program: &str, drawn: &str, peck: Option<f64>, tool: ToolUse) -> Agreement {
+fn agreement(
+    dialect: Dialect,
+    program: &str,
+    drawn: &str,
+    peck: Option<f64>,
+    tool: ToolUse,
+) -> ComparisonResult {
     let drawn = format!("G17 G21 G90 G94\nG0 X0 Y0 Z5\n{drawn}\nM30\n");
     let moves = interpret(drawn.as_bytes(), Native, &Options::default()).moves();
     let program = format!("{program}\nM30\n");

@@ -310,7 +310,10 @@ impl Course {
 
     /// Returns the position at a fraction (0 to 1) of the arc.
     pub fn point(&self, share: f64) -> [f64; 3] {
-        self.place_at_share(rotated(self.arc.radius_vector(&self.from), self.turn_sin_cos(share)), share)
+        self.position_at_fraction(
+            rotated(self.arc.radius_vector(&self.from), self.turn_sin_cos(share)),
+            share,
+        )
     }
 
     /// Returns the positions at a quarter, half and three quarters of the arc, each rotated from the previous one.
@@ -319,7 +322,7 @@ impl Course {
         let mut spoke = self.arc.radius_vector(&self.from);
         [0.25, 0.5, 0.75].map(|share| {
             spoke = rotated(spoke, quarter);
-            self.place_at_share(spoke, share)
+            self.position_at_fraction(spoke, share)
         })
     }
 
@@ -331,7 +334,7 @@ impl Course {
 
     /// Returns the position at a fraction of the arc. `[a, b]` is the vector from the centre to the start, already rotated by that fraction of the
     /// swept angle.
-    fn place_at_share(&self, [a, b]: [f64; 2], share: f64) -> [f64; 3] {
+    fn position_at_fraction(&self, [a, b]: [f64; 2], share: f64) -> [f64; 3] {
         let stretch = 1.0 + share * self.growth;
         let [first, second] = self.arc.plane.axes();
         let third = self.arc.plane.third();

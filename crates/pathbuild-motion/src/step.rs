@@ -480,8 +480,8 @@ impl Move {
         }
     }
 
-    /// Returns the maximum share of each axis in the speed of the move, from 0 to 1; for an arc, an upper bound.
-    pub fn axis_shares(&self) -> [f64; 3] {
+    /// Returns the maximum speed of each axis as a fraction of the speed of the move, from 0 to 1; for an arc, an upper bound.
+    pub fn axis_speed_fractions(&self) -> [f64; 3] {
         let length = self.length();
         if length == 0.0 {
             return [0.0; 3];

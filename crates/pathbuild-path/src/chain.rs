@@ -165,9 +165,9 @@ impl<'a> ChainBuilder<'a> {
             Some(infeed) => {
                 let chain =
                     Chain { infeed, first_depth: parameters.first_depth, members: *chained..members.len() };
-                let doubt = chain.doubtful_first_depth(path, &members[*chained..]);
+                let doubt = chain.first_depth_problem(path, &members[*chained..]);
                 diagnostics.extend(doubt.filter(|doubt| is_new(diagnostics, doubt)));
-                diagnostics.extend(chain.rise_in_groove(path, &members[*chained..]));
+                diagnostics.extend(chain.rise_in_groove_problem(path, &members[*chained..]));
                 items.push(Item::Chain(chain));
             }
             None => diagnostics.push(first.missing_infeed(path)),
@@ -186,7 +186,7 @@ fn is_new(diagnostics: &[Diagnostic], doubt: &Diagnostic) -> bool {
 
 impl Chain {
     /// Returns PB211 if W is above the material or below the bottom of the chain.
-    fn doubtful_first_depth(&self, path: &Path, members: &[ChainSegment]) -> Option<Diagnostic> {
+    fn first_depth_problem(&self, path: &Path, members: &[ChainSegment]) -> Option<Diagnostic> {
         // A W of 0 or less is reported as out of range (PB203).
         let depth = self.first_depth.filter(|depth| above(*depth, 0.0))?;
         let first = members.first()?;
@@ -211,7 +211,7 @@ impl Chain {
     }
 
     /// Returns PB211 if a slot cutter would rise in the groove that it mills: to the support bars of a segment, or to one with a higher bottom.
-    fn rise_in_groove(&self, path: &Path, members: &[ChainSegment]) -> Option<Diagnostic> {
+    fn rise_in_groove_problem(&self, path: &Path, members: &[ChainSegment]) -> Option<Diagnostic> {
         self.first_depth.filter(|_| path.may_be_slot_cutter)?;
         let top = |cut: &CutParameters| {
             let bars = cut.bars.as_ref().filter(|_| cut.cut == Cut::Support);

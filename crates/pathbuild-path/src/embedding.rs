@@ -4,7 +4,7 @@
 use std::iter;
 
 use pathbuild_diagnostic::messages::{parameters, paths as messages};
-use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value, is_slip};
+use pathbuild_diagnostic::{Diagnostic, Message, TextFault, Value, is_typo};
 use regex::Regex;
 use smol_str::SmolStr;
 
@@ -347,7 +347,7 @@ impl<'a> SubpathChecker<'a> {
         let SubpathName::Found { name, whole_value: Some(value) } = &call.subpath.name else {
             return Vec::new();
         };
-        if self.is_other_name(name, value) {
+        if self.is_part_of_longer_name(name, value) {
             return Vec::new();
         }
         let warning = Diagnostic::new(&messages::MORE_THAN_NAME).quoting("value", &**value);
@@ -355,7 +355,7 @@ impl<'a> SubpathChecker<'a> {
     }
 
     /// Whether the name is only part of a longer word, so that another path is meant.
-    fn is_other_name(&self, name: &PathName, value: &str) -> bool {
+    fn is_part_of_longer_name(&self, name: &PathName, value: &str) -> bool {
         !self.is_compatible && name.is_part_of(value)
     }
 
@@ -372,7 +372,7 @@ impl<'a> SubpathChecker<'a> {
             }
             SubpathName::Invalid { value } => {
                 let pattern = &self.language.path_pattern;
-                let problem = match pattern.name_meant_by(value) {
+                let problem = match pattern.corrected_name(value) {
                     Some(meant) => {
                         Diagnostic::new(&messages::NAME_WITHOUT_POINT).quoting("meant", meant.as_str())
                     }
@@ -380,7 +380,9 @@ impl<'a> SubpathChecker<'a> {
                 };
                 self.at_name(call, problem.quoting("value", &**value))
             }
-            SubpathName::Found { name, whole_value: Some(value) } if self.is_other_name(name, value) => {
+            SubpathName::Found { name, whole_value: Some(value) }
+                if self.is_part_of_longer_name(name, value) =>
+            {
                 let problem = Diagnostic::new(&messages::NAME_GOES_ON).quoting("value", &**value);
                 self.at_name(call, problem.quoting("name", name.as_str()))
             }
@@ -407,7 +409,7 @@ impl<'a> SubpathChecker<'a> {
     }
 
     /// Returns PB503: no file defines the path. `known` are the paths of the searched files.
-    pub fn not_found(
+    pub fn not_found_problem(
         &self,
         call: &SubpathCall,
         name: &PathName,
@@ -423,13 +425,13 @@ impl<'a> SubpathChecker<'a> {
     }
 
     /// Returns PB511: errors of a drawing hide its paths.
-    pub fn has_errors(&self, call: &SubpathCall, name: &PathName, file: &str) -> Diagnostic {
+    pub fn hidden_by_errors_problem(&self, call: &SubpathCall, name: &PathName, file: &str) -> Diagnostic {
         let problem = Diagnostic::new(&messages::HAS_ERRORS).quoting("name", name.as_str());
         self.at_name(call, problem.quoting("file", file))
     }
 
     /// Returns PB504: two files define the path.
-    pub fn defined_twice(
+    pub fn defined_twice_problem(
         &self,
         call: &SubpathCall,
         name: &PathName,
@@ -447,7 +449,7 @@ impl<'a> SubpathChecker<'a> {
             return Vec::new();
         }
         let values = &call.subpath.values;
-        let wrong = values.iter().filter_map(|given| self.wrong_value(call, given, inner));
+        let wrong = values.iter().filter_map(|given| self.wrong_value_problem(call, given, inner));
         let is_given = |known: &Definition| values.iter().any(|given| given.variable == Some(known.name));
         let is_known =
             |given: &SubpathValue| inner.definitions.iter().any(|known| given.variable == Some(known.name));
@@ -464,7 +466,7 @@ impl<'a> SubpathChecker<'a> {
         wrong.chain(missing).collect()
     }
 
-    fn wrong_value(
+    fn wrong_value_problem(
         &self,
         call: &SubpathCall,
         given: &SubpathValue,
@@ -674,7 +676,7 @@ const MAX_NAMES_IN_NOTE: usize = 5;
 pub fn with_near_names(problem: Diagnostic, name: &PathName, mut known: Vec<PathName>) -> Diagnostic {
     known.sort();
     known.dedup();
-    let similar = known.iter().filter(|other| is_slip(name.as_str(), other.as_str()));
+    let similar = known.iter().filter(|other| is_typo(name.as_str(), other.as_str()));
     let similar: Vec<&PathName> = similar.take(MAX_NAMES_IN_NOTE).collect();
     match (similar.as_slice(), known.as_slice()) {
         ([], []) => problem,

@@ -145,7 +145,7 @@ const BOX_MARGIN: f64 = 1e-4;
 impl Outline {
     /// Creates an outline from a closed, non-empty sequence of curves.
     pub(crate) fn new(curves: &[Curve]) -> Self {
-        let monotone: Vec<Curve> = curves.iter().flat_map(monotone).collect();
+        let monotone: Vec<Curve> = curves.iter().flat_map(monotone_pieces).collect();
         let mut from = monotone.last().map_or(0.0, |last| last.end().y);
         let pieces = monotone.into_iter().map(|curve| {
             let piece = OutlinePiece { curve, from, to: curve.end().y };
@@ -208,7 +208,7 @@ impl OutlinePiece {
 }
 
 /// Returns the monotone pieces of a curve: arcs are split at their highest and lowest points.
-fn monotone(curve: &Curve) -> impl Iterator<Item = Curve> {
+fn monotone_pieces(curve: &Curve) -> impl Iterator<Item = Curve> {
     let Curve::Arc(arc) = curve else { return Either::Left(iter::once(*curve)) };
     let out = arc.start - arc.centre;
     let start = libm::atan2(out.y, out.x).to_degrees();

@@ -32,7 +32,7 @@ mod values;
 mod variables;
 mod walk;
 
-pub use bind::{ExaminedPath, bind, examine, regex_reason};
+pub use bind::{PartiallyBoundPath, bind, bind_leniently, regex_reason};
 pub use chain::{Chain, ChainSegment, Item, PlacedSubpath, Sweep, WalkedPath};
 pub use changes::{DrawnChange, DrawnChanges, DrawnSide, ElementChange, ElementKind, drawn_changes};
 pub use effective::{PathNumbers, PathOptions, PathRole, Provider, fallback};
@@ -58,10 +58,10 @@ pub use names::{
 };
 pub use numbers::{parse_integer, parse_number};
 pub use part::{
-    CutElement, DrawnParts, EarlierCuts, EmbeddedPlace, LeftMaterial, LostBar, MAX_WEAK_BRIDGE, MilledMove,
-    NeighbourCuts, NeighbourGouge, Part, PartCut, PartFindings, PartRing, PartSettings, PartSweep, PathCuts,
-    PlacedCuts, PlacedPart, SeveredPart, StandingBar, THROUGH_HEIGHT, WasteCut, check_parts, gouging_moves,
-    largest_displacement,
+    CutElement, DrawnParts, EarlierCuts, EmbeddedPlace, LeftoverMaterial, LostBar, MAX_WEAK_BRIDGE,
+    MilledMove, NeighbourCuts, NeighbourGouge, Part, PartCut, PartFindings, PartRing, PartSettings,
+    PartSweep, PathCuts, PlacedCuts, PlacedPart, SeveredPart, StandingBar, THROUGH_HEIGHT, WasteCut,
+    check_parts, gouging_moves, largest_displacement,
 };
 pub use path::{
     Bars, ChainParameters, CutParameters, Helix, Hole, Path, Probe, Segment, SegmentKind, Subpath,
@@ -77,4 +77,4 @@ pub use read::{
 pub use text::{LetterValue, ParameterText, ParameterTexts, TextId, as_seen};
 pub use values::has_thousands;
 pub use variables::{AllowedValues, Bindings, Combinations, Definition};
-pub use walk::{walk, walk_watched};
+pub use walk::{walk, walk_with_checkpoints};

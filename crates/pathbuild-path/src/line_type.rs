@@ -47,10 +47,10 @@ impl LineType {
 
     /// Returns the line type that an unknown name in upper case most likely means: by the longest known word in the name, or else by the same
     /// beginning or a single typing error.
-    pub fn like(name: &str) -> Option<Self> {
+    pub fn guess(name: &str) -> Option<Self> {
         // Names such as `STRICH-PUNKT` and `STRICH PUNKT` mean `STRICHPUNKT`.
         let squeezed: String = name.chars().filter(|character| character.is_alphanumeric()).collect();
-        let names = || Self::NAMES.into_iter().chain(names_in(ALIASES)).chain(names_in(WORDS));
+        let names = || Self::NAMES.into_iter().chain(names_in(ALIASES)).chain(names_in(NAME_PARTS));
         let in_name = names().filter(|(word, _)| {
             word.len() >= MIN_WORD_BYTES && (name.contains(word) || squeezed.contains(word))
         });
@@ -134,7 +134,7 @@ fn differs_little(name: &str, other: &str) -> bool {
 }
 
 /// Parts of names in several languages. They are used for suggestions only.
-const WORDS: &[(LineType, &[&str])] = &[
+const NAME_PARTS: &[(LineType, &[&str])] = &[
     (LineType::Continuous, &["CONTINU", "KONTINU", "VOLL"]),
     (LineType::Divide, &["DIVI", "TEIL"]),
     (LineType::Border, &["BORD", "GRENZ", "RAHMEN", "KANTE"]),

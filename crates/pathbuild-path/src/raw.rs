@@ -98,7 +98,7 @@ impl RawPath {
 
     /// Whether the text of an element is probably the path's own, which is missing from the start. A text that embeds a path
     /// may have O and T as well.
-    pub(crate) fn may_be_of_path(&self, text: ParameterText<'_>) -> bool {
+    pub(crate) fn may_be_start_text(&self, text: ParameterText<'_>) -> bool {
         let has = |letter| text.letters.contains(letter);
         self.parameters.is_none() && has(Letter::O) && has(Letter::T) && !has(Letter::Embed)
     }

@@ -274,7 +274,7 @@ impl<'t> ParameterText<'t> {
                 return is_first.then_some(problem);
             }
             let mistake = mistake_in_piece(self, piece, class).or_else(|| self.word_problem(piece, class));
-            return Some(mistake.unwrap_or_else(|| unknown_letter(first, class)));
+            return Some(mistake.unwrap_or_else(|| unknown_letter_problem(first, class)));
         };
         let letter_use = class.use_of(letter);
         if matches!(letter_use, LetterUse::Unknown | LetterUse::PathOnly) {
@@ -285,10 +285,12 @@ impl<'t> ParameterText<'t> {
                         .with("element", class.word()),
                 );
             }
-            return Some(self.word_problem(piece, class).unwrap_or_else(|| unknown_letter(first, class)));
+            return Some(
+                self.word_problem(piece, class).unwrap_or_else(|| unknown_letter_problem(first, class)),
+            );
         }
         if is_repeated {
-            return Some(self.repeated_letter(letter, piece));
+            return Some(self.repeated_letter_problem(letter, piece));
         }
         if letter.is_literal() && self.value(piece).contains('=') {
             return Some(Diagnostic::new(&messages::VARIABLE_NOT_ALLOWED).with("letter", first));
@@ -360,7 +362,7 @@ impl<'t> ParameterText<'t> {
         problem.with("letter", letter.as_char()).quoting("value", self.value(piece))
     }
 
-    fn repeated_letter(self, letter: Letter, piece: &LetterValue) -> Diagnostic {
+    fn repeated_letter_problem(self, letter: Letter, piece: &LetterValue) -> Diagnostic {
         match (letter, self.value(piece).chars().next()) {
             (Letter::Variable, Some(name)) => {
                 Diagnostic::new(&messages::VARIABLE_TWICE).with("variable", name)
@@ -393,7 +395,7 @@ impl ValueKind {
     }
 }
 
-fn unknown_letter(letter: char, class: ElementClass) -> Diagnostic {
+fn unknown_letter_problem(letter: char, class: ElementClass) -> Diagnostic {
     let upper = Letter::new(letter.to_ascii_uppercase()).filter(|upper| class.use_of(*upper).counts());
     let known: pathbuild_diagnostic::Value = class.known_letters().map(|known| known.to_string()).collect();
     let message = match upper {
@@ -725,7 +727,7 @@ fn mistake_in_piece(text: ParameterText<'_>, piece: &LetterValue, class: Element
             let variable = before.map(|variable| text.piece_text(variable)).unwrap_or_default();
             (&messages::VALUE_APART, format!("{variable}{first}{value}"))
         }
-        '_' if value.starts_with(['D', 'G', '+']) => return Some(drawn_code(text, piece)),
+        '_' if value.starts_with(['D', 'G', '+']) => return Some(drawn_code_problem(text, piece)),
         first if look_alikes::ascii(first).and_then(Letter::new).is_some() => {
             let problem =
                 look_alikes::look_alike_problem(&messages::LOOK_ALIKE_LETTER, text.piece_text(piece))?;
@@ -750,7 +752,7 @@ fn mistake_in_piece(text: ParameterText<'_>, piece: &LetterValue, class: Element
 }
 
 /// Returns PB202 for a sign that CAD programs write as a code, such as `%%c` for the diameter.
-fn drawn_code(text: ParameterText<'_>, piece: &LetterValue) -> Diagnostic {
+fn drawn_code_problem(text: ParameterText<'_>, piece: &LetterValue) -> Diagnostic {
     let (code, sign) = match text.value(piece).chars().next() {
         Some('D') => ("%%c", "\u{2300}"),
         Some('G') => ("%%d", "\u{b0}"),

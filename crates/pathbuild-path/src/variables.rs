@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fmt;
 
-use pathbuild_diagnostic::limits::{TEXT_WITH_VALUES, bytes, exceeded};
+use pathbuild_diagnostic::limits::{TEXT_WITH_VALUES, bytes, limit_error};
 use pathbuild_diagnostic::messages::parameters as messages;
 use pathbuild_diagnostic::{Diagnostic, Value};
 use smol_str::{SmolStr, ToSmolStr};
@@ -26,7 +26,7 @@ pub(crate) struct Interpolation<'a> {
 }
 
 /// The reason why a value is undefined; `None` if the reason was reported with a definition.
-type Problem = Option<Box<Diagnostic>>;
+type UndefinedReason = Option<Box<Diagnostic>>;
 
 /// Maximum depth of references in values: more than there are letters and digits for names. Without a limit, thousands of variables would each
 /// cause a pass over the whole text.
@@ -74,7 +74,7 @@ impl Interpolation<'_> {
     ///
     /// # Errors
     /// PB303, PB305 or PB005, without a place.
-    pub(crate) fn fill<'t>(&self, value: &'t str) -> Result<Cow<'t, str>, Problem> {
+    pub(crate) fn fill<'t>(&self, value: &'t str) -> Result<Cow<'t, str>, UndefinedReason> {
         let mut filled = Cow::Borrowed(value);
         // Unless there is a cycle, each pass resolves at least one level, and there are at most as many levels as variables.
         for _ in 0..=self.bindings.0.len().min(MAX_REFERENCE_DEPTH) {
@@ -87,13 +87,13 @@ impl Interpolation<'_> {
             None => Ok(filled),
             Some((_, rest)) => {
                 let name = rest.chars().next().map(String::from).unwrap_or_default();
-                Err(Some(self.endless_reference(name)))
+                Err(Some(self.endless_reference_error(name)))
             }
         }
     }
 
     /// Returns PB305 for the variable with references left in its value.
-    fn endless_reference(&self, name: String) -> Box<Diagnostic> {
+    fn endless_reference_error(&self, name: String) -> Box<Diagnostic> {
         let problem = if self.bindings.0.len() > MAX_REFERENCE_DEPTH {
             Diagnostic::new(&messages::TOO_DEEP).with("limit", MAX_REFERENCE_DEPTH)
         } else {
@@ -102,7 +102,7 @@ impl Interpolation<'_> {
         Box::new(problem.quoting("variable", name))
     }
 
-    fn fill_once(&self, value: &str) -> Result<String, Problem> {
+    fn fill_once(&self, value: &str) -> Result<String, UndefinedReason> {
         let mut filled = String::with_capacity(2 * value.len());
         let mut rest = value;
         while let Some((before, after)) = rest.split_once('=') {
@@ -113,11 +113,11 @@ impl Interpolation<'_> {
             }
             let replacement = name
                 .and_then(|name| self.bindings.get(name))
-                .ok_or_else(|| Some(self.undefined_variable(name)))?;
+                .ok_or_else(|| Some(self.undefined_variable_error(name)))?;
             filled.push_str(before);
             filled.push_str(replacement);
             if filled.len() > self.limit {
-                return Err(Some(self.too_long()));
+                return Err(Some(self.too_long_error()));
             }
             rest = &after[name.map_or(0, char::len_utf8)..];
         }
@@ -125,7 +125,7 @@ impl Interpolation<'_> {
         Ok(filled)
     }
 
-    fn undefined_variable(&self, name: Option<char>) -> Box<Diagnostic> {
+    fn undefined_variable_error(&self, name: Option<char>) -> Box<Diagnostic> {
         let known: Value = self.bindings.iter().map(|(name, _)| name.to_string()).collect();
         let message = if self.bindings.is_empty() {
             &messages::REFERENCE_WITHOUT_VARIABLES
@@ -137,8 +137,8 @@ impl Interpolation<'_> {
         Box::new(problem.with("known", known))
     }
 
-    fn too_long(&self) -> Box<Diagnostic> {
-        Box::new(exceeded(&TEXT_WITH_VALUES, bytes(self.limit as u64), "text-length"))
+    fn too_long_error(&self) -> Box<Diagnostic> {
+        Box::new(limit_error(&TEXT_WITH_VALUES, bytes(self.limit as u64), "text-length"))
     }
 }
 

@@ -22,7 +22,7 @@ pub(crate) fn chords(course: &Course, tolerance: f64) -> Option<u32> {
 }
 
 /// Returns the number of equal parts into which an arc must be split so that none sweeps more than `widest` radians. It is at most 255.
-pub(crate) fn pieces_of(course: &Course, widest: f64) -> u32 {
+pub(crate) fn arc_piece_count(course: &Course, widest: f64) -> u32 {
     (1..u32::from(u8::MAX))
         .find(|count| f64::from(*count) * widest >= course.sweep())
         .unwrap_or(u8::MAX.into())

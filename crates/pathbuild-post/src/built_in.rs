@@ -71,7 +71,7 @@ pub fn load(name: &str) -> Result<PostDefinition, Vec<Diagnostic>> {
     let Some(post) = definitions().find(|post| post.name == name) else {
         let nearest = nearest(name, definitions().map(|post| post.name));
         let diagnostic =
-            Diagnostic::new(&posts::POST_UNKNOWN).or_nearest(&posts::POST_UNKNOWN_NEAREST, nearest);
+            Diagnostic::new(&posts::POST_UNKNOWN).suggest_nearest(&posts::POST_UNKNOWN_NEAREST, nearest);
         return Err(vec![diagnostic.quoting("name", name)]);
     };
     let file = format!("{name}.{}", post.language.extension());

@@ -7,7 +7,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Lang, Message, Note, Value, nearest};
 use pathbuild_gcode::dialect::Dialect;
-use pathbuild_gcode::native::too_large;
+use pathbuild_gcode::native::output_too_large_error;
 use pathbuild_gcode::verify::{Ends, Tolerance};
 use pathbuild_motion::Turning;
 
@@ -117,7 +117,7 @@ impl PostDefinition {
 
     /// Returns the dialect in which the output is read back: `named`, or else the one that the definition declares. `None` if neither is given, or if
     /// its name is unknown.
-    pub fn reader(&self, named: Option<&str>) -> Option<Dialect> {
+    pub fn reading_dialect(&self, named: Option<&str>) -> Option<Dialect> {
         Target::of(named.or(self.dialect())?).map(|target| target.reader)
     }
 
@@ -181,7 +181,7 @@ impl PostDefinition {
             post_build,
         };
         if output.text.len() > options.most_bytes {
-            return Err(vec![*too_large(options.most_bytes)]);
+            return Err(vec![*output_too_large_error(options.most_bytes)]);
         }
         let refused =
             target.map(|target| target::check(&output.text, target)).filter(|errors| !errors.is_empty());
@@ -232,7 +232,7 @@ impl PostDefinition {
             machine: options.machine.as_ref(),
             part_tolerance: options.part_tolerance,
             is_manual: options.manual_spindle || target.is_some_and(|target| !target.switches_spindle()),
-            is_flat: matches!(&self.engine, Engine::CamBam(definition) if definition.is_flat()),
+            is_for_beam: matches!(&self.engine, Engine::CamBam(definition) if definition.is_for_beam()),
             follows_coolant,
             milliseconds: options.milliseconds,
         };
@@ -376,7 +376,7 @@ impl PostDefinition {
     fn restricted_to<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
         let (writes_cycles, is_wrapped) = match &self.engine {
             Engine::CamBam(definition) => {
-                (definition.writes_cycles(), definition.is_wrapped() || definition.is_flat())
+                (definition.writes_cycles(), definition.is_wrapped() || definition.is_for_beam())
             }
             Engine::Cad6(_) => (false, false),
         };
@@ -433,7 +433,7 @@ fn check_one_speed_per_tool(job: &Job) -> Result<(), Box<Diagnostic>> {
 fn unknown_dialect(name: &str) -> Diagnostic {
     let nearest = nearest(name, Target::names());
     let diagnostic =
-        Diagnostic::new(&posts::DIALECT_UNKNOWN).or_nearest(&posts::DIALECT_UNKNOWN_NEAREST, nearest);
+        Diagnostic::new(&posts::DIALECT_UNKNOWN).suggest_nearest(&posts::DIALECT_UNKNOWN_NEAREST, nearest);
     diagnostic.quoting("name", name).with("known", Target::names().into_iter().collect::<Value>())
 }
 

@@ -30,7 +30,7 @@ pub(super) fn check(
     found.sort_by_key(|(line, _)| *line);
     found.reverse();
     let units: &[f64] = if translated.is_some() { &[1.0, 1000.0] } else { &[1.0] };
-    let needed = job.operations.iter().flat_map(|operation| &operation.steps).filter_map(duration);
+    let needed = job.operations.iter().flat_map(|operation| &operation.steps).filter_map(dwell_seconds);
     for seconds in needed.filter(|seconds| *seconds > slack) {
         let lasts = |found: f64| units.iter().any(|unit| (found / unit - seconds).abs() <= slack);
         let Some(at) = found.iter().rposition(|(_, found)| lasts(*found)) else {
@@ -42,7 +42,7 @@ pub(super) fn check(
 }
 
 /// Returns the time in seconds that a step waits; `None` if it does not wait.
-fn duration(step: &JobStep) -> Option<f64> {
+fn dwell_seconds(step: &JobStep) -> Option<f64> {
     match step {
         JobStep::Dwell { seconds } => Some(*seconds),
         JobStep::Hole(hole) => match hole.kind {

@@ -35,7 +35,7 @@ impl Findings {
     ///
     /// # Errors
     /// All findings if one of them is an error.
-    pub(crate) fn warnings(self) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
+    pub(crate) fn into_result(self) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
         if self.has_error { Err(self.found) } else { Ok(self.found) }
     }
 }

@@ -319,7 +319,7 @@ impl Builder {
         self.operation();
         let is_over = |last| self.is_spindle_kept_off || self.has_cut && !is_same(last);
         if self.job.operations.last().is_some_and(is_over) {
-            self.begin_again();
+            self.begin_same_operation();
         }
         (self.has_cut, self.has_cut_with_tool) = (true, true);
         self.operation()
@@ -336,7 +336,7 @@ impl Builder {
     }
 
     /// Starts another operation with the name of the last one.
-    fn begin_again(&mut self) {
+    fn begin_same_operation(&mut self) {
         let name = self.job.operations.last().map(|last| last.name.clone()).unwrap_or_default();
         self.begin(&name);
     }
@@ -388,7 +388,7 @@ impl Builder {
         }
         self.was_changed_low |= is_new && self.at.known.has(Axes::Z) && self.at.z() < self.clearance;
         if self.is_settled() {
-            self.begin_again();
+            self.begin_same_operation();
         } else {
             self.update_operation();
             let entry = self.entry();
@@ -407,7 +407,7 @@ impl Builder {
         };
         self.state.speed = spindle.speed.filter(|speed| *speed > 0.0);
         if self.is_spindle_kept_off && self.state.spindle.is_some_and(Turning::is_on) {
-            self.begin_again();
+            self.begin_same_operation();
         }
         self.update_operation();
     }
@@ -647,7 +647,7 @@ fn is_drilling(movement: &Move) -> bool {
 
 /// Returns a warning for the first of each kind of word that the output of a post replaces: optional stops, stops with a change of the
 /// pallet, probing without an alarm, and mist beside flood.
-pub fn altered_words(steps: &[Step]) -> Vec<Diagnostic> {
+pub fn altered_word_warnings(steps: &[Step]) -> Vec<Diagnostic> {
     let mut found: Vec<Diagnostic> = Vec::new();
     for step in steps {
         let Some((word, written)) = replacement(&step.action) else { continue };

@@ -47,7 +47,7 @@ mod traverse;
 pub use built_in::{BUILT_IN, BuiltIn, load, samples};
 pub use definition::{Language, Output, PostDefinition, reference_table};
 pub use from_program::{NativeCutter, ToolEntry, ToolTable};
-pub use from_steps::{Remark, altered_words, is_head_comment, native_remark};
+pub use from_steps::{Remark, altered_word_warnings, is_head_comment, native_remark};
 pub use job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Tool, Units, VelocityMode, program_number};
 pub use options::{PostFiles, PostMacro, PostOptions, RefusedFiles};
 pub use rs274_translation::{Doubt, DoubtfulWord, TranslatedText};

@@ -21,7 +21,7 @@ pub(crate) struct LineWords {
     /// Whether a `%` follows other words than the line's number.
     pub(crate) has_percent_behind_words: bool,
     /// The line number, or the sign or text with which it begins, if that is not N. Some controls read `:` as the letter O.
-    pub(crate) other_number: Option<String>,
+    pub(crate) unusual_number_prefix: Option<String>,
     /// The first sign of a parameter or an expression: `#` or `[`.
     pub(crate) formula: Option<char>,
     /// The names in front of `=`, as in `Z=-5` or `RNDM=5`, without their numbers.
@@ -54,7 +54,7 @@ pub(crate) fn words(line: &str, marks: &CommentMarks) -> LineWords {
             found.is_percent |= first == '%' && is_first;
             found.has_percent_behind_words |= first == '%' && !is_first && found.foreign.is_none();
             if first == ':' && is_first {
-                found.other_number = Some(first.to_string());
+                found.unusual_number_prefix = Some(first.to_string());
             }
             let name = if first == '=' { name_at_end(&line[..line.len() - rest.len()]) } else { "" };
             found.assigned.extend((!name.is_empty()).then(|| name.to_owned()));

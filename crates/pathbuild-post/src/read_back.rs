@@ -53,8 +53,9 @@ pub(super) fn check(
     let mut errors = Vec::new();
     let (broken, mut doubts) = broken_rules(&read.steps, job, expected);
     doubts.extend(work_offset_warnings(&read.steps));
-    doubts
-        .extend(control.filter(|control| control.has_probe_alarm()).and_then(|_| lenient_probe(&read.steps)));
+    doubts.extend(
+        control.filter(|control| control.has_probe_alarm()).and_then(|_| lenient_probe_warning(&read.steps)),
+    );
     if let Some(tolerance) = tolerance {
         errors.extend(line_errors(text, &read, *wording));
         errors.extend(move_errors(&read, job, expected, tolerance, &broken)?);
@@ -63,9 +64,11 @@ pub(super) fn check(
             errors.extend(wrong.into_iter().map(as_finding_of_post));
             doubts.extend(doubtful);
         }
-        doubts.extend(spindle_started_at_end(&read.steps));
+        doubts.extend(late_spindle_start_warning(&read.steps));
         let needs_coolant = |operation: &Operation| operation.coolant.is_some_and(Coolant::is_on);
-        if expected.follows_coolant && job.operations.iter().any(needs_coolant) && !tools::cools(&read.steps)
+        if expected.follows_coolant
+            && job.operations.iter().any(needs_coolant)
+            && !tools::switches_coolant_on(&read.steps)
         {
             doubts.push(Diagnostic::new(&posts::COOLANT_NEVER_ON));
         }
@@ -89,7 +92,7 @@ fn line_errors(text: &[u8], read: &Interpretation, wording: Wording<'_>) -> Vec<
         // Some controls run these lines.
         errors.extend(first_of(&read.problems, &gcode::AFTER_END));
     }
-    errors.extend(skippable_line(text, &read.steps));
+    errors.extend(skippable_line_error(text, &read.steps));
     errors
 }
 
@@ -110,7 +113,7 @@ fn move_errors(
     let mut clearance =
         job.operations.iter().map(|operation| operation.clearance).fold(f64::NEG_INFINITY, f64::max);
     let mut found: Vec<(u32, Move)> = read.moves().into_iter().map(with_equal_probes).collect();
-    if expected.is_flat {
+    if expected.is_for_beam {
         (wanted, found, clearance) = (moves_in_plane(&wanted), moves_in_plane(&found), 0.0);
         errors.extend(check_beam(&read.steps).map(as_finding_of_post));
     }
@@ -171,7 +174,7 @@ fn first_of(problems: &[Diagnostic], message: &'static Message) -> Option<Diagno
 
 /// Returns a finding about the first line that a switch at the machine (block delete) can skip although it moves, changes the tool, its
 /// length, or offsets, switches the spindle, or states a mode or a feed for the lines that follow.
-fn skippable_line(text: &[u8], steps: &[Step]) -> Option<Diagnostic> {
+fn skippable_line_error(text: &[u8], steps: &[Step]) -> Option<Diagnostic> {
     let is_needed = |action: &Action| match action {
         Action::Move(_) | Action::SelectTool(_) | Action::ChangeTool(_) | Action::Spindle(_) => true,
         Action::Change(change) => matches!(change, Change::ToolLength(_) | Change::Offsets { .. }),
@@ -180,7 +183,7 @@ fn skippable_line(text: &[u8], steps: &[Step]) -> Option<Diagnostic> {
     let mut needed = steps.iter().filter(|step| is_needed(&step.action)).map(|step| step.line).peekable();
     for (number, line) in (1_u32..).zip(text.split(|byte| *byte == b'\n')) {
         while needed.next_if(|needed| *needed < number).is_some() {}
-        if begins_with_slash(line) && (needed.peek() == Some(&number) || states_mode(line)) {
+        if begins_with_slash(line) && (needed.peek() == Some(&number) || has_mode_word(line)) {
             return Some(Diagnostic::new(&posts::LINE_SKIPPABLE).at_line(number, None));
         }
     }
@@ -213,7 +216,7 @@ fn mark_skippable_stops(steps: &mut [Step], text: &[u8]) {
 }
 
 /// Whether a line has an F, or a G word other than G4.
-fn states_mode(line: &[u8]) -> bool {
+fn has_mode_word(line: &[u8]) -> bool {
     let words = words(&String::from_utf8_lossy(line), &CommentMarks::default()).words;
     let is_dwell = |word: &Word| word.letter == 'G' && word.number == 4.0;
     let has_mode = words.iter().any(|word| word.letter == 'G' && !is_dwell(word));
@@ -357,7 +360,7 @@ fn broken_rules(
     found.sort_by_key(|problem| problem.place.line);
     // A beam has no height. If the dialect is unknown and the user takes responsibility for the moves, words may mean anything.
     let is_known = control.is_some() || expected.tolerance.is_some();
-    let is_followed = !expected.is_flat && is_known;
+    let is_followed = !expected.is_for_beam && is_known;
     let (mut broken, mut doubts) = (Vec::new(), Vec::from_iter(corners.finish()));
     for mut problem in found {
         // Programs that were not written by pathbuild only get a warning for these problems; a program that is about to be written must
@@ -377,12 +380,12 @@ fn broken_rules(
             doubts.push(problem);
         }
     }
-    let is_started = is_started(steps) || !expected.is_manual && job.starts_spindle();
-    if control.is_none() && (expected.tolerance.is_none() || !is_started) {
+    let is_spindle_started = is_spindle_started(steps) || !expected.is_manual && job.starts_spindle();
+    if control.is_none() && (expected.tolerance.is_none() || !is_spindle_started) {
         // The text's words may mean something other than the spindle, or the operator switches the spindle and the final M5 is only for safety.
         broken.retain(|problem| !is_rule_of_spindle(problem));
     }
-    if expected.is_flat || !is_known {
+    if expected.is_for_beam || !is_known {
         broken.retain(|problem| problem.message != &gcode::CHANGE_NOT_RAISED);
     }
     (broken, doubts)
@@ -418,7 +421,7 @@ pub(super) fn line_of(output: &[u8], number: u32) -> Option<Cow<'_, str>> {
 }
 
 /// Returns a warning about the first probing move that goes on if the probe touches nothing. Probes of jobs stop with an error.
-fn lenient_probe(steps: &[Step]) -> Option<Diagnostic> {
+fn lenient_probe_warning(steps: &[Step]) -> Option<Diagnostic> {
     let is_lenient = |step: &&Step| {
         matches!(&step.action, Action::Move(Move { pace: Pace::Probe { must_answer: false, .. }, .. }))
     };
@@ -535,7 +538,7 @@ pub(super) fn check_beam(steps: &[Step]) -> Option<Diagnostic> {
     None
 }
 
-pub(super) fn is_started(steps: &[Step]) -> bool {
+pub(super) fn is_spindle_started(steps: &[Step]) -> bool {
     steps.iter().any(|step| match step.action {
         Action::Spindle(spindle) => spindle.turning.is_on(),
         _ => false,
@@ -543,7 +546,7 @@ pub(super) fn is_started(steps: &[Step]) -> bool {
 }
 
 /// Warns about a spindle that is started, or reversed, after the last cut.
-fn spindle_started_at_end(steps: &[Step]) -> Option<Diagnostic> {
+fn late_spindle_start_warning(steps: &[Step]) -> Option<Diagnostic> {
     let is_cut = |step: &Step| matches!(&step.action, Action::Move(movement) if matches!(movement.pace, Pace::Feed(_)));
     let last_cut = steps.iter().rposition(is_cut)?;
     let turnings = steps.iter().enumerate().filter_map(|(index, step)| match step.action {

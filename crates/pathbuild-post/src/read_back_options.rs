@@ -49,7 +49,7 @@ pub(super) struct ReadBackOptions<'a> {
     /// Whether the program need not switch the spindle, because the operator does it or the target has no word for it.
     pub(super) is_manual: bool,
     /// Whether the text never moves in Z, because a beam cuts at all depths.
-    pub(super) is_flat: bool,
+    pub(super) is_for_beam: bool,
     /// Whether the texts of the definition switch the coolant as the job says.
     pub(super) follows_coolant: bool,
     /// Whether the machine counts P of dwells in milliseconds. Only for controls where this is a setting.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Diagnostic, Severity};
-use pathbuild_gcode::interpret::{DisputedWords, UnionWord, code_name, union_word};
+use pathbuild_gcode::interpret::{DisputedWords, MeaningWithoutDialect, code_name, meaning_without_dialect};
 
 use crate::job::Units;
 use crate::line_words::{LineWords, Word};
@@ -186,7 +186,7 @@ impl Rs274Translation {
                         self.report(word.letter.to_string(), Doubt::Dangerous);
                     }
                     'D' | 'E' => self.report(word.letter.to_string(), Doubt::Unknown),
-                    'O' if moves(line) => self.report(word.letter.to_string(), Doubt::Unknown),
+                    'O' if has_coordinate(line) => self.report(word.letter.to_string(), Doubt::Unknown),
                     _ => {}
                 }
             }
@@ -201,7 +201,7 @@ impl Rs274Translation {
         if let Some(foreign) = &line.foreign {
             let name = foreign.split(['(', '=']).next().unwrap_or_default();
             let is_dangerous = DANGEROUS_STATEMENTS.iter().any(|known| known.eq_ignore_ascii_case(name));
-            if is_dangerous || moves(line) && !has_own_motion && line.formula.is_none() {
+            if is_dangerous || has_coordinate(line) && !has_own_motion && line.formula.is_none() {
                 self.report(name.to_owned(), Doubt::Dangerous);
             }
         }
@@ -224,7 +224,7 @@ impl Rs274Translation {
         if let Some(Word { letter: 'O', number }) = line.words.first().filter(|_| line.foreign.is_some()) {
             self.report(format!("O{number}"), Doubt::Dangerous);
         }
-        if let Some(number) = line.other_number.as_ref().filter(|_| moves(line)) {
+        if let Some(number) = line.unusual_number_prefix.as_ref().filter(|_| has_coordinate(line)) {
             self.report(number.clone(), Doubt::Unknown);
         }
         let has = |letter: char, numbers: &[i64]| {
@@ -308,13 +308,13 @@ impl Rs274Translation {
             return self.report(name(letter, tenths), Doubt::Dangerous);
         };
         self.disputes.add(self.line, letter, code);
-        match union_word(letter, code) {
-            UnionWord::Followed(code) => self.word(letter, f64::from(code) / 10.0),
-            UnionWord::Neutral => {}
-            UnionWord::NotFollowed { is_dangerous: true } => {
+        match meaning_without_dialect(letter, code) {
+            MeaningWithoutDialect::Followed(code) => self.word(letter, f64::from(code) / 10.0),
+            MeaningWithoutDialect::Neutral => {}
+            MeaningWithoutDialect::NotFollowed { is_dangerous: true } => {
                 self.report(name(letter, tenths), Doubt::Dangerous);
             }
-            UnionWord::NotFollowed { is_dangerous: false } => {
+            MeaningWithoutDialect::NotFollowed { is_dangerous: false } => {
                 self.report(name(letter, tenths), Doubt::Unknown);
             }
         }
@@ -340,7 +340,7 @@ impl Rs274Translation {
 }
 
 /// Whether a line contains a coordinate.
-fn moves(line: &LineWords) -> bool {
+fn has_coordinate(line: &LineWords) -> bool {
     line.words.iter().any(|word| matches!(word.letter, 'X' | 'Y' | 'Z'))
 }
 

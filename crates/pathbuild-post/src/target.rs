@@ -6,8 +6,8 @@ use std::ops::Range;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, TextFault};
 use pathbuild_gcode::dialect::{
-    Charset, Dialect, LineLength, NotationSupport, Percent, Rules, Spelling, ascii, is_active_comment,
-    within_comment,
+    Charset, Dialect, LineLength, NotationSupport, Percent, Rules, Spelling, ascii, comment_safe_text,
+    is_active_comment,
 };
 use pathbuild_gcode::read::LONGEST_LINE;
 
@@ -132,7 +132,7 @@ pub(crate) fn check(text: &[u8], target: &Target) -> Vec<Diagnostic> {
     for (number, line) in (1_u64..).zip(text.split(|&byte| byte == b'\n')) {
         let line = String::from_utf8_lossy(line);
         let line = line.trim_end_matches('\r');
-        Checker { target, number, line, after_change: false, errors: &mut errors }.line();
+        TargetChecker { target, number, line, after_change: false, errors: &mut errors }.line();
         if errors.len() >= MAX_ERRORS {
             break;
         }
@@ -140,7 +140,7 @@ pub(crate) fn check(text: &[u8], target: &Target) -> Vec<Diagnostic> {
     errors
 }
 
-struct Checker<'a> {
+struct TargetChecker<'a> {
     target: &'a Target,
     number: u64,
     line: &'a str,
@@ -149,7 +149,7 @@ struct Checker<'a> {
     errors: &'a mut Vec<Diagnostic>,
 }
 
-impl Checker<'_> {
+impl TargetChecker<'_> {
     fn line(&mut self) {
         let mut at = 0;
         for piece in self.target.pieces(self.line) {
@@ -243,14 +243,14 @@ impl Checker<'_> {
             return 1;
         };
         let length = text.len() - rest.len() + digits;
-        if !self.takes(letter, value) {
+        if !self.accepts_word(letter, value) {
             self.reject(start..start + length);
         }
         self.after_change = self.target.spelling.bare_tool_number && letter == b'M' && value == 6.0;
         length
     }
 
-    fn takes(&self, letter: u8, value: f64) -> bool {
+    fn accepts_word(&self, letter: u8, value: f64) -> bool {
         let words = self.target.rules.words;
         match letter {
             b'G' => tenths(value).is_some_and(|code| words.has_g(code)),
@@ -321,7 +321,7 @@ impl<'a> TextInserter<'a> {
 
     /// Returns the text in a form that may be appended to the line; `None` if it would be outside a comment and be read as words.
     pub(crate) fn inserted_form(&self, line: &str, text: &str) -> Option<String> {
-        let plain = within_comment(text, self.target.map(|target| target.reader), self.charset);
+        let plain = comment_safe_text(text, self.target.map(|target| target.reader), self.charset);
         let is_title = line.trim_start().starts_with('%');
         match self.open_comment(line) {
             Some((before, close)) => {

@@ -21,7 +21,7 @@ pub(super) fn check(
     cuts: &[MatchedCut],
     expected: &ReadBackOptions<'_>,
 ) -> Vec<Diagnostic> {
-    let mut checker = Checker::new(steps, job, expected);
+    let mut checker = ToolChecker::new(steps, job, expected);
     let mut rest = cuts;
     let mut current: Option<MatchedCut> = None;
     for step in steps {
@@ -43,17 +43,17 @@ pub(super) fn check(
 }
 
 /// Whether a text switches coolant on.
-pub(super) fn cools(steps: &[Step]) -> bool {
+pub(super) fn switches_coolant_on(steps: &[Step]) -> bool {
     steps.iter().any(|step| matches!(step.action, Action::Coolant(coolant) if coolant.is_on()))
 }
 
-struct Checker<'j> {
+struct ToolChecker<'j> {
     /// The operations to which the steps of the job belong, one for each step.
     operations: Vec<&'j Operation>,
     tools: ToolState,
     words: ToolWords,
     is_manual: bool,
-    is_flat: bool,
+    is_for_beam: bool,
     /// State of the coolant; `None` if it is not compared.
     coolant: Option<Coolant>,
     /// Height in mm above which cuts are moves in the air.
@@ -120,9 +120,9 @@ fn stops(job: &Job) -> Vec<Option<bool>> {
     stops
 }
 
-impl<'j> Checker<'j> {
+impl<'j> ToolChecker<'j> {
     fn new(steps: &[Step], job: &'j Job, expected: &ReadBackOptions<'_>) -> Self {
-        let ReadBackOptions { wording, is_manual, is_flat, follows_coolant, .. } = *expected;
+        let ReadBackOptions { wording, is_manual, is_for_beam, follows_coolant, .. } = *expected;
         let cutting = job.operations.iter().filter(|operation| operation.cuts());
         let surface = cutting.map(|operation| operation.surface).reduce(f64::max);
         Self {
@@ -130,9 +130,9 @@ impl<'j> Checker<'j> {
             tools: ToolState::new(wording.reader()),
             words: ToolWords::new(steps, wording.control().map(|control| control.reader)),
             is_manual,
-            is_flat,
-            coolant: (follows_coolant && cools(steps)).then(Coolant::default),
-            surface: surface.filter(|_| !job.has_no_surface && !is_flat).unwrap_or(f64::INFINITY),
+            is_for_beam,
+            coolant: (follows_coolant && switches_coolant_on(steps)).then(Coolant::default),
+            surface: surface.filter(|_| !job.has_no_surface && !is_for_beam).unwrap_or(f64::INFINITY),
             last: None,
             spinning: None,
             tip_height: TipHeight::new(wording.reader()),
@@ -145,7 +145,7 @@ impl<'j> Checker<'j> {
     }
 
     fn step(&mut self, step: &Step) {
-        self.moved_low = self.moved_low.or(self.tip_height.moved_since_stop());
+        self.moved_low = self.moved_low.or(self.tip_height.first_move_since_stop());
         self.tip_height.step(step);
         if let (Action::Coolant(coolant), Some(now)) = (&step.action, &mut self.coolant) {
             *now = *coolant;
@@ -209,7 +209,7 @@ impl<'j> Checker<'j> {
         if let Some(stop) = self.spinning.filter(|_| is_changed) {
             self.report(&gcode::SPINNING_AT_CHANGE, stop, |d| d);
         }
-        let is_by_hand = is_changed && !self.words.has_change && !self.is_flat;
+        let is_by_hand = is_changed && !self.words.has_change && !self.is_for_beam;
         if let Some(line) = self.moved_low.filter(|_| is_by_hand) {
             self.report(&gcode::CHANGE_NOT_RAISED, line, |d| d);
         }
@@ -260,7 +260,9 @@ impl<'j> Checker<'j> {
         // In a layer of XpertMILL without an S of its own, the spindle does not turn at the speed of another layer.
         let speed = operation.speed.filter(|_| found.speed.is_some() || self.words.has_layers);
         // Cuts with a spindle that does not turn are reported by the rules of `verify`.
-        if found.turning == Turning::Off || !self.tools.turns_otherwise(turning, speed, SPEED_TOLERANCE) {
+        if found.turning == Turning::Off
+            || !self.tools.has_other_spindle_state(turning, speed, SPEED_TOLERANCE)
+        {
             return;
         }
         match (turning, found.turning) {

@@ -109,10 +109,10 @@ fn without_excursions(moves: NumberedMoves<'_>, slack: f64) -> Vec<(u32, Move)> 
 
 /// Whether a position equals another one or is directly above it.
 fn is_above(place: &Position, other: &Position, slack: f64) -> bool {
-    is_over(&place.at, &other.at, slack) && place.z() >= other.z() - slack
+    is_same_in_plane(&place.at, &other.at, slack) && place.z() >= other.z() - slack
 }
 
-fn is_over(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
+fn is_same_in_plane(a: &[f64; 3], b: &[f64; 3], slack: f64) -> bool {
     (a[0] - b[0]).abs() <= slack && (a[1] - b[1]).abs() <= slack
 }
 
@@ -252,7 +252,7 @@ impl<'m> ExpectedTraverse<'m> {
         }
         let is_there = |at: &Position| {
             at.known == Axes::ALL
-                && is_over(&at.at, &begin.at, self.slack)
+                && is_same_in_plane(&at.at, &begin.at, self.slack)
                 && (at.z() - begin.z()).abs() <= self.slack
         };
         let place = |index: usize| match found.get(index) {
@@ -350,8 +350,8 @@ impl<'m> ExpectedTraverse<'m> {
 
     /// Whether a move leads straight up to a machine position.
     fn is_lift(&self, movement: &Move) -> bool {
-        let stays =
-            movement.to.known.has(Axes::XY) && is_over(&movement.from.at, &movement.to.at, self.slack);
+        let stays = movement.to.known.has(Axes::XY)
+            && is_same_in_plane(&movement.from.at, &movement.to.at, self.slack);
         let is_unknown = !movement.from.known.has(Axes::XY) && !movement.to.known.has(Axes::XY);
         (stays || is_unknown) && !movement.to.known.has(Axes::Z)
     }
@@ -363,7 +363,7 @@ impl<'m> ExpectedTraverse<'m> {
         };
         let is_vertical = movement.from.known.has(Axes::XY)
             && movement.to.known.has(Axes::XY)
-            && is_over(&movement.from.at, &movement.to.at, self.slack)
+            && is_same_in_plane(&movement.from.at, &movement.to.at, self.slack)
             || !movement.from.known.has(Axes::XY) && !movement.to.known.has(Axes::XY);
         let lowest = match (height(&movement.from), height(&movement.to)) {
             (Some(from), Some(to)) => from.min(to),
@@ -375,7 +375,7 @@ impl<'m> ExpectedTraverse<'m> {
             return true;
         }
         if !movement.is_known() {
-            if self.job_comes_lower(movement, lowest) {
+            if self.job_has_lower_move(movement, lowest) {
                 return true;
             }
             // A descent from above everything must be vertical and end above a known position.
@@ -397,7 +397,7 @@ impl<'m> ExpectedTraverse<'m> {
     }
 
     /// Whether the job itself has a move to the same position that is no higher and whose start is known in the same axes.
-    fn job_comes_lower(&self, movement: &Move, lowest: f64) -> bool {
+    fn job_has_lower_move(&self, movement: &Move, lowest: f64) -> bool {
         let end = in_plane(&movement.to);
         self.near([end, end]).any(|expected| {
             let highest = expected.from.z().max(expected.to.z());
@@ -406,7 +406,7 @@ impl<'m> ExpectedTraverse<'m> {
                 && expected.from.known == movement.from.known
                 && expected.to.known == Axes::ALL
                 && movement.to.known == Axes::ALL
-                && is_over(&expected.to.at, &movement.to.at, self.slack)
+                && is_same_in_plane(&expected.to.at, &movement.to.at, self.slack)
                 && highest <= lowest + self.slack
         })
     }
@@ -424,11 +424,11 @@ impl<'m> ExpectedTraverse<'m> {
         let ends =
             self.near(here).map(|movement| movement.to).filter(|to| to.known == Axes::ALL).map(|to| to.at);
         let begins = self.straight_moves_near(here).map(|(from, _)| from);
-        let over = ends.chain(begins).filter(|at| is_over(at, place, self.slack)).map(|at| at[2]);
+        let over = ends.chain(begins).filter(|at| is_same_in_plane(at, place, self.slack)).map(|at| at[2]);
         let along = self.straight_moves_near(here).filter_map(|(from, to)| {
-            let share = share_of(&from, &to, place)?.clamp(0.0, 1.0);
-            let at = between(&from, &to, share);
-            is_over(&at, place, self.slack).then_some(at[2])
+            let share = nearest_fraction(&from, &to, place)?.clamp(0.0, 1.0);
+            let at = point_at_fraction(&from, &to, share);
+            is_same_in_plane(&at, place, self.slack).then_some(at[2])
         });
         over.chain(along).reduce(f64::min)
     }
@@ -456,14 +456,14 @@ impl<'m> ExpectedTraverse<'m> {
         low: [f64; 2],
         leg: ([f64; 3], [f64; 3]),
     ) -> Option<[f64; 2]> {
-        let shares = [share_of(from, to, &leg.0)?, share_of(from, to, &leg.1)?];
+        let shares = [nearest_fraction(from, to, &leg.0)?, nearest_fraction(from, to, &leg.1)?];
         let begin = shares[0].min(shares[1]).max(low[0]);
         let end = shares[0].max(shares[1]).min(low[1]);
         let is_above_leg = |share: f64| {
-            let at = between(from, to, share);
-            let along = share_of(&leg.0, &leg.1, &at).map_or(0.0, |along| along.clamp(0.0, 1.0));
-            let other = between(&leg.0, &leg.1, along);
-            is_over(&at, &other, self.slack) && at[2] >= other[2] - self.slack
+            let at = point_at_fraction(from, to, share);
+            let along = nearest_fraction(&leg.0, &leg.1, &at).map_or(0.0, |along| along.clamp(0.0, 1.0));
+            let other = point_at_fraction(&leg.0, &leg.1, along);
+            is_same_in_plane(&at, &other, self.slack) && at[2] >= other[2] - self.slack
         };
         (begin <= end && is_above_leg(begin) && is_above_leg(end)).then_some([begin, end])
     }
@@ -486,13 +486,13 @@ fn range_below(from: f64, to: f64, height: f64) -> [f64; 2] {
 }
 
 /// Returns the fraction of a line's length, in the plane, at which it is nearest to a position; `None` for a vertical line.
-fn share_of(from: &[f64; 3], to: &[f64; 3], place: &[f64; 3]) -> Option<f64> {
+fn nearest_fraction(from: &[f64; 3], to: &[f64; 3], place: &[f64; 3]) -> Option<f64> {
     let along = [to[0] - from[0], to[1] - from[1]];
     let square = along[0] * along[0] + along[1] * along[1];
     (square > 0.0).then(|| ((place[0] - from[0]) * along[0] + (place[1] - from[1]) * along[1]) / square)
 }
 
-fn between(from: &[f64; 3], to: &[f64; 3], share: f64) -> [f64; 3] {
+fn point_at_fraction(from: &[f64; 3], to: &[f64; 3], share: f64) -> [f64; 3] {
     [0, 1, 2].map(|axis| from[axis] + share * (to[axis] - from[axis]))
 }
 

@@ -16,13 +16,14 @@ pub use correction::{Correction, UnprobedPoint};
 pub use fold::{FoldPaths, fold, fold_traced};
 pub use mill::{axis_circle, support_bars};
 pub use moves::{
-    LAST_DIGIT, LAST_DIGIT_SLACK, ToolTip, is_doubtful, is_point, is_short, kind_of_move, tip_move,
+    LAST_DIGIT, LAST_DIGIT_SLACK, ToolTip, is_doubtful_arc, is_point_arc, is_short_arc, kind_of_move,
+    tip_move,
 };
 pub use part_cuts::part_cuts;
 pub use pathbuild_path::Xy;
 pub use program::{
     Comment, Count, ElementKind, Height, MoveClass, NameId, Names, Occurrence, OmittedCurves, PlannedMove,
-    ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace, memory, own_moves,
+    ProbeOrigin, ProbePoint, Program, ProgramStep, StepOrigin, Trace, estimated_bytes, own_moves,
 };
 pub use program::{Statistics, Total};
 pub use z_model::{MIN_REPORTED_DEVIATION, OddProbe, Surface, ZModel, odd_probes};

@@ -69,8 +69,8 @@ impl ToolTip {
                 // An arc whose ends (almost) coincide either has almost no length or is a full circle: its length decides. Ends are corrected only if
                 // they contradict the length, so an arc that is not quite a full circle is kept.
                 let (radius, sweep) = (arc.radius(&self.at), arc.sweep(&self.at, &to));
-                let is_whole = length > (sweep + PI) * radius && is_doubtful(relative_centre, length);
-                let has_no_length = length < radius && sweep > PI || is_point(relative_centre);
+                let is_whole = length > (sweep + PI) * radius && is_doubtful_arc(relative_centre, length);
+                let has_no_length = length < radius && sweep > PI || is_point_arc(relative_centre);
                 let path = if has_no_length { MoveShape::Line } else { MoveShape::Arc(arc) };
                 let to = if is_whole { self.at_height(z.z) } else { to };
                 self.move_along(to, path, Pace::Feed(feed))
@@ -102,17 +102,17 @@ fn place(at: Xy, z: f64) -> Position {
 }
 
 /// Whether the centre of an arc, relative to its start, is printed as zero. Controllers do not accept such an arc, so it is written as a line.
-pub fn is_point(centre: Xy) -> bool {
+pub fn is_point_arc(centre: Xy) -> bool {
     centre.coords.amax() < LAST_DIGIT / 2.0
 }
 
 /// Whether an arc of this length in mm is so short, or so close to a full turn, that rounding to three decimals may turn one into the other.
-pub fn is_doubtful(centre: Xy, length: f64) -> bool {
-    is_short(length) || length > TAU * centre.coords.norm() - DOUBTFUL_ARC_LENGTH
+pub fn is_doubtful_arc(centre: Xy, length: f64) -> bool {
+    is_short_arc(length) || length > TAU * centre.coords.norm() - DOUBTFUL_ARC_LENGTH
 }
 
 /// Whether an arc of this length in mm is so short that its end may be printed like its start.
-pub fn is_short(length: f64) -> bool {
+pub fn is_short_arc(length: f64) -> bool {
     length < DOUBTFUL_ARC_LENGTH
 }
 

@@ -330,7 +330,7 @@ pub fn own_moves(path: &Path, walked: &WalkedPath) -> u64 {
 }
 
 /// Estimates the memory in bytes for this number of moves in a program, each with a comment.
-pub fn memory(moves: u64) -> u64 {
+pub fn estimated_bytes(moves: u64) -> u64 {
     moves.saturating_mul(2 * size_of::<ProgramStep>() as u64)
 }
 
@@ -350,8 +350,8 @@ fn chain_moves(path: &Path, chain: &Chain, members: &[ChainSegment]) -> u64 {
         let cut = member.cut(path);
         let known = last.filter(|(known, _)| ptr::eq(*known, cut));
         let (_, passes) =
-            *last.insert(known.unwrap_or_else(|| (cut, passes(first - cut.bottom, chain.infeed))));
-        let sections = cut.bars.map_or(1, |bars| sections(&bars, member.curve(path).length()));
+            *last.insert(known.unwrap_or_else(|| (cut, pass_count(first - cut.bottom, chain.infeed))));
+        let sections = cut.bars.map_or(1, |bars| section_count(&bars, member.curve(path).length()));
         passes.saturating_mul(sections.saturating_add(1))
     });
     let once = segments.fold(0, u64::saturating_add);
@@ -359,20 +359,20 @@ fn chain_moves(path: &Path, chain: &Chain, members: &[ChainSegment]) -> u64 {
 }
 
 fn helix_moves(path: &Path, helix: &Helix) -> u64 {
-    let spiral = passes(path.thickness - helix.bottom, helix.infeed).saturating_mul(2);
+    let spiral = pass_count(path.thickness - helix.bottom, helix.infeed).saturating_mul(2);
     let with_bars = helix.bars.map_or(0, |(depth, bars)| {
         let length = std::f64::consts::TAU * helix.axis_radius(path.tool);
-        passes(helix.bottom - depth, helix.infeed).saturating_mul(sections(&bars, length))
+        pass_count(helix.bottom - depth, helix.infeed).saturating_mul(section_count(&bars, length))
     });
     spiral.saturating_add(with_bars)
 }
 
 /// Returns the number of sections of a segment with bars: each gap is a slope, a low section, a slope and the next bar.
-fn sections(bars: &Bars, length: f64) -> u64 {
+fn section_count(bars: &Bars, length: f64) -> u64 {
     whole(4.0 * bars.count(length) + 1.0)
 }
 
-fn passes(depth: f64, infeed: f64) -> u64 {
+fn pass_count(depth: f64, infeed: f64) -> u64 {
     whole((depth / infeed).ceil().max(0.0)).saturating_add(1)
 }
 

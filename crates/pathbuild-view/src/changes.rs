@@ -82,7 +82,7 @@ const ORIGIN: Point = [0.0; 2];
 /// another place counts as shifted. All other cuts are divided where cuts end on them, unless they are too many, and each piece is classified by
 /// comparing the final depth, the feed and the number of passes along its line in the plane.
 pub fn compare(old: &[SceneMove], new: &[SceneMove]) -> ComparedMoves {
-    let [old, new] = [old, new].map(without_standing_moves);
+    let [old, new] = [old, new].map(without_standstills);
     let (old, new) = (&*old, &*new);
     let mut identities = Identities::default();
     let rows = hunks(&mut identities, old, new);
@@ -174,7 +174,7 @@ fn hunks(identities: &mut Identities, old: &[SceneMove], new: &[SceneMove]) -> V
 
 /// Removes rapid moves that end where they begin, which drilling cycles make above their holes. Heights from which a correction was subtracted are not
 /// exact, so the ends are compared like those of other moves.
-fn without_standing_moves(moves: &[SceneMove]) -> Cow<'_, [SceneMove]> {
+fn without_standstills(moves: &[SceneMove]) -> Cow<'_, [SceneMove]> {
     let stands = |movement: &SceneMove| {
         let (from, to) = (&movement.way.from, &movement.way.to);
         let is_near = |axis: usize| (from.at[axis] - to.at[axis]).abs() <= END_TOLERANCE;
@@ -434,7 +434,7 @@ struct Line {
     /// Whether the move is straight up or down, a probe, or an arc that leaves the plane XY.
     is_vertical: bool,
     is_probe: bool,
-    is_upright: bool,
+    is_vertical_arc: bool,
     ends: [u32; 2],
     middle: u32,
 }
@@ -497,7 +497,7 @@ impl Identities {
         Line {
             is_vertical: movement.kind == MoveKind::Plunge,
             is_probe: movement.kind == MoveKind::Probe,
-            is_upright: matches!(way.shape, MoveShape::Arc(arc) if arc.plane != Plane::Xy),
+            is_vertical_arc: matches!(way.shape, MoveShape::Arc(arc) if arc.plane != Plane::Xy),
             ends,
             middle: self.middles.number([x, y, 0.0]),
         }
@@ -515,12 +515,12 @@ fn machine_kind(kind: MoveKind) -> MoveKind {
 }
 
 /// Number of places along a line at which its depth is compared: the ends, the middle, and the middles between these.
-const DEPTHS: usize = 5;
+const DEPTH_SAMPLES: usize = 5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct MillingResult {
     /// Lowest Z in mm at places along the line, beginning at the end of the line with the smaller number.
-    bottom: [f64; DEPTHS],
+    bottom: [f64; DEPTH_SAMPLES],
     /// Feed in mm/min of the pass that is deepest in the middle.
     feed: f64,
     /// Number of the first move that is deepest in the middle.
@@ -540,7 +540,7 @@ impl MillingResult {
 
     /// Returns the least and the greatest height in mm by which a new result is higher.
     fn raised(&self, new: &Self) -> [f64; 2] {
-        let raised = std::array::from_fn::<f64, DEPTHS, _>(|place| {
+        let raised = std::array::from_fn::<f64, DEPTH_SAMPLES, _>(|place| {
             let raised = new.bottom[place] - self.bottom[place];
             if raised.abs() <= END_TOLERANCE { 0.0 } else { (raised * 1000.0).round() / 1000.0 }
         });
@@ -579,11 +579,11 @@ impl MillingResults {
         let line = identities.line(piece);
         let [from, to] = [&way.from, &way.to].map(|end| identities.point(end));
         let bottom = if line.is_vertical || !way.is_known() {
-            [piece.depth().unwrap_or_default(); DEPTHS]
+            [piece.depth().unwrap_or_default(); DEPTH_SAMPLES]
         } else {
             let is_reversed = if from == to { is_clockwise(way.shape) } else { from > to };
             std::array::from_fn(|place| {
-                let share = place as f64 / (DEPTHS - 1) as f64;
+                let share = place as f64 / (DEPTH_SAMPLES - 1) as f64;
                 way.point(if is_reversed { 1.0 - share } else { share })[2]
             })
         };
@@ -598,7 +598,7 @@ impl MillingResults {
         let first = MillingResult { bottom, feed, deepest: number, passes: 0 };
         let milled = self.lines.entry(line).or_insert(first);
         milled.passes += 1;
-        if bottom[DEPTHS / 2] < milled.bottom[DEPTHS / 2] {
+        if bottom[DEPTH_SAMPLES / 2] < milled.bottom[DEPTH_SAMPLES / 2] {
             (milled.feed, milled.deepest) = (feed, number);
         }
         milled.bottom = std::array::from_fn(|place| milled.bottom[place].min(bottom[place]));

@@ -16,8 +16,8 @@ mod scene;
 mod svg;
 
 pub use build::{
-    DrawnSource, GcodeSource, GcodeText, IN_PROGRAM, Places, ProgramSource, drawn_path, findings,
-    finished_part, gcode_path, keep_out, other_layers, outline, program_path,
+    DrawnSource, GcodeSource, GcodeText, MESSAGES_IN_PROGRAM_COORDINATES, Places, ProgramSource, drawn_path,
+    findings, finished_part, gcode_path, keep_out, other_layers, outline, program_path,
 };
 pub use changes::{Change, ChangeKind, ComparedMove, ComparedMoves, Group, compare, groups, moves, phrase};
 #[cfg(feature = "pictures")]
@@ -26,7 +26,7 @@ pub use page::{LIVE_STYLE, SCRIPT, live_page, page};
 pub use raster::{pdf, png, sheet_pdf};
 pub use scene::{
     ArcShape, Bar, BilingualText, Element, ElementKind, EmbeddedPath, Example, Finding, FinishedPart,
-    KeepOut, Label, LeftMaterial, MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark,
+    KeepOut, Label, LeftoverMaterial, MoveKind, NativeText, OtherShape, Parameter, Point, ProbeMark,
     ProgramRecord, SCHEMA, Scene, SceneMove, ScenePath, Shape, ShownCheck, Tip, ToolSpan, Totals, VERSION,
 };
 #[cfg(not(feature = "pictures"))]

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use pathbuild_diagnostic::{Lang, shown};
+use pathbuild_diagnostic::{Lang, escaping};
 use pathbuild_gcode::verify::Cutter;
 use pathbuild_motion as motion;
 use pathbuild_motion::{Axes, MoveShape, Pace};
@@ -276,7 +276,7 @@ pub struct Element {
     /// Position in cutting order, counted from 1.
     pub order: Option<u32>,
     /// Effective parameters of the element. Consecutive elements that have the same parameters share this list.
-    #[serde(skip_serializing_if = "has_none", serialize_with = "shared")]
+    #[serde(skip_serializing_if = "has_none", serialize_with = "serialize_shared_slice")]
     pub parameters: Arc<[Parameter]>,
 }
 
@@ -398,7 +398,7 @@ pub struct FinishedPart {
     #[serde(serialize_with = "millimetres")]
     pub tolerance: f64,
     /// Material that the path leaves at the outline.
-    pub left: Vec<LeftMaterial>,
+    pub left: Vec<LeftoverMaterial>,
     /// For each ring, the index of the outermost opening that contains it, or its own index if none does.
     #[serde(skip)]
     pub nests: Vec<usize>,
@@ -432,7 +432,7 @@ pub struct Corner {
 
 /// Material that the cutter leaves at an outline although it should be removed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct LeftMaterial {
+pub struct LeftoverMaterial {
     /// Part of the outline at which the material is left.
     pub outline: Vec<Shape>,
     /// Maximum distance in mm of the material from the outline.
@@ -571,7 +571,8 @@ impl Scene {
 
     /// Returns the scene as JSON on one line. Characters with special effects, such as control characters, are escaped.
     pub fn to_json(&self) -> String {
-        shown::json(&serde_json::to_string(self).expect("every part of a scene is plain data")).into_owned()
+        escaping::json(&serde_json::to_string(self).expect("every part of a scene is plain data"))
+            .into_owned()
     }
 }
 
@@ -838,6 +839,9 @@ fn has_none(parameters: &Arc<[Parameter]>) -> bool {
     parameters.is_empty()
 }
 
-fn shared<S: Serializer>(parameters: &Arc<[Parameter]>, serializer: S) -> Result<S::Ok, S::Error> {
+fn serialize_shared_slice<S: Serializer>(
+    parameters: &Arc<[Parameter]>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(parameters.iter())
 }

@@ -9,7 +9,7 @@
 #[cfg(target_family = "wasm")]
 pub mod exports;
 mod message;
-mod opened;
+mod open_files;
 
 pub use message::{AbortReason, AbortedItem, Options, Question};
-pub use opened::Compiler;
+pub use open_files::Compiler;

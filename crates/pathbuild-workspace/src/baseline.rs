@@ -10,7 +10,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_db::system::{FileKind, ReadError, is_drawing};
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, Severity, TextFault, Value, shown};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, Severity, TextFault, Value, escaping};
 
 use crate::config::clean;
 use crate::files;
@@ -110,7 +110,7 @@ impl Baseline {
         workspace: &Workspace,
         coverage: &Coverage,
     ) -> String {
-        let run = Run::new(workspace, coverage);
+        let run = RunCoverage::new(workspace, coverage);
         let mut lines: Vec<(u32, String)> = Vec::new();
         let mut found = BTreeSet::new();
         for (diagnostic, key) in findings.iter().zip(self.keys(findings, &workspace.working_directory)) {
@@ -128,7 +128,7 @@ impl Baseline {
         lines.sort_by_key(|(place, _)| *place);
         let mut text = HEADER_TEXT.to_owned();
         text.extend(lines.into_iter().map(|(_, line)| line));
-        shown::lines(&text).into_owned()
+        escaping::lines(&text).into_owned()
     }
 
     /// Returns the text of this baseline, extended by a waiver for each finding with `code`, and the number of these findings.
@@ -150,7 +150,7 @@ impl Baseline {
         let kept = lines.filter(|(number, _)| !replaced.contains(number));
         let mut text: String = kept.flat_map(|(_, line)| [line, "\n"]).collect();
         text.extend(accepted.iter().map(String::as_str));
-        (shown::lines(&text).into_owned(), accepted.len())
+        (escaping::lines(&text).into_owned(), accepted.len())
     }
 
     /// Moves the findings that this baseline accepts to the waived findings. If the entry for a finding has expired or accepts only a smaller depth
@@ -178,7 +178,7 @@ impl Baseline {
     }
 
     /// Returns a warning (PB610) for each entry that matches none of these findings although the run covered its file.
-    fn unused(&self, findings: &[Diagnostic], run: &Run<'_>) -> Vec<Diagnostic> {
+    fn unused_entry_warnings(&self, findings: &[Diagnostic], run: &RunCoverage<'_>) -> Vec<Diagnostic> {
         let keyed = findings.iter().zip(self.keys(findings, &run.workspace.working_directory));
         let used = keyed.flat_map(|(diagnostic, key)| self.entries(diagnostic, &key, run.workspace));
         let used: BTreeSet<u32> = used.map(|entry| entry.waiver.line).collect();
@@ -270,7 +270,7 @@ impl Baseline {
         let code = diagnostic.code().to_string();
         let words = [&code, &*file, path, &point, &diagnostic.text(Lang::En)];
         let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
-        shown::line(&words.join(" ")).into_owned()
+        escaping::line(&words.join(" ")).into_owned()
     }
 
     fn parse(&mut self) -> Vec<Diagnostic> {
@@ -334,7 +334,9 @@ impl Workspace {
         }
         let mut unused = self.unused_waivers(&findings, &coverage);
         if let Some(baseline) = baseline {
-            unused.extend(baseline.unused(&findings.diagnostics, &Run::new(self, &coverage)));
+            unused.extend(
+                baseline.unused_entry_warnings(&findings.diagnostics, &RunCoverage::new(self, &coverage)),
+            );
             findings = baseline.apply(findings, self);
             let has_end = findings.waived.iter().any(|waived| waived.waiver.until.is_some());
             self.is_date_decisive.fetch_or(has_end, Ordering::Relaxed);
@@ -348,13 +350,13 @@ impl Workspace {
 }
 
 /// What a run covered, which decides whether an entry without a match is no longer needed.
-struct Run<'a> {
+struct RunCoverage<'a> {
     workspace: &'a Workspace,
     checked: BTreeSet<Utf8PathBuf>,
     has_directories: bool,
 }
 
-impl<'a> Run<'a> {
+impl<'a> RunCoverage<'a> {
     fn new(workspace: &'a Workspace, coverage: &Coverage) -> Self {
         let checked = coverage.files.iter().map(|file| clean(&workspace.working_directory.join(file)));
         Self { workspace, checked: checked.collect(), has_directories: coverage.has_directories }

@@ -23,7 +23,7 @@ use crate::memo::{
 use crate::post_processor::PostProcessor;
 use crate::session::timings::{FINDING_DRAWINGS, STORING_RESULTS, VERIFYING_CACHE};
 use crate::session::{
-    ArgumentMatches, CheckedTarget, Checker, Pair, SelectedPath, Selection, Session, compare_paths,
+    ArgumentMatches, CheckedTarget, Checker, QProjectPair, SelectedPath, Selection, Session, compare_paths,
     q_project_pairs,
 };
 use crate::workspace::Failure;
@@ -138,7 +138,7 @@ impl Request<'_> {
         session
             .timings
             .measure(&STORING_RESULTS, || memo.store_results(session, answers.filter_map(Answer::fresh)));
-        let past = self.changes_since(session, matches);
+        let past = self.earlier_state(session, matches);
         let filter = ChangeFilter::new(session, memo, past, selected.iter().chain(&q_projects));
         let mut checked = CheckOutcome { diagnostics: matches.problems.clone(), ..CheckOutcome::default() };
         checked.diagnostics.extend(selection.problems);
@@ -150,12 +150,12 @@ impl Request<'_> {
         if !session.is_compatible() {
             let named = selected.iter().skip(selection.drawings.len()).take(selection.named.len());
             checked.diagnostics.extend(named.filter_map(|answer| {
-                session.no_path(answer.drawing(), &answer.value.names, &answer.value.diagnostics)
+                session.no_path_error(answer.drawing(), &answer.value.names, &answer.value.diagnostics)
             }));
         }
         if !checked.diagnostics.iter().any(Diagnostic::is_error) {
             let parts = selected.iter().map(|answer| answer.value.parts());
-            checked.diagnostics.extend(session.no_path_anywhere(parts));
+            checked.diagnostics.extend(session.no_path_anywhere_error(parts));
         }
         checked.diagnostics.extend(second_definitions(session, &selected, &filter));
         if self.inputs.inputs.is_empty() {
@@ -208,11 +208,11 @@ impl Request<'_> {
 
     /// Returns the earlier state with which drawings are compared. `None` if all drawings are selected, because the request does not ask for changed
     /// ones only or because a file that affects all results has changed.
-    fn changes_since(&self, session: &Session<'_>, matches: &ArgumentMatches) -> Option<&dyn EarlierFiles> {
+    fn earlier_state(&self, session: &Session<'_>, matches: &ArgumentMatches) -> Option<&dyn EarlierFiles> {
         let past = self.changed?;
         let directories: Vec<Utf8PathBuf> =
             matches.directories().flat_map(|directory| &directory.directories).cloned().collect();
-        let Some(rule) = past.changed_rule(&directories) else { return Some(past) };
+        let Some(rule) = past.changed_common_file(&directories) else { return Some(past) };
         let context = session.workspace();
         context.reporter.status(&context.phrase(
             "checking everything: {} has changed since the revision",
@@ -261,10 +261,10 @@ fn compare_q_projects(
     let named = selection.named.iter().map(|file| file.path(session.db()));
     let pairs = q_project_pairs(session.db().system(), selection.drawings.iter().chain(named));
     let compare = |open: &[&[Utf8PathBuf; 2]]| {
-        let open: Vec<Pair> =
+        let open: Vec<QProjectPair> =
             open.iter().map(|pair| pair.each_ref().map(|path| session.db().file(path))).collect();
         let found = session.compare_q_projects(&open).into_iter().zip(&open);
-        let result = |(diagnostics, pair): (_, &Pair)| {
+        let result = |(diagnostics, pair): (_, &QProjectPair)| {
             let trace = Trace { files: pair.to_vec(), lookups: Vec::new() };
             DrawingResult { diagnostics, ..DrawingResult::default() }.with_inputs(vec![trace])
         };
@@ -463,7 +463,7 @@ pub trait EarlierFiles: Debug {
 
     /// Returns a changed file that affects all results, such as a configuration or a symbolic link; `None` if there is none. `directories` are the
     /// searched directories.
-    fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf>;
+    fn changed_common_file(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf>;
 }
 
 /// A filter for the results that are shown: all of them, or only those that depend on changed drawings.
@@ -556,11 +556,11 @@ impl ChangedDrawings {
 
     fn affects(&self, facts: &Dependencies<'_>) -> bool {
         facts.files.iter().any(|file| self.files.contains(*file))
-            || facts.lookups.iter().any(|(directory, name)| self.may_answer_with(directory, name))
+            || facts.lookups.iter().any(|(directory, name)| self.may_find_changed_drawing(directory, name))
     }
 
     /// Whether a lookup of `name` in this directory may find one of the changed drawings.
-    fn may_answer_with(&self, directory: &Utf8Path, name: &str) -> bool {
+    fn may_find_changed_drawing(&self, directory: &Utf8Path, name: &str) -> bool {
         let names = self.names.get(directory);
         names.is_some_and(|names| names.iter().any(|file| self.coverage.may_hold(file, name)))
     }

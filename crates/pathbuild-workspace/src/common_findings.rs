@@ -19,7 +19,7 @@ use crate::session::Session;
 /// configuration are skipped: for them, `--config` has chosen a configuration of another tree.
 pub(crate) fn unused_configurations(session: &Session<'_>, directories: &[Utf8PathBuf]) -> Vec<Diagnostic> {
     let system = session.db().system();
-    let used = session.workspace().settings.file.as_deref().map(|file| session.normal(file));
+    let used = session.workspace().settings.file.as_deref().map(|file| session.normalize(file));
     let tree = used.as_deref().and_then(Utf8Path::parent);
     let files = directories.iter().map(|directory| join(directory, files::FILE_NAME));
     let is_unused = |file: &Utf8PathBuf| {

@@ -68,9 +68,9 @@ impl Workspace {
         let severities = self.severities();
         let mut waived: Vec<WaivedFinding> = Vec::new();
         let judge = |diagnostic: Diagnostic| match severities.apply_severity(diagnostic) {
-            Verdict::Reported(diagnostic) => Some(diagnostic),
-            Verdict::Ignored => None,
-            Verdict::Waived(finding) => {
+            SeverityOutcome::Reported(diagnostic) => Some(diagnostic),
+            SeverityOutcome::Ignored => None,
+            SeverityOutcome::Waived(finding) => {
                 waived.push(finding);
                 None
             }
@@ -133,7 +133,7 @@ fn first_occurrences<'d>(findings: impl Iterator<Item = &'d Diagnostic>) -> std:
     let (mut met, mut traces) = (HashSet::new(), HashMap::new());
     let is_first: Vec<bool> = findings
         .map(|found| {
-            let is_placed = PLACED_IN_PROGRAM.contains(&found.message);
+            let is_placed = MESSAGES_ABOUT_PLACED_PATHS.contains(&found.message);
             let element = (found.message, &found.file, &found.path, &found.place, found.quoted("other"));
             let has_first_trace =
                 !is_placed || *traces.entry(element).or_insert(&found.trace) == &found.trace;
@@ -144,7 +144,7 @@ fn first_occurrences<'d>(findings: impl Iterator<Item = &'d Diagnostic>) -> std:
 }
 
 /// Messages about the paths of a program, with arguments that depend on their places in it.
-const PLACED_IN_PROGRAM: [&Message; 7] = [
+const MESSAGES_ABOUT_PLACED_PATHS: [&Message; 7] = [
     &part::GOUGED_NEIGHBOUR,
     &part::GOUGED_BY_PATH_WITHOUT_PART,
     &part::SEVERED_NEIGHBOUR,
@@ -170,7 +170,7 @@ pub(crate) struct Severities<'a> {
 }
 
 /// The outcome of applying the configured severities and waivers to a diagnostic.
-pub(crate) enum Verdict {
+pub(crate) enum SeverityOutcome {
     /// The diagnostic is reported, with its configured severity.
     Reported(Diagnostic),
     /// The diagnostic is dropped.
@@ -194,7 +194,7 @@ impl Workspace {
     }
 
     /// Returns, as errors, the warnings that the configuration turns into errors.
-    pub fn raised(&self, mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    pub fn raised_to_errors(&self, mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         diagnostics.retain(|diagnostic| !diagnostic.is_error() && self.has_error([diagnostic]));
         diagnostics.into_iter().map(Diagnostic::as_error).collect()
     }
@@ -217,14 +217,14 @@ impl Workspace {
 impl Severities<'_> {
     pub(crate) fn has_error<'d>(&self, diagnostics: impl IntoIterator<Item = &'d Diagnostic>) -> bool {
         let is_error = |diagnostic: &Diagnostic| match self.apply_severity(diagnostic.clone()) {
-            Verdict::Reported(diagnostic) => diagnostic.is_error(),
-            Verdict::Ignored | Verdict::Waived(..) => false,
+            SeverityOutcome::Reported(diagnostic) => diagnostic.is_error(),
+            SeverityOutcome::Ignored | SeverityOutcome::Waived(..) => false,
         };
         diagnostics.into_iter().any(is_error)
     }
 
     /// Applies the configured severities and their waivers to a diagnostic.
-    pub(crate) fn apply_severity(&self, diagnostic: Diagnostic) -> Verdict {
+    pub(crate) fn apply_severity(&self, diagnostic: Diagnostic) -> SeverityOutcome {
         let code = diagnostic.code();
         let run = self.settings.date;
         let file = diagnostic.file.as_deref().map(|file| self.configured_name(file));
@@ -242,20 +242,20 @@ impl Severities<'_> {
         let noted = |diagnostic| {
             ended.iter().fold(diagnostic, |diagnostic, waiver| waiver.note_end(diagnostic, place, run))
         };
-        let Some((level, waiver)) = level else { return Verdict::Reported(noted(diagnostic)) };
+        let Some((level, waiver)) = level else { return SeverityOutcome::Reported(noted(diagnostic)) };
         match (level.severity(), waiver.filter(|waiver| waiver.is_stated())) {
             (Some(severity), waiver) => {
                 let diagnostic = noted(Diagnostic { severity, ..diagnostic });
-                Verdict::Reported(match waiver {
+                SeverityOutcome::Reported(match waiver {
                     Some(waiver) => waiver.note_severity(diagnostic, place, run),
                     None => diagnostic,
                 })
             }
             (None, Some(waiver)) => {
                 self.is_date_decisive.fetch_or(waiver.until.is_some(), Ordering::Relaxed);
-                Verdict::Waived(WaivedFinding { diagnostic, waiver: waiver.clone() })
+                SeverityOutcome::Waived(WaivedFinding { diagnostic, waiver: waiver.clone() })
             }
-            (None, None) => Verdict::Ignored,
+            (None, None) => SeverityOutcome::Ignored,
         }
     }
 

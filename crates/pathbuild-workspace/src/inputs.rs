@@ -12,7 +12,7 @@ pub struct Inputs {
 
 impl Inputs {
     /// Creates inputs that name files, whatever their extensions.
-    pub fn places<'a>(files: impl IntoIterator<Item = &'a Utf8PathBuf>) -> Self {
+    pub fn of_files<'a>(files: impl IntoIterator<Item = &'a Utf8PathBuf>) -> Self {
         let place = |file: &Utf8PathBuf| {
             if file.components().count() > 1 { file.to_string() } else { format!("./{file}") }
         };

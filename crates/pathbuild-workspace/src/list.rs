@@ -224,7 +224,7 @@ impl ListArguments {
         let is_below = self.places.inputs.is_empty() && !session.has_library();
         let selection = session.select(if is_below { &below } else { &self.places });
         problems.extend_from_slice(&selection.problems);
-        selection.whole(session)
+        selection.whole_drawings(session)
     }
 
     fn unmatched_patterns<'a>(&'a self, paths: &'a [ListedPath]) -> impl Iterator<Item = &'a str> {

@@ -205,8 +205,8 @@ impl PostProcessor {
     }
 
     /// Returns the dialect in which output is read back, if known.
-    pub fn reader(&self) -> Option<Dialect> {
-        self.post.reader(self.options.dialect.as_deref())
+    pub fn reading_dialect(&self) -> Option<Dialect> {
+        self.post.reading_dialect(self.options.dialect.as_deref())
     }
 
     /// Whether programs of this post-processor start the spindle.
@@ -216,19 +216,20 @@ impl PostProcessor {
 
     /// Whether programs of this post-processor are for controls on which the operator changes the tool and sets Z again.
     pub fn has_manual_changes(&self) -> bool {
-        self.reader().is_some_and(|reader| reader.rules().manual_changes)
+        self.reading_dialect().is_some_and(|reader| reader.rules().manual_changes)
     }
 
     /// Whether programs of this post-processor select the work offset G54, according to the text of its definition.
     pub fn selects_g54(&self) -> bool {
         let has_offsets = |reader: Dialect| reader.rules().words.g.contains(&540);
-        self.reader().is_none_or(has_offsets) && self.definition.windows(3).any(|word| word == b"G54")
+        self.reading_dialect().is_none_or(has_offsets)
+            && self.definition.windows(3).any(|word| word == b"G54")
     }
 
     /// Returns the number by which the control identifies the program of this name; `None` if the definition writes none.
     pub fn program_number(&self, name: &str) -> Option<u32> {
         const MACRO: &[u8] = b"program.number";
-        self.reader().filter(|reader| reader.rules().program_numbers)?;
+        self.reading_dialect().filter(|reader| reader.rules().program_numbers)?;
         self.definition.windows(MACRO.len()).find(|word| *word == MACRO)?;
         self.options.program_number.or_else(|| program_number(name))
     }
@@ -280,7 +281,7 @@ impl PostProcessor {
     /// Whether programs of this post are read back with its definition, because no dialect covers its words or its axes are not those of the
     /// drawing.
     fn is_read_by_definition(&self) -> bool {
-        self.reader().is_none() || self.post.has_own_axes()
+        self.reading_dialect().is_none() || self.post.has_own_axes()
     }
 
     /// Whether programs are written without being compared with the drawing.

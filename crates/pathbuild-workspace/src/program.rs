@@ -17,7 +17,7 @@ use pathbuild_gcode::interpret::{
 use pathbuild_gcode::read::{BYTE_ORDER_MARK, is_utf_16, quote};
 use pathbuild_motion::{Action, StatedWord, Step};
 use pathbuild_post::{Doubt, DoubtfulWord, TranslatedText};
-use pathbuild_toolpath::memory;
+use pathbuild_toolpath::estimated_bytes;
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 
 use crate::config::Settings;
@@ -51,7 +51,7 @@ impl ReadingOptions {
     }
 
     /// Returns a finding for each option that has no effect in this dialect; an error if the dialect was named.
-    fn idle_options(self, dialect: Dialect) -> impl Iterator<Item = Diagnostic> {
+    fn ineffective_option_findings(self, dialect: Dialect) -> impl Iterator<Item = Diagnostic> {
         let of_xpertmill = [
             ("--unit-codes table", self.unit_codes == UnitCodes::Table),
             ("--absolute-arc-centres", self.absolute_arc_centres),
@@ -117,7 +117,7 @@ impl ProgramReader<'_> {
         let (mut steps, limit) = (Vec::new(), self.settings.limits.program_memory.value);
         let mut stopped = None;
         let mut program = self.interpret(file, text, &mut |step| {
-            if memory(steps.len() as u64 + 1) > limit {
+            if estimated_bytes(steps.len() as u64 + 1) > limit {
                 stopped = Some(step.line);
                 return ControlFlow::Break(());
             }
@@ -126,7 +126,7 @@ impl ProgramReader<'_> {
         });
         if let Some(line) = stopped {
             let mut problem = too_much_memory(steps.len(), limit).at_line(line, None);
-            program.place(std::slice::from_mut(&mut problem));
+            program.attach_source(std::slice::from_mut(&mut problem));
             return Err(Box::new(problem));
         }
         program.read.steps = steps;
@@ -169,7 +169,7 @@ impl ProgramReader<'_> {
             None if is_weak => problems.extend(unnamed_dialect_warning(&disputes, dialect)),
             None => {}
         }
-        problems.extend(self.options.idle_options(shown));
+        problems.extend(self.options.ineffective_option_findings(shown));
         if text.starts_with(BYTE_ORDER_MARK) {
             problems.push(Diagnostic::new(&gcode::BYTE_ORDER_MARK).at_line(1, None));
         }
@@ -258,12 +258,12 @@ impl Program {
     }
 
     /// Adds the file's name to diagnostics, and the text of the lines that they refer to.
-    pub fn place(&self, diagnostics: &mut [Diagnostic]) {
+    pub fn attach_source(&self, diagnostics: &mut [Diagnostic]) {
         place(diagnostics, &self.file, &self.text);
     }
 
-    /// Like [`place`](Self::place), but only for diagnostics without a file: the others refer to lines of another file.
-    pub fn place_own(&self, diagnostics: &mut [Diagnostic]) {
+    /// Like [`attach_source`](Self::attach_source), but only for diagnostics without a file: the others refer to lines of another file.
+    pub fn attach_own_source(&self, diagnostics: &mut [Diagnostic]) {
         place(diagnostics.iter_mut().filter(|diagnostic| diagnostic.file.is_none()), &self.file, &self.text);
     }
 
@@ -362,7 +362,7 @@ fn too_much_memory(count: usize, limit: u64) -> Diagnostic {
     let count = count as u64;
     Diagnostic::new(&files::PROGRAM_TOO_LONG)
         .with("count", count)
-        .with("size", memory(count + 1))
+        .with("size", estimated_bytes(count + 1))
         .with("limit", limit)
         .quoting("key", "program-memory")
 }

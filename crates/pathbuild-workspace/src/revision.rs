@@ -160,7 +160,7 @@ impl EarlierFiles for RevisionFiles<'_> {
         directory.and_then(|directory| self.drawings.get(&directory)).map_or(&[], Vec::as_slice)
     }
 
-    fn changed_rule(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf> {
+    fn changed_common_file(&self, directories: &[Utf8PathBuf]) -> Option<Utf8PathBuf> {
         let rules = self.rules(directories);
         let mut changed = self.changed(&rules).into_iter().zip(rules);
         changed.find_map(|(is_changed, rule)| is_changed.then_some(rule)).or_else(|| self.changed_link())

@@ -4,14 +4,14 @@ use camino::Utf8Path;
 use pathbuild_db::system::WriteOutcome;
 use pathbuild_diagnostic::messages::{gcode, posts};
 use pathbuild_diagnostic::{Code, Diagnostic, Severity};
-use pathbuild_gcode::adjust::first_open_formula;
+use pathbuild_gcode::adjust::first_unapplied_formula;
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::CuttingTool;
 use pathbuild_gcode::native::path_of_title;
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_motion::{Action, Step};
 use pathbuild_post::{
-    Job, NativeCutter, Output, Remark, ToolTable, altered_words, is_head_comment, native_remark,
+    Job, NativeCutter, Output, Remark, ToolTable, altered_word_warnings, is_head_comment, native_remark,
 };
 
 use crate::emit::program_of_other_path;
@@ -84,18 +84,18 @@ impl Request<'_> {
         if program.read.problems.iter().any(Diagnostic::is_error) {
             return Err(program.read.problems);
         }
-        diagnostics.extend(self.findings(workspace, &program, post_processor.reader())?);
+        diagnostics.extend(self.findings(workspace, &program, post_processor.reading_dialect())?);
         if workspace.has_error(&*diagnostics) {
             return Err(Vec::new());
         }
         // In native programs only G38.3 can be replaced, which `emit` also does without a warning.
         if program.dialect != Dialect::Native {
-            let mut altered = altered_words(&program.read.steps);
-            program.place_own(&mut altered);
+            let mut altered = altered_word_warnings(&program.read.steps);
+            program.attach_own_source(&mut altered);
             diagnostics.extend(altered);
         }
         let output = self.output(&mut program, post_processor).map_err(|mut problems| {
-            program.place_own(&mut problems);
+            program.attach_own_source(&mut problems);
             problems
         })?;
         diagnostics.extend(output.warnings.iter().cloned());
@@ -138,7 +138,9 @@ impl Request<'_> {
         program: &mut Program,
         post_processor: &PostProcessor,
     ) -> Result<Output, Vec<Diagnostic>> {
-        if let Some(line) = first_open_formula(&program.text).filter(|_| program.dialect == Dialect::Native) {
+        if let Some(line) =
+            first_unapplied_formula(&program.text).filter(|_| program.dialect == Dialect::Native)
+        {
             return Err(vec![Diagnostic::new(&posts::POST_UNADJUSTED).at_line(line, None)]);
         }
         let stated = program.header().tools;
@@ -160,7 +162,7 @@ impl Request<'_> {
         }
         if let Some((provenance, title)) = head {
             // The new program has the same provenance as the one that was read, except for the dialect.
-            let provenance = Provenance { dialect: post_processor.reader(), ..provenance };
+            let provenance = Provenance { dialect: post_processor.reading_dialect(), ..provenance };
             job.remarks = vec![provenance.to_string().into(), title];
         }
         job.centre_arcs();

@@ -36,7 +36,7 @@ pub enum BaselineTask {
 
 /// The outcome of a run.
 #[derive(Clone, Debug)]
-pub enum Settled {
+pub enum BaselineOutcome {
     /// The findings to report, and those that are accepted.
     Findings(Findings),
     /// The baseline was written.
@@ -59,12 +59,12 @@ impl Workspace {
     /// # Errors
     /// If the baseline cannot be read or written, has errors, or would accept nothing, if a file could not be read whose findings are to be written
     /// into it, or if the options are invalid.
-    pub fn settle(
+    pub fn apply_baseline_options(
         &self,
         findings: Findings,
         options: &BaselineOptions,
         coverage: impl FnOnce() -> Coverage,
-    ) -> Result<Settled, Failure> {
+    ) -> Result<BaselineOutcome, Failure> {
         let named = options.file.as_deref();
         let (file, diagnostics) = (self.baseline_file(named), &findings.diagnostics);
         let unread = diagnostics.iter().filter(|finding| !Baseline::may_accept(finding));
@@ -75,7 +75,7 @@ impl Workspace {
             }
             BaselineTask::Apply => {
                 let baseline = self.read_baseline(named).map_err(Failure::Refused)?;
-                Ok(Settled::Findings(self.without_accepted(findings, baseline.as_ref(), coverage)))
+                Ok(BaselineOutcome::Findings(self.without_accepted(findings, baseline.as_ref(), coverage)))
             }
             BaselineTask::Update => self.update_baseline(&file, diagnostics, &coverage()),
             BaselineTask::Accept(code, waiver) => self.accept(&file, *code, waiver, diagnostics),
@@ -89,7 +89,7 @@ impl Workspace {
         file: &Utf8Path,
         findings: &[Diagnostic],
         coverage: &Coverage,
-    ) -> Result<Settled, Failure> {
+    ) -> Result<BaselineOutcome, Failure> {
         let (baseline, mut faults) = self.read_or_new_baseline(file).map_err(Failure::Refused)?;
         let has_faults = !faults.is_empty();
         faults.retain(|fault| fault.message.key != messages::BASELINE_LINE.key);
@@ -109,7 +109,7 @@ impl Workspace {
         code: Code,
         waiver: &Waiver,
         findings: &[Diagnostic],
-    ) -> Result<Settled, Failure> {
+    ) -> Result<BaselineOutcome, Failure> {
         if let Some(reason) = self.waiver_refusal(waiver) {
             return Err(Failure::Usage(reason));
         }
@@ -151,12 +151,17 @@ impl Workspace {
         ))
     }
 
-    fn write_baseline(&self, file: &Utf8Path, text: &str, findings: usize) -> Result<Settled, Failure> {
+    fn write_baseline(
+        &self,
+        file: &Utf8Path,
+        text: &str,
+        findings: usize,
+    ) -> Result<BaselineOutcome, Failure> {
         let reason = reason_to_keep(self, None, file);
         if let Some(reason) = reason.filter(|reason| **reason != IS_BASELINE) {
             return Err(Failure::Found(vec![replace_error(file, reason)]));
         }
         files::replace(self, file, text).map_err(|fault| Failure::Found(vec![*fault]))?;
-        Ok(Settled::Written(WrittenBaseline { file: file.to_owned(), findings }))
+        Ok(BaselineOutcome::Written(WrittenBaseline { file: file.to_owned(), findings }))
     }
 }

@@ -43,7 +43,7 @@ impl Workspace {
     }
 
     /// Whether results are cached for later runs; this requires a configuration.
-    pub fn keeps_results(&self) -> bool {
+    pub fn caches_results(&self) -> bool {
         self.cache_store().is_some()
     }
 
@@ -71,7 +71,7 @@ impl Workspace {
     }
 
     /// Returns a copy with `compatible` switched on or off, which caches nothing and reports nothing.
-    pub fn in_mode(&self, is_compatible: bool) -> Self {
+    pub fn with_compatible_mode(&self, is_compatible: bool) -> Self {
         let mut settings = self.settings.clone();
         settings.general.compatible.value = is_compatible;
         Self { settings, cache: None, reporter: Arc::new(SilentReporter), ..self.clone() }

@@ -9,7 +9,7 @@ use camino::Utf8Path;
 use pathbuild_api::{Error, Finding, Library};
 use pathbuild_db::system::OsSystem;
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Diagnostic, Lang, shown};
+use pathbuild_diagnostic::{Diagnostic, Lang, escaping};
 use pathbuild_workspace::config::{self, Overrides};
 use pathbuild_workspace::findings::Findings;
 use pathbuild_workspace::protected_files::replace_report;
@@ -96,7 +96,7 @@ impl Context {
             self.printer.status(self.phrase(
                 "note: no configuration applies: {} must be named pathbuild.toml (Windows may hide the end of its name)",
                 "Hinweis: keine Konfiguration gilt: {} muss pathbuild.toml heißen (Windows blendet das Ende des Namens vielleicht aus)",
-                &shown::line(file.as_str()),
+                &escaping::line(file.as_str()),
             ));
         }
     }
@@ -138,7 +138,7 @@ impl Context {
     }
 
     /// Shows only `some` of the findings to users. Reports contain all of them.
-    pub(crate) fn show_some(&self, findings: &Findings, some: &Findings) {
+    pub(crate) fn show_only(&self, findings: &Findings, some: &Findings) {
         _ = self.output.collect_findings(findings, |stream| self.view(stream));
         let view = self.view(Stream::Stderr);
         self.printer.diagnostics(Stream::Stderr, &render(self.format, some, &view));
@@ -258,7 +258,7 @@ impl Context {
     /// Shows why a request failed, and returns the exit status.
     pub fn show_failure(&self, failure: Failure) -> ExitStatus {
         match failure {
-            Failure::Usage(reason) => self.usage(&reason),
+            Failure::Usage(reason) => self.usage_error(&reason),
             Failure::Refused(faults) => self.refuse(faults),
             Failure::Post(problems) | Failure::Found(problems) => self.fail(problems),
         }
@@ -275,12 +275,12 @@ impl Context {
     /// Shows why a request to the library failed, and returns the exit status.
     pub(crate) fn show_request_error(&self, error: Error) -> ExitStatus {
         match error {
-            Error::Refused(reason) => self.usage(&reason),
+            Error::Refused(reason) => self.usage_error(&reason),
             Error::Baseline(found) => self.refuse(for_rendering(found, Vec::new()).diagnostics),
             Error::Findings(found) | Error::Post(found) => {
                 self.fail(for_rendering(found, Vec::new()).diagnostics)
             }
-            error => self.usage(&error.to_string()),
+            error => self.usage_error(&error.to_string()),
         }
     }
 
@@ -300,18 +300,18 @@ impl Context {
             "nichts zu tun: hinter `{}` Zeichnungen, Pfade oder Verzeichnisse nennen ",
             self.output.command,
         );
-        self.usage(&(reason + advice))
+        self.usage_error(&(reason + advice))
     }
 
     /// Reports a usage error: on stderr, and as a finding in machine-readable output and reports, which would otherwise look like those of a run
     /// without findings.
-    pub fn usage(&self, reason: &str) -> ExitStatus {
+    pub fn usage_error(&self, reason: &str) -> ExitStatus {
         let refused = Diagnostic::new(&messages::REFUSED).quoting("reason", reason);
         let findings = Findings::new(vec![refused]);
         if self.format.is_for_machines() {
             self.show(&findings);
         } else {
-            self.show_some(&findings, &Findings::default());
+            self.show_only(&findings, &Findings::default());
         }
         german::print_usage_error(reason, self.lang(), &self.printer)
     }

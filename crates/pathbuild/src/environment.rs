@@ -10,7 +10,7 @@ use std::time::SystemTime;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{OsSystem, with_forward_slashes};
-use pathbuild_diagnostic::{Diagnostic, Lang, shown};
+use pathbuild_diagnostic::{Diagnostic, Lang, escaping};
 use pathbuild_workspace::config::{self, Overrides, UserSettings, clean};
 use pathbuild_workspace::waivers::{Date, DateSource, RunDate};
 use pathbuild_workspace::{CacheHome, Inputs, SilentReporter, Workspace};
@@ -125,7 +125,7 @@ pub(crate) fn refusal(workspace: &Workspace) -> Option<String> {
         ));
     }
     if let Some(name) = env::var_os(LANG_VARIABLE).filter(|name| !name.is_empty() && lang().is_none()) {
-        let name = format!("{LANG_VARIABLE}={}", shown::line(&name.to_string_lossy()));
+        let name = format!("{LANG_VARIABLE}={}", escaping::line(&name.to_string_lossy()));
         return Some(workspace.phrase(
             "{}: the language must be en or de",
             "{}: die Sprache muss en oder de sein",

@@ -142,7 +142,9 @@ fn error_description(error: &Error) -> String {
     let argument = one(ContextKind::InvalidArg);
     let value = one(ContextKind::InvalidValue);
     match error.kind() {
-        ErrorKind::ArgumentConflict => conflict(&argument, &context_values(error, ContextKind::PriorArg)),
+        ErrorKind::ArgumentConflict => {
+            conflict_message(&argument, &context_values(error, ContextKind::PriorArg))
+        }
         ErrorKind::InvalidValue if value.is_empty() => {
             format!("zu '{argument}' fehlt der Wert{}", values(error, "möglich", ContextKind::ValidValue))
         }
@@ -171,7 +173,7 @@ fn error_description(error: &Error) -> String {
     }
 }
 
-fn conflict(argument: &str, prior: &[String]) -> String {
+fn conflict_message(argument: &str, prior: &[String]) -> String {
     match prior {
         [prior] if prior == argument => format!("'{argument}' darf nur einmal vorkommen"),
         [prior] => format!("'{argument}' und '{prior}' schließen sich aus"),
@@ -187,11 +189,11 @@ fn tips(error: &Error) -> Vec<String> {
     let Some(ContextValue::StyledStrs(other)) = error.get(ContextKind::Suggested) else {
         return near.collect();
     };
-    near.chain(other.iter().filter_map(|tip| tip_of(&tip.to_string()))).collect()
+    near.chain(other.iter().filter_map(|tip| translate_tip(&tip.to_string()))).collect()
 }
 
 /// Translates a tip composed by clap; `None` if it is unknown.
-fn tip_of(english: &str) -> Option<String> {
+fn translate_tip(english: &str) -> Option<String> {
     match *english.split('\'').collect::<Vec<_>>() {
         ["to pass ", value, " as a value, use ", line, ""] => {
             Some(format!("soll '{value}' ein Wert sein: '{line}'"))

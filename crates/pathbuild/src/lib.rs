@@ -23,7 +23,7 @@ mod watching;
 use std::ffi::OsString;
 
 use clap_complete::env::CompleteEnv;
-use pathbuild_diagnostic::{Lang, shown};
+use pathbuild_diagnostic::{Lang, escaping};
 
 pub use context::Context;
 pub use exit::ExitStatus;
@@ -43,14 +43,16 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitStatus {
         Ok(Cli { command: Command::Compat(args), common }) => run_compat(&arguments, &args, &common),
         Ok(_) if let Some(number) = arguments.iter().position(|argument| argument.is_empty()) => {
             let lang = lang_of(&arguments);
-            print(|printer| german::print_usage_error(&empty_argument_error(number, lang), lang, printer))
+            print_answer(|printer| {
+                german::print_usage_error(&empty_argument_error(number, lang), lang, printer)
+            })
         }
         Ok(cli) => execute(&cli),
         Err(error) => {
             let lang = lang_of(&arguments);
             // Parse again with the German definition to get the error message in German.
             let message = Cli::matches(&german::command(lang), &arguments).err().unwrap_or(error);
-            print(|printer| german::print_clap_error(&message, lang, printer))
+            print_answer(|printer| german::print_clap_error(&message, lang, printer))
         }
     }
 }
@@ -84,14 +86,14 @@ fn run_compat(arguments: &[OsString], args: &CompatArgs, common: &CommonArgs) ->
     let translated = match compat::translate(&args.arguments, lang) {
         Ok(Translation::Commands(translated)) => translated,
         Ok(Translation::Help(own)) => {
-            return print(|printer| german::help(compat::help(own.unwrap_or(lang)), printer));
+            return print_answer(|printer| german::help(compat::help(own.unwrap_or(lang)), printer));
         }
-        Err(reason) => return print(|printer| german::print_usage_error(&reason, lang, printer)),
+        Err(reason) => return print_answer(|printer| german::print_usage_error(&reason, lang, printer)),
     };
     let line = |command: &Vec<String>| format!("pathbuild {}\n", compat::shell_command_line(command));
     if args.print {
         let lines: String = translated.iter().map(line).collect();
-        return print(|printer| german::help(&lines, printer));
+        return print_answer(|printer| german::help(&lines, printer));
     }
     let each = translated.iter().map(|command| {
         Printer::new(common.verbosity(), ColorChoice::Never).detail(line(command).trim_end());
@@ -107,7 +109,7 @@ pub(crate) fn lang_of(arguments: &[OsString]) -> Lang {
 }
 
 /// Prints an answer that does not depend on the configuration.
-fn print(answer: impl FnOnce(&Printer) -> ExitStatus) -> ExitStatus {
+fn print_answer(answer: impl FnOnce(&Printer) -> ExitStatus) -> ExitStatus {
     let printer = Printer::default();
     let status = answer(&printer);
     printer.finish(status)
@@ -140,6 +142,6 @@ fn execute(cli: &Cli) -> ExitStatus {
 fn report_unexpected_configuration(context: &Context) {
     if let Some(file) = context.unexpected_configuration() {
         let configuration = context.choose("configuration", "Konfiguration");
-        context.printer.status(format_args!("{configuration}: {}", shown::line(file.as_str())));
+        context.printer.status(format_args!("{configuration}: {}", escaping::line(file.as_str())));
     }
 }

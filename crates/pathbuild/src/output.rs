@@ -70,13 +70,15 @@ impl Output {
                 file.as_str(),
             ));
         }
-        (self.command == "watch" && (self.format.is_whole() || !self.reports.is_empty())).then(|| {
-            let reason = workspace.choose(
+        (self.command == "watch" && (self.format.needs_all_findings() || !self.reports.is_empty())).then(
+            || {
+                let reason = workspace.choose(
                 "`watch` supports only the formats full, concise, json and github, because it never ends",
                 "`watch` endet nie und kann Befunde deshalb nur als full, concise, json oder github zeigen",
             );
-            reason.to_owned()
-        })
+                reason.to_owned()
+            },
+        )
     }
 
     /// Returns a file that two reports would be written to.
@@ -105,14 +107,14 @@ impl Output {
         findings: &Findings,
         view: impl FnOnce(Stream) -> View,
     ) -> Option<(Stream, RenderedText)> {
-        if !self.reports.is_empty() || self.format.is_whole() || self.format == Format::Json {
+        if !self.reports.is_empty() || self.format.needs_all_findings() || self.format == Format::Json {
             let mut found = self.found.borrow_mut();
             found.diagnostics.extend(findings.diagnostics.iter().cloned());
             found.checked.extend(findings.checked.iter().cloned());
             found.programs.extend(findings.programs.iter().cloned());
             found.waived.extend(findings.waived.iter().cloned());
         }
-        if self.format.is_whole() {
+        if self.format.needs_all_findings() {
             return None;
         }
         let stream = if self.format.is_for_machines() { self.stream } else { Stream::Stderr };
@@ -145,7 +147,7 @@ impl Output {
         match self.format {
             _ if !self.has_document => None,
             Format::Json => Some(lines::escaped_lines(&self.summary(status))),
-            format if format.is_whole() => Some(self.whole_report(format, status, view)),
+            format if format.needs_all_findings() => Some(self.whole_report(format, status, view)),
             _ => None,
         }
     }

@@ -9,7 +9,7 @@
 //! | status: the summary, files written; a progress bar on a terminal | stderr | without `-q` |
 //! | details, such as files read and results taken from the cache | stderr | with `-v` |
 //!
-//! All output passes through `pathbuild_diagnostic::shown`, so that names and texts from untrusted files can neither move the cursor nor
+//! All output passes through `pathbuild_diagnostic::escaping`, so that names and texts from untrusted files can neither move the cursor nor
 //! start a command of a CI runner. Status lines and single-line results stay single lines whatever names they contain; names within longer
 //! results are escaped by the caller. Bytes that are requested unchanged (a program, a shell script) are printed unchanged.
 //!
@@ -23,7 +23,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use pathbuild_diagnostic::shown;
+use pathbuild_diagnostic::escaping;
 use pathbuild_workspace::{ProgressCounter, Reporter, SilentReporter};
 
 use crate::exit::ExitStatus;
@@ -143,7 +143,7 @@ impl Printer {
 
     /// Prints results that consist of whole lines.
     pub fn result(&self, text: impl Display) {
-        self.write(self.results(), &shown::lines(&text.to_string()));
+        self.write(self.results(), &escaping::lines(&text.to_string()));
     }
 
     /// Prints a single-line result.
@@ -152,7 +152,7 @@ impl Printer {
     }
 
     pub(crate) fn json(&self, stream: Stream, json: impl Display) {
-        self.write(stream, &shown::json(&format!("{json}\n")));
+        self.write(stream, &escaping::json(&format!("{json}\n")));
     }
 
     /// Prints a result to stdout, byte for byte.
@@ -181,7 +181,7 @@ impl Printer {
 
     pub(crate) fn status_lines(&self, lines: impl Display) {
         if self.verbosity >= Verbosity::Normal {
-            self.write(Stream::Stderr, &shown::lines(&lines.to_string()));
+            self.write(Stream::Stderr, &escaping::lines(&lines.to_string()));
         }
     }
 
@@ -194,7 +194,7 @@ impl Printer {
 
     /// Prints a usage error.
     pub fn usage(&self, text: impl Display) {
-        self.write(Stream::Stderr, &shown::lines(&text.to_string()));
+        self.write(Stream::Stderr, &escaping::lines(&text.to_string()));
     }
 
     /// Reports write errors, and returns the final status.
@@ -222,8 +222,8 @@ impl Printer {
     }
 
     fn write_line(&self, stream: Stream, line: impl Display) {
-        let line = format!("{}\n", shown::line(&line.to_string()));
-        self.write(stream, &shown::lines(&line));
+        let line = format!("{}\n", escaping::line(&line.to_string()));
+        self.write(stream, &escaping::lines(&line));
     }
 
     fn write(&self, stream: Stream, text: &str) {

@@ -5,7 +5,7 @@ use std::mem::ManuallyDrop;
 use std::time::Duration;
 
 use pathbuild_api::CheckReport;
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, shown, with_decimal_separator};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Severity, escaping, with_decimal_separator};
 use pathbuild_path::PathName;
 use pathbuild_workspace::check::CheckedFile;
 use pathbuild_workspace::findings::Findings;
@@ -14,7 +14,7 @@ use crate::args::CheckArgs;
 use crate::context::{Context, for_rendering};
 use crate::exit::ExitStatus;
 use crate::render::{WrittenPictures, write_pictures};
-use crate::text::{DRAWING, ERROR, PATH, WARNING, count, counted, table};
+use crate::text::{DRAWING, ERROR, PATH, WARNING, counted, format_count, table};
 use crate::waivers;
 
 /// Ends a check that took the given time: writes pictures, shows findings and the summary, and returns the exit status.
@@ -57,7 +57,7 @@ fn deliver(context: &Context, args: &CheckArgs, findings: &Findings, time: Durat
             "delete those of findings that are gone, such as",
             "die von behobenen Befunden löschen, zum Beispiel",
         );
-        let [directory, first] = [directory.as_str(), first.as_str()].map(shown::line);
+        let [directory, first] = [directory.as_str(), first.as_str()].map(escaping::line);
         context.printer.status(format_args!("{pictures} {phrase} {directory}: {advice} {first}"));
     }
     if !failed.is_empty() {
@@ -82,7 +82,7 @@ fn show(context: &Context, most: Option<usize>, findings: &Findings) {
     };
     let shown: Vec<Diagnostic> = findings.diagnostics.iter().take_while(is_shown).cloned().collect();
     let hidden = findings.diagnostics.len() - shown.len();
-    context.show_some(findings, &Findings { diagnostics: shown, ..Findings::default() });
+    context.show_only(findings, &Findings { diagnostics: shown, ..Findings::default() });
     if hidden > 0 {
         let findings = counted(hidden, [["finding", "findings"], ["Befund", "Befunde"]], context.lang());
         let phrase = context.choose("not shown (--max-errors)", "nicht gezeigt (--max-errors)");
@@ -100,7 +100,7 @@ fn table_by_code(context: &Context, findings: &Findings) -> String {
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     let rows = counts.into_iter().map(|((code, severity), number)| {
         let severity = severity.word(context.lang()).to_owned();
-        vec![count(number, context.lang()), severity, code.to_string(), code.name().to_owned()]
+        vec![format_count(number, context.lang()), severity, code.to_string(), code.name().to_owned()]
     });
     table(&[(context.choose("count", "Anzahl"), true), ("", false), ("", false), ("", false)], rows)
 }
@@ -125,7 +125,7 @@ pub fn summary(findings: &Findings, known: usize, time: Duration, lang: Lang) ->
     };
     let known = match known {
         0 => String::new(),
-        known => format!(", {} {}", count(known, lang), lang.choose("known", "bekannt")),
+        known => format!(", {} {}", format_count(known, lang), lang.choose("known", "bekannt")),
     };
     let seconds = with_decimal_separator(format!("{:.1}", time.as_secs_f64()), lang);
     let paths = counted(findings.checked.iter().map(|file| file.paths.len()).sum(), PATH);

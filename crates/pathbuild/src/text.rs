@@ -1,8 +1,8 @@
 //! Formats numbers and tables for users, by the conventions of their language.
 
 use comfy_table::{Cell, CellAlignment, Table};
-use pathbuild_diagnostic::{Lang, shown, with_decimal_separator};
-pub(crate) use pathbuild_diagnostic::{Noun, count, counted};
+use pathbuild_diagnostic::{Lang, escaping, with_decimal_separator};
+pub(crate) use pathbuild_diagnostic::{Noun, counted, format_count};
 
 pub(crate) const PATH: Noun = [["path", "paths"], ["Pfad", "Pfade"]];
 pub(crate) const DRAWING: Noun = [["drawing", "drawings"], ["Zeichnung", "Zeichnungen"]];
@@ -26,7 +26,7 @@ pub(crate) type Column<'a> = (&'a str, bool);
 pub(crate) fn table(columns: &[Column<'_>], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let aligned = |(text, (_, is_number)): (&str, &Column<'_>)| {
         let alignment = if *is_number { CellAlignment::Right } else { CellAlignment::Left };
-        Cell::new(shown::line(text)).set_alignment(alignment)
+        Cell::new(escaping::line(text)).set_alignment(alignment)
     };
     let mut table = Table::new();
     table.load_style(comfy_table::presets::NOTHING);

@@ -12,7 +12,7 @@ use crate::exit::ExitStatus;
 use crate::german;
 use crate::serving::Server;
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::shown;
+use pathbuild_diagnostic::escaping;
 
 /// Interval at which an invalid configuration is checked again.
 const CONFIGURATION_INTERVAL: Duration = Duration::from_millis(200);
@@ -40,7 +40,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
             context.warn_about_unused_configuration();
             match Server::start(&context, &args.serving) {
                 Ok(started) => server = started,
-                Err(reason) => return context.printer.finish(context.usage(&reason)),
+                Err(reason) => return context.printer.finish(context.usage_error(&reason)),
             }
         }
         let waits = server.as_ref().is_some_and(Server::waits_for_fixes);
@@ -74,7 +74,7 @@ pub(crate) fn run(cli: &Cli, args: &WatchArgs) -> ExitStatus {
                 has_begun = true;
                 had_file |= context.settings.file.is_some();
                 context.printer.status(because);
-                tell_restart(&context, because);
+                report_restart(&context, because);
             }
         }
     }
@@ -100,12 +100,12 @@ fn wait_for_fix(
         change_directory(home);
     }
     let reason = context.choose("the configuration was corrected", "die Konfiguration wurde berichtigt");
-    tell_restart(context, reason);
+    report_restart(context, reason);
     true
 }
 
 /// Tells readers of JSON that all findings so far are void, because watching starts again.
-fn tell_restart(context: &Context, reason: &str) {
+fn report_restart(context: &Context, reason: &str) {
     context.json_row(|| ("watch_restart", serde_json::json!({ "reason": reason })));
 }
 
@@ -122,7 +122,7 @@ fn return_to_working_directory(cli: &Cli, home: &Utf8Path, server: Option<&Serve
     let line = context.phrase(
         "the working directory {} is missing: nothing is checked until it is there again",
         "das Arbeitsverzeichnis {} fehlt: nichts wird geprüft, bis es wieder da ist",
-        &shown::line(home.as_str()),
+        &escaping::line(home.as_str()),
     );
     watch::halt(server, &[], &line);
     context.printer.status(line);

@@ -59,7 +59,7 @@ fn fault(post: &str, definition: &PostDefinition, it: &Named) -> Option<String> 
         Ok(text) => text,
         Err(errors) => return at(texts(&errors)),
     };
-    let dialect = definition.reader(None)?;
+    let dialect = definition.reading_dialect(None)?;
     let read = interpret(&text, dialect, &Options::default());
     let errors: Vec<Diagnostic> = read.problems.iter().filter(|it| it.is_error()).cloned().collect();
     if !errors.is_empty() {

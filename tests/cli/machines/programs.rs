@@ -82,7 +82,7 @@ pub(crate) fn of_inputs(settings: Settings, inputs: Vec<String>, name: &str) -> 
         .iter()
         .map(|path| session.db().target(path.file, path.name.as_str(), Role::Emitted))
         .collect();
-    for file in wanted.whole(&session) {
+    for file in wanted.whole_drawings(&session) {
         targets.extend(session.targets(file, &Role::Emitted));
     }
     let checked = session.check(&targets);

@@ -106,7 +106,7 @@ impl Needs {
             let Pace::Feed(feed) = movement.pace else { return };
             needs.low = needs.low.min(movement.to.z());
             needs.feed = needs.feed.max(feed);
-            needs.feed_down = needs.feed_down.max(feed * movement.axis_shares()[2]);
+            needs.feed_down = needs.feed_down.max(feed * movement.axis_speed_fractions()[2]);
         });
         needs
     }

@@ -9,13 +9,13 @@ use camino::Utf8PathBuf;
 use pathbuild_diagnostic::messages::{files, paths as messages};
 use pathbuild_diagnostic::{Code, Diagnostic, Point, TraceStep};
 use pathbuild_path::{Bindings, PathName, PathOptions, PathRole, PathSignature, SubpathCall};
-use pathbuild_toolpath::memory;
+use pathbuild_toolpath::estimated_bytes;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::embedding::{Instance, path, summary};
 use crate::database::Db;
 use crate::inputs::{Limits, Role, Settings, SourceFile, Target};
-use crate::queries::embedding::{Embedding, Outcome, embeds, is_about_misfit};
+use crate::queries::embedding::{Embedding, Outcome, direct_embeddings, is_about_misfit};
 use crate::queries::index::{NameKey, PathSummary, keep_out_problems, path_index};
 use crate::queries::lookup::{find_path, own_directory, search_path};
 use crate::queries::part::{is_about_waste, part_problems};
@@ -259,18 +259,23 @@ impl<'db> ClosureWalk<'db> {
         has_errors |= self.report_all(instance, part_problems(self.db, instance));
         let Some(signature) = summary.known_signature() else { return PathErrors::Own };
         let mut errors = PathErrors::of(has_errors || summary.signature.is_none());
-        for embedding in embeds(self.db, instance) {
+        for embedding in direct_embeddings(self.db, instance) {
             errors = errors.and(self.visit_embedding(instance, &signature.name, embedding, depth));
         }
         if errors.are_none() {
-            errors = PathErrors::of(self.visit_raised(instance, signature, depth));
+            errors = PathErrors::of(self.check_raised_heights(instance, signature, depth));
         }
         errors
     }
 
     /// Checks that the sweeps of a path clear the probes and subpaths that H raises. Returns whether there are errors.
-    fn visit_raised(&mut self, instance: Instance<'db>, signature: &PathSignature, depth: u32) -> bool {
-        let calls = signature.subpaths.iter().zip(embeds(self.db, instance));
+    fn check_raised_heights(
+        &mut self,
+        instance: Instance<'db>,
+        signature: &PathSignature,
+        depth: u32,
+    ) -> bool {
+        let calls = signature.subpaths.iter().zip(direct_embeddings(self.db, instance));
         let raised = calls.filter_map(|(call, embedding)| match &embedding.outcome {
             Outcome::Found { child, .. } => Some((call, call.subpath.height + self.tops.get(child)?)),
             _ => None,
@@ -357,7 +362,7 @@ impl<'db> ClosureWalk<'db> {
             }
             Outcome::NotFound(problem) => self.report_all(instance, slice::from_ref(problem)),
             Outcome::Unread(problems) | Outcome::Unbound(problems) => self.report_all(instance, problems),
-            Outcome::Found { child, .. } if self.is_open(*child, instance) => {
+            Outcome::Found { child, .. } if self.is_being_visited(*child, instance) => {
                 let problem = self.cycle_error(&frame, *child);
                 self.report_all(instance, &[origin.at(problem)]);
                 return PathErrors::Cycle(*child);
@@ -369,7 +374,7 @@ impl<'db> ClosureWalk<'db> {
                 let is_reported = match errors {
                     PathErrors::None | PathErrors::Own => false,
                     PathErrors::TooDeep => true,
-                    PathErrors::Cycle(first) => self.is_within(first, instance),
+                    PathErrors::Cycle(first) => self.is_part_of_cycle(first, instance),
                 };
                 if is_reported {
                     return errors;
@@ -390,14 +395,14 @@ impl<'db> ClosureWalk<'db> {
     }
 
     /// Whether the path being visited is part of a cycle that begins with `first`, whatever values its variables have.
-    fn is_within(&self, first: Instance<'db>, visiting: Instance<'db>) -> bool {
+    fn is_part_of_cycle(&self, first: Instance<'db>, visiting: Instance<'db>) -> bool {
         let place = |instance: Instance<'db>| (instance.file(self.db), instance.name(self.db));
         place(first) == place(visiting)
             || self.stack.iter().any(|frame| place(frame.instance) == place(first))
     }
 
     /// Whether a path is already being visited, so that embedding it again would recurse for ever.
-    fn is_open(&self, child: Instance<'db>, visiting: Instance<'db>) -> bool {
+    fn is_being_visited(&self, child: Instance<'db>, visiting: Instance<'db>) -> bool {
         child == visiting || self.stack.iter().any(|frame| frame.instance == child)
     }
 
@@ -490,10 +495,11 @@ impl<'db> ClosureWalk<'db> {
             return *moves;
         }
         let own = summary(self.db, instance).moves;
-        let embedded = embeds(self.db, instance).iter().filter_map(|embedding| match &embedding.outcome {
-            Outcome::Found { child, .. } => Some(*child),
-            _ => None,
-        });
+        let embedded =
+            direct_embeddings(self.db, instance).iter().filter_map(|embedding| match &embedding.outcome {
+                Outcome::Found { child, .. } => Some(*child),
+                _ => None,
+            });
         let moves = embedded.fold(own, |sum, child| sum.saturating_add(self.moves_of(child, known)));
         known.insert(instance, moves);
         moves
@@ -509,7 +515,7 @@ impl<'db> ClosureWalk<'db> {
 
 /// Returns PB005 if a program of this many moves would be too long or take too much memory.
 fn size_limit_problem(count: u64, limits: Limits) -> Option<Diagnostic> {
-    let size = memory(count);
+    let size = estimated_bytes(count);
     let problem = if count > limits.moves {
         Diagnostic::new(&files::TOO_MANY_MOVES).quoting("key", "embedding-moves").with("limit", limits.moves)
     } else if size > limits.memory {
@@ -561,8 +567,9 @@ pub enum Destination<'db> {
 impl<'db> Closure<'db> {
     /// Returns all embeddings, ordered by path as first reached, then by segment.
     pub fn edges(&self, db: &'db dyn Db) -> Vec<Edge<'db>> {
-        let of_path =
-            |from: Instance<'db>| embeds(db, from).iter().map(move |embedding| edge(from, embedding));
+        let of_path = |from: Instance<'db>| {
+            direct_embeddings(db, from).iter().map(move |embedding| edge(from, embedding))
+        };
         self.reached.iter().flat_map(|reached| of_path(*reached)).collect()
     }
 }
@@ -606,7 +613,7 @@ pub fn trace(db: &dyn Db, target: Target) -> Trace {
     for reached in &closure(db, target).reached {
         let from = reached.file(db);
         files.push(from);
-        for name in embeds(db, *reached).iter().filter_map(|embedding| embedding.name.as_ref()) {
+        for name in direct_embeddings(db, *reached).iter().filter_map(|embedding| embedding.name.as_ref()) {
             let resolved = find_path(db, from, NameKey::of(db, name));
             resolved.searched.iter().for_each(|file| files.push(*file));
             let directories =

@@ -59,12 +59,12 @@ pub fn second_definitions<'a>(
             }
         }
     }
-    repeated.into_values().flat_map(|files| ambiguous(db, files, are_together)).collect()
+    repeated.into_values().flat_map(|files| ambiguous_definitions(db, files, are_together)).collect()
 }
 
 /// Returns the ambiguous definitions among drawings that define the same path: for a project in the directory of each drawing, the first drawing that
 /// the project would find, paired with every other one that it would find. If `are_together`, a project would find all of them.
-fn ambiguous(
+fn ambiguous_definitions(
     db: &dyn Db,
     mut files: BTreeMap<&str, &PathName>,
     are_together: bool,

@@ -11,7 +11,7 @@ use pathbuild_path::{
 use crate::database::Db;
 use crate::inputs::{Settings, SourceFile};
 use crate::queries::index::{
-    BoundPath, NameKey, PathSummary, bind, file_index, path_index, walk_within_limit,
+    BindResult, NameKey, PathSummary, bind, file_index, path_index, walk_within_limit,
 };
 use crate::queries::lookup::{ResolvedPath, find_path, own_directory, search_path};
 use crate::queries::nearby_ends::LayerHints;
@@ -53,7 +53,7 @@ pub enum Outcome<'db> {
 }
 
 /// Returns the direct embeddings of a path, in the order of its segments.
-pub fn embeds<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<'db>] {
+pub fn direct_embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> &'db [Embedding<'db>] {
     // Most paths embed nothing; no query is needed for them.
     if summary(db, instance).has_subpaths() { embeddings(db, instance) } else { &[] }
 }
@@ -66,7 +66,7 @@ pub(super) fn is_about_misfit<'db>(db: &'db dyn Db, instance: Instance<'db>, fou
             .any(|problem| problem.code() == Code::SubpathSizeDiffers && problem.place == found.place),
         _ => false,
     };
-    found.message == &drawing::SUBPATH_TWICE && embeds(db, instance).iter().any(is_misfit)
+    found.message == &drawing::SUBPATH_TWICE && direct_embeddings(db, instance).iter().any(is_misfit)
 }
 
 #[salsa::tracked]
@@ -80,11 +80,12 @@ fn embeddings<'db>(db: &'db dyn Db, instance: Instance<'db>) -> Vec<Embedding<'d
         settings.reading(db).compatible,
     );
     let read_all = || read_layers(db, instance.file(db), &|_| true);
-    let embedder = Embedder { db, file: instance.file(db), checker, hints: LayerHints::new(&read_all) };
+    let embedder =
+        EmbeddingResolver { db, file: instance.file(db), checker, hints: LayerHints::new(&read_all) };
     outer.subpaths.iter().map(|call| embedder.embedding(call)).collect()
 }
 
-struct Embedder<'a, 'db> {
+struct EmbeddingResolver<'a, 'db> {
     db: &'db dyn Db,
     /// The drawing of the embedding path.
     file: SourceFile,
@@ -92,7 +93,7 @@ struct Embedder<'a, 'db> {
     hints: LayerHints<'a>,
 }
 
-impl<'db> Embedder<'_, 'db> {
+impl<'db> EmbeddingResolver<'_, 'db> {
     fn embedding(&self, call: &SubpathCall) -> Embedding<'db> {
         let name = match &call.subpath.name {
             SubpathName::Found { name, .. } => Some(name.clone()),
@@ -120,7 +121,7 @@ impl<'db> Embedder<'_, 'db> {
             [file] => self.bind_values(call, *file, key),
             [first, second, ..] => {
                 let [first, second] = [first, second].map(|file| file.path(self.db).as_str());
-                Outcome::NotFound(self.checker.defined_twice(call, name, first, second))
+                Outcome::NotFound(self.checker.defined_twice_problem(call, name, first, second))
             }
         }
     }
@@ -141,7 +142,7 @@ impl<'db> Embedder<'_, 'db> {
         if problems.is_empty() || !index.names().is_empty() {
             return None;
         }
-        problems.push(self.checker.has_errors(call, name, path.as_str()));
+        problems.push(self.checker.hidden_by_errors_problem(call, name, path.as_str()));
         Some(problems)
     }
 
@@ -151,7 +152,7 @@ impl<'db> Embedder<'_, 'db> {
             directories.map(|directory| displayed_directory(directory.path(self.db).as_str())).collect();
         let files: Value = resolved.searched.iter().map(|file| file.path(self.db).as_str()).collect();
         let known = resolved.searched.iter().flat_map(|file| file_index(self.db, *file).names());
-        self.checker.not_found(call, name, directories, files, known.cloned().collect())
+        self.checker.not_found_problem(call, name, directories, files, known.cloned().collect())
     }
 
     /// Checks the values of a segment against the variables of the path that it embeds, then the segment against the path.
@@ -206,7 +207,7 @@ fn summary_with_values<'db>(db: &'db dyn Db, instance: Instance<'db>) -> PathSum
 
 /// Returns the bound and checked path. Only programs need it, so few are kept.
 #[salsa::tracked(lru = 256)]
-pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BoundPath {
+pub fn path<'db>(db: &'db dyn Db, instance: Instance<'db>) -> BindResult {
     let language = Settings::get(db).language(db);
     let raw = raw_path(db, instance.file(db), instance.name(db));
     raw.map(|raw| bind(raw, instance.bindings(db), language)).unwrap_or_default()

@@ -9,9 +9,9 @@ use pathbuild_diagnostic::{Code, Diagnostic, Note, Point, Severity};
 use pathbuild_dxf::Drawing;
 use pathbuild_files::Stamp;
 use pathbuild_path::{
-    Bindings, DrawnParts, ExaminedPath, Item, KeepOut, KeepOuts, Language, NearNames, Part, Path, PathCuts,
-    PathHeader, PathName, PathRole, PathSignature, RawFile, RawPath, WalkedPath, Xy, check_file_name,
-    has_text_on_part, is_near_clamps_or_parts, stray_findings,
+    Bindings, DrawnParts, Item, KeepOut, KeepOuts, Language, NearNames, Part, PartiallyBoundPath, Path,
+    PathCuts, PathHeader, PathName, PathRole, PathSignature, RawFile, RawPath, WalkedPath, Xy,
+    check_file_name, has_text_on_part, is_near_clamps_or_parts, stray_findings,
 };
 use pathbuild_toolpath::{own_moves, part_cuts};
 use smol_str::SmolStr;
@@ -366,7 +366,7 @@ impl PathSummary {
     ) -> Self {
         let language = Settings::get(db).language(db);
         let with_hint = |found: Diagnostic| hints.with_hint(&raw.name, language, found);
-        let BoundPath { path, diagnostics } = examine(raw, bindings, language);
+        let BindResult { path, diagnostics } = bind_leniently(raw, bindings, language);
         let mut problems: Vec<Diagnostic> = diagnostics.into_iter().map(with_hint).collect();
         let Some(path) = path else { return Self { problems, ..Self::default() } };
         let walked = walk(db, &path, language);
@@ -425,7 +425,7 @@ fn add_path_end(problems: &mut [Diagnostic], end: Xy) {
 
 /// A bound path and its diagnostics.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct BoundPath {
+pub struct BindResult {
     /// The path as far as it is known. A program gets it only if no diagnostic is an error.
     pub path: Option<Arc<Path>>,
     /// Diagnostics of the drawing and of the values.
@@ -433,19 +433,21 @@ pub struct BoundPath {
 }
 
 /// Binds and checks the parameters of a path for its program.
-pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath {
-    let BoundPath { path, diagnostics } = examine(raw, bindings, language);
-    BoundPath { path: path.filter(|path| !path.has_faults()), diagnostics }
+pub(super) fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> BindResult {
+    let BindResult { path, diagnostics } = bind_leniently(raw, bindings, language);
+    BindResult { path: path.filter(|path| !path.has_faults()), diagnostics }
 }
 
 /// Binds a path as far as it is known, even if it has errors, so that its other errors are found as well.
-fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> BoundPath {
-    let examined = catch_bugs(|| pathbuild_path::examine(raw, bindings, language));
-    let ExaminedPath { path, problems } = examined
-        .unwrap_or_else(|bug| ExaminedPath { path: None, problems: vec![bug.in_path(raw.name.as_str())] });
+fn bind_leniently(raw: &RawPath, bindings: &Bindings, language: &Language) -> BindResult {
+    let examined = catch_bugs(|| pathbuild_path::bind_leniently(raw, bindings, language));
+    let PartiallyBoundPath { path, problems } = examined.unwrap_or_else(|bug| PartiallyBoundPath {
+        path: None,
+        problems: vec![bug.in_path(raw.name.as_str())],
+    });
     let mut diagnostics = raw.findings_except(&problems);
     diagnostics.extend(problems);
-    BoundPath { path: path.map(Arc::new), diagnostics }
+    BindResult { path: path.map(Arc::new), diagnostics }
 }
 
 /// Walks a path. PB005 if that takes too long: indexes are built before the time limit of a target applies.
@@ -467,7 +469,7 @@ pub(super) fn walk_within_limit(db: &dyn Db, path: &Path, language: &Language) -
             resume_unwind(Box::new(TimeoutPanic(limit)));
         }
     };
-    pathbuild_path::walk_watched(path, language.join_tolerance, &checkpoint)
+    pathbuild_path::walk_with_checkpoints(path, language.join_tolerance, &checkpoint)
 }
 
 /// The data of a drawing that the part check needs. Lines and handles are left out, so that edits elsewhere in the drawing leave it equal.

@@ -27,7 +27,7 @@ mod results;
 
 pub use closures::{Closure, Destination, Edge, MissingOption, NameLookup, Trace, closure, trace};
 pub use definitions::{SecondDefinition, may_define, second_definitions};
-pub use embedding::{Embedding, Outcome, embeds};
+pub use embedding::{Embedding, Outcome, direct_embeddings};
 pub use embedding::{Instance, chains, path, summary};
 pub use index::{
     FileIndex, NameKey, PathIndex, PathSummary, content, content_hash, file_index, has_clamp_layer,

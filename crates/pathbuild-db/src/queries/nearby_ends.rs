@@ -29,7 +29,7 @@ struct AllLayers {
 }
 
 /// Messages about paths that break off or stop for a reason in the path itself: a copy, a gap or a branch.
-const EXPLAINED: [&Message; 11] = [
+const MESSAGES_WITH_KNOWN_CAUSE: [&Message; 11] = [
     &paths::DRAWN_TWICE,
     &paths::PART_DRAWN_TWICE,
     &paths::UNREACHED_CIRCLE,
@@ -61,7 +61,7 @@ impl<'a> LayerHints<'a> {
     ) -> Diagnostic {
         let hint = match problem.code() {
             Code::NothingContinues | Code::UnreachedSegments | Code::EndNotReached | Code::EmptyPath
-                if !EXPLAINED.contains(&problem.message) =>
+                if !MESSAGES_WITH_KNOWN_CAUSE.contains(&problem.message) =>
             {
                 self.nearest_end(path, language, &problem)
             }

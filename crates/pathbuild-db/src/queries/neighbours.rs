@@ -17,7 +17,7 @@ use pathbuild_toolpath::tip_move;
 use crate::database::Db;
 use crate::inputs::{Settings, Target};
 use crate::queries::closures::closure;
-use crate::queries::embedding::{Instance, Outcome, embeds};
+use crate::queries::embedding::{Instance, Outcome, direct_embeddings};
 use crate::queries::index::lower_to_warnings;
 use crate::queries::part::{file_parts, part_findings, parts_of, path_cuts};
 use crate::queries::programs::{BoundPath, TracedProgram, traced_program};
@@ -126,7 +126,7 @@ impl<'db> PlacedProgram<'db> {
             parent,
         });
         for place in &cuts.embedded {
-            let mut embeddings = embeds(self.db, instance).iter();
+            let mut embeddings = direct_embeddings(self.db, instance).iter();
             let Some(embedding) = embeddings.find(|embedding| embedding.segment == place.segment) else {
                 continue;
             };
@@ -157,7 +157,7 @@ impl<'db> PlacedProgram<'db> {
         let mut found = self.cuts_into_own_parts();
         for owner in 0..self.paths.len() {
             let taken =
-                (0..self.paths.len()).filter_map(|cutting| Some((cutting, self.harm(owner, cutting)?)));
+                (0..self.paths.len()).filter_map(|cutting| Some((cutting, self.damage(owner, cutting)?)));
             found.extend(self.cuts_into(owner, &self.paths[owner].cuts, taken));
             found.extend(self.severed(owner).iter().map(|severed| {
                 let (path, origin) = self.innermost_common_path(severed.path, severed.element, owner);
@@ -171,19 +171,20 @@ impl<'db> PlacedProgram<'db> {
 
     /// Returns what the path `cutting` takes away from the parts and support bars of `owner`. If both belong to the same drawing at the same place,
     /// which the drawing's own check covers, only the bars that are lost because the embedding is turned. `None` if the two are not compared.
-    fn harm(&self, owner: usize, cutting: usize) -> Option<NeighbourCuts> {
+    fn damage(&self, owner: usize, cutting: usize) -> Option<NeighbourCuts> {
         let (owned, by, tolerance) =
             (&self.paths[owner].cuts, &self.paths[cutting].cuts, self.settings.tolerance);
         if self.is_foreign(owner, cutting) {
             return Some(owned.cuts_made_by(by, tolerance));
         }
         let bars = || owned.bars_lost_by_turning(by, tolerance);
-        self.is_together(owner, cutting).then(|| NeighbourCuts { bars: bars(), ..NeighbourCuts::default() })
+        self.are_from_same_drawing(owner, cutting)
+            .then(|| NeighbourCuts { bars: bars(), ..NeighbourCuts::default() })
     }
 
     /// Whether two paths of a program belong to the same drawing at the same place, or are the same path. In joined programs, they also belong to
     /// different programs.
-    fn is_together(&self, owner: usize, cutting: usize) -> bool {
+    fn are_from_same_drawing(&self, owner: usize, cutting: usize) -> bool {
         let PlacedPath { instance, cuts, .. } = &self.paths[cutting];
         let is_compared = !self.is_joined || self.root(owner) != self.root(cutting);
         is_compared && self.is_at(&self.paths[owner], *instance, &cuts.placement)
@@ -299,9 +300,10 @@ impl<'db> PlacedProgram<'db> {
         let numbers = 0..self.paths.len();
         let pairs = numbers.clone().flat_map(|owner| numbers.clone().map(move |cutting| (owner, cutting)));
         let taken = pairs.flat_map(|(owner, cutting)| {
-            let is_together = self.is_together(owner, cutting) && self.paths[owner].cuts.has_displaced_bars();
+            let has_displaced_bars =
+                self.are_from_same_drawing(owner, cutting) && self.paths[owner].cuts.has_displaced_bars();
             let (owned, by) = (&self.paths[owner].cuts, &self.paths[cutting].cuts);
-            if is_together || self.is_foreign(owner, cutting) {
+            if has_displaced_bars || self.is_foreign(owner, cutting) {
                 owned.bars_taken_by(by, self.settings.tolerance)
             } else {
                 Vec::new()
@@ -461,7 +463,8 @@ fn instance_of<'db>(db: &'db dyn Db, target: Target, cutting: &BoundPath) -> Opt
 
 /// Returns the milling moves of a program.
 fn milled_moves(traced: &TracedProgram) -> Vec<MilledMove> {
-    let bottoms: Vec<BTreeMap<u32, f64>> = traced.paths.iter().map(|bound| bottoms(&bound.path)).collect();
+    let bottoms: Vec<BTreeMap<u32, f64>> =
+        traced.paths.iter().map(|bound| bottoms_of_bar_elements(&bound.path)).collect();
     let milled = traced.program.moves().filter(|(_, movement)| movement.pace.feed().is_some());
     let placed = milled.filter_map(|(step, movement)| {
         let origin = traced.trace.steps.get(step as usize - 1)?;
@@ -474,7 +477,7 @@ fn milled_moves(traced: &TracedProgram) -> Vec<MilledMove> {
 }
 
 /// Returns B of the elements with support bars, by index of the drawn element.
-fn bottoms(path: &Path) -> BTreeMap<u32, f64> {
+fn bottoms_of_bar_elements(path: &Path) -> BTreeMap<u32, f64> {
     let segments = path.segments.iter();
     segments.filter_map(|segment| Some((segment.element, path.bottom_between_bars(segment)?))).collect()
 }

@@ -17,7 +17,7 @@ use super::embedding::{Instance, chains, path};
 use crate::database::Db;
 use crate::inputs::{Role, Settings, SourceFile, Target};
 use crate::queries::closures::closure;
-use crate::queries::embedding::{Outcome, embeds};
+use crate::queries::embedding::{Outcome, direct_embeddings};
 use crate::queries::raw::{raw_file, read_layers};
 
 /// A program with the origin of each step.
@@ -155,7 +155,7 @@ impl<'db> FoldPaths for ClosurePaths<'db> {
     }
 
     fn embedded(&self, id: Instance<'db>, segment: usize) -> Option<Instance<'db>> {
-        let embedded = embeds(self.db, id);
+        let embedded = direct_embeddings(self.db, id);
         let place = embedded.binary_search_by_key(&segment, |embedding| embedding.segment).ok()?;
         match &embedded[place].outcome {
             Outcome::Found { child, .. } => Some(*child),

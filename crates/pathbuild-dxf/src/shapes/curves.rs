@@ -30,7 +30,7 @@ fn is_near(vector: Vector) -> bool {
 }
 
 /// Returns the vector turned by a quarter turn, counterclockwise.
-fn left(vector: Vector) -> Vector {
+fn left_normal(vector: Vector) -> Vector {
     Vector::new(-vector.y, vector.x)
 }
 
@@ -84,14 +84,14 @@ fn control_distance(chord: Vector, from: Vector, to: Vector) -> Option<f64> {
 /// Returns the arc that leaves a point in a given direction and reaches another point.
 fn piece(start: Vector, end: Vector, direction: Vector) -> CurvePiece {
     let chord = end - start;
-    let aside = chord.dot(&left(direction));
+    let aside = chord.dot(&left_normal(direction));
     let square = chord.dot(&chord);
     // The height over the chord is about a quarter of the distance of the end from the tangent.
     if aside.abs() < 4.0 * MAX_LINE_HEIGHT && chord.dot(&direction) >= 0.0 {
         return CurvePiece { start, end, bend: PieceShape::Straight };
     }
     let to_centre = square / (2.0 * aside);
-    let centre = start + left(direction) * to_centre;
+    let centre = start + left_normal(direction) * to_centre;
     CurvePiece {
         start,
         end,
@@ -123,7 +123,7 @@ impl CurvePiece {
                 if along <= 0.0 || along >= chord.dot(&chord) {
                     return to_ends;
                 }
-                ((point - self.start).dot(&left(chord)) / length(chord)).abs()
+                ((point - self.start).dot(&left_normal(chord)) / length(chord)).abs()
             }
             PieceShape::Round { centre, radius, .. } => {
                 if self.spans(point) {

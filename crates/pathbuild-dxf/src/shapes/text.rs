@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use smol_str::{SmolStr, SmolStrBuilder};
 
-use crate::encoding::{Decoder, control, without_carets};
+use crate::encoding::{Decoder, caret_character, without_carets};
 use crate::faults::EntityError;
 use crate::fields::{BadGroup, Fields};
 use crate::placement::{angle_of, opposite};
@@ -325,7 +325,7 @@ impl PlainText {
             'L' | 'l' | 'O' | 'o' => {}
             'S' => {
                 self.obstacle = Some(LayoutObstacle::Stack);
-                let (stacked, length) = stacked(&text[short..]);
+                let (stacked, length) = parse_stacked_text(&text[short..]);
                 let is_behind_digit = self.last.is_some_and(|last| last.is_ascii_digit());
                 if is_behind_digit && stacked.starts_with(|letter: char| letter.is_ascii_digit()) {
                     // The caret keeps a raised or lowered digit from being read as a further digit of the number before it.
@@ -386,7 +386,7 @@ impl PlainText {
             self.push("\n");
             return 4;
         }
-        let (character, length) = control(text).unwrap_or(('^', 1));
+        let (character, length) = caret_character(text).unwrap_or(('^', 1));
         self.push(character.encode_utf8(&mut [0; 4]));
         length
     }
@@ -401,7 +401,7 @@ fn is_special(byte: u8) -> bool {
 }
 
 /// Returns the stacked text at the start of `text`, and its length in bytes, including the `;` that ends it.
-fn stacked(text: &str) -> (String, usize) {
+fn parse_stacked_text(text: &str) -> (String, usize) {
     let mut stacked = String::new();
     let mut characters = text.char_indices().peekable();
     while let Some((index, character)) = characters.next() {

@@ -11,7 +11,7 @@ use pathbuild_toolpath::odd_probes;
 use super::Inputs;
 use super::scan::{ProbeUse, ProbeUses};
 use super::values::{EnteredValue, ProbeLine, ProbeTable, hides_probes};
-use crate::native::{ProgramProbe, f3, push_exact};
+use crate::native::{ProgramProbe, push_exact, three_decimals};
 
 /// Measured heights in mm, by probe number.
 pub(super) type Values = BTreeMap<u32, f64>;
@@ -57,7 +57,7 @@ impl Check<'_, '_> {
                 return Err(Box::new(problem.with("limit", self.inputs.max_correction)));
             }
         }
-        Ok(Some(rounded_to_printed(value)))
+        Ok(Some(rounded_as_stated(value)))
     }
 
     /// Checks that the program lists this probe, at the same position and height. A program that lists no probes passes.
@@ -158,13 +158,19 @@ impl Check<'_, '_> {
 }
 
 /// Rounds a measured height to six decimals, as the adjusted program states it, so that evaluating the formulas again gives the same result.
-fn rounded_to_printed(value: f64) -> f64 {
+fn rounded_as_stated(value: f64) -> f64 {
     let mut text = String::new();
     push_exact(&mut text, value);
     text.parse().unwrap_or(value)
 }
 
 fn describe_probe(drawn_at: Xy, height: f64, at: Option<Xy>) -> String {
-    let at = at.map(|at| format!(" @ [{}|{}]", f3(at.x), f3(at.y))).unwrap_or_default();
-    format!("[{} {}] T={}{at}", f3(drawn_at.x), f3(drawn_at.y), f3(height))
+    let at =
+        at.map(|at| format!(" @ [{}|{}]", three_decimals(at.x), three_decimals(at.y))).unwrap_or_default();
+    format!(
+        "[{} {}] T={}{at}",
+        three_decimals(drawn_at.x),
+        three_decimals(drawn_at.y),
+        three_decimals(height)
+    )
 }

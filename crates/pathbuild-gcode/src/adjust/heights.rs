@@ -160,7 +160,7 @@ impl<'a> HeightRules<'a> {
 
     /// Returns the findings about the corrected program. `surface` is `None` if the places of its probes are not known.
     pub(super) fn finish(self, program: Source<'_>, surface: Option<&MeasuredSurface>) -> Vec<Diagnostic> {
-        let below = || surface?.rapid_below(program, &self.applied);
+        let below = || surface?.rapid_below_surface_problem(program, &self.applied);
         let raised = self.raised_cut(program);
         let lowered = self.lowered.as_ref().map(|(_, warning)| warning.clone());
         self.in_material.clone().or_else(below).into_iter().chain(raised).chain(lowered).collect()

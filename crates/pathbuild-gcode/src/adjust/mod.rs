@@ -19,7 +19,7 @@ use pathbuild_diagnostic::messages::probes as messages;
 use pathbuild_path::Xy;
 use pathbuild_toolpath::ZModel;
 
-use crate::native::{ProgramProbe, f3, probe_entry, push_exact};
+use crate::native::{ProgramProbe, probe_entry, push_exact, three_decimals};
 use crate::provenance::{is_same_program, without_comment_marks};
 use crate::read::is_utf_16;
 
@@ -31,7 +31,7 @@ use scan::{
     number, probe_uses, value_of,
 };
 use surface::MeasuredSurface;
-pub use values::loss_of_values;
+pub use values::lost_values_message;
 use values::{entry_of_line, header_entries, is_header, probe_table};
 
 /// A file in memory. Its text may be in any encoding that extends ASCII; other bytes are preserved.
@@ -78,7 +78,7 @@ pub struct AdjustedProgram {
 }
 
 /// Returns the first line, counted from 1, with a formula that has not been applied: `Z1.000(=...)` as opposed to `(==...)`.
-pub fn first_open_formula(program: &[u8]) -> Option<u32> {
+pub fn first_unapplied_formula(program: &[u8]) -> Option<u32> {
     let is_open = |line: &[u8]| formula_spans(line).any(|spot| line.get(spot.formula.start) != Some(&b'='));
     (1..).zip(program.split(|byte| *byte == b'\n')).find(|(_, line)| is_open(line)).map(|(number, _)| number)
 }
@@ -138,12 +138,13 @@ pub(crate) fn without_comments(line: &str) -> String {
 
 /// Whether a program equals the result of [`adjust`] for `clean` with the measured heights listed in its header, except for the version of pathbuild.
 pub fn is_adjusted_from(program: Source<'_>, clean: Source<'_>) -> bool {
-    adjusted_again(program, clean).is_some_and(|expected| is_same_program(program.bytes, &expected))
+    adjust_with_listed_heights(program, clean)
+        .is_some_and(|expected| is_same_program(program.bytes, &expected))
 }
 
 /// Returns the result of [`adjust`] for `clean` with the measured heights listed in the header of a program; `None` if heights are missing or
 /// formulas are faulty.
-pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>> {
+pub fn adjust_with_listed_heights(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>> {
     let stated = probe_table(program.bytes);
     let measured = |(number, probe): (&u32, &ProgramProbe)| Some((*number, probe.measured?));
     let values = stated.iter().map(measured).collect::<Option<Values>>()?;
@@ -157,8 +158,8 @@ pub fn adjusted_again(program: Source<'_>, clean: Source<'_>) -> Option<Vec<u8>>
     has_all.then(|| evaluate_formulas(&inputs, &values).ok()).flatten().map(|(adjusted, _)| adjusted.program)
 }
 
-/// Returns the measured heights that comments of a program list, by the numbers of their probes. Unlike in [`states_heights`], the program may have
-/// been converted by a post-processor, which writes the comments further down.
+/// Returns the measured heights that comments of a program list, by the numbers of their probes. Unlike in [`has_measured_heights`], the program
+/// may have been converted by a post-processor, which writes the comments further down.
 pub fn listed_heights(program: &[u8]) -> BTreeMap<u32, f64> {
     let text = String::from_utf8_lossy(program);
     let comments = text.lines().map(without_comment_marks);
@@ -183,12 +184,12 @@ pub fn corrections(program: &[u8]) -> Vec<(u32, String)> {
 }
 
 /// Whether the header of a program lists measured heights, that is, whether it was adjusted.
-pub fn states_heights(program: Source<'_>) -> bool {
+pub fn has_measured_heights(program: Source<'_>) -> bool {
     probe_table(program.bytes).values().any(|probe| probe.measured.is_some())
 }
 
 /// Whether a file of values contains a height that differs from the one the program was adjusted with.
-pub fn states_other_values(program: Source<'_>, values: Source<'_>) -> bool {
+pub fn has_differing_values(program: Source<'_>, values: Source<'_>) -> bool {
     let stated = probe_table(program.bytes);
     let lines = values::read(values, &mut Vec::new());
     lines.iter().any(|line| match (line.value, stated.get(&line.probe).and_then(|probe| probe.measured)) {
@@ -220,7 +221,8 @@ pub fn adjust(inputs: &Inputs<'_>) -> Result<AdjustedProgram, Vec<Diagnostic>> {
     let (mut adjusted, rules) = evaluate_formulas(inputs, &values)?;
     let surface = MeasuredSurface::new(&table, &values, inputs.model);
     let corrected = Source { file: inputs.program.file, bytes: &adjusted.program };
-    let stale = surface.as_ref().and_then(|surface| surface.stale_correction(corrected, &rules.applied));
+    let stale =
+        surface.as_ref().and_then(|surface| surface.stale_correction_problem(corrected, &rules.applied));
     adjusted.warnings = rules.finish(corrected, surface.as_ref()).into_iter().chain(stale).collect();
     if adjusted.warnings.iter().any(Diagnostic::is_error) {
         return Err(adjusted.warnings);
@@ -299,7 +301,7 @@ impl<'a> Writer<'_, 'a> {
                 Ok(height) => {
                     let program = &mut self.adjusted.program;
                     program.extend_from_slice(&line.bytes[done..spot.number.start]);
-                    program.extend_from_slice(f3(height).as_bytes());
+                    program.extend_from_slice(three_decimals(height).as_bytes());
                     program.extend_from_slice(b"(==");
                     done = spot.formula.start;
                 }

@@ -203,7 +203,7 @@ impl Probes for ProbeReader<'_, '_> {
         f64::NAN
     }
 
-    fn drawn(&mut self, probe: u32, height: f64) {
+    fn record_drawn_height(&mut self, probe: u32, height: f64) {
         if let Some(used) = self.uses.get_mut(&probe) {
             let (least, greatest) = used.drawn.unwrap_or((height, height));
             used.drawn = Some((least.min(height), greatest.max(height)));
@@ -220,7 +220,7 @@ pub(super) trait Probes {
     fn value(&mut self, probe: u32, at: Range<usize>) -> f64;
 
     /// Called for each difference such as `[#51-5.000]`, which gives the height at which the probe was drawn.
-    fn drawn(&mut self, _probe: u32, _height: f64) {}
+    fn record_drawn_height(&mut self, _probe: u32, _height: f64) {}
 }
 
 #[derive(Clone, Debug)]
@@ -330,7 +330,7 @@ impl<P: Probes> Parser<'_, P> {
         }
         self.at += 1;
         if let Form::Difference(probe, height) = inner.form {
-            self.probes.drawn(probe, height);
+            self.probes.record_drawn_height(probe, height);
         }
         Ok(other_term(inner.value))
     }

@@ -68,7 +68,7 @@ impl MeasuredSurface {
 
     /// Returns PB602 for the rapid move that is farthest below the surface over which it leads, if there is one. Descents are not examined: they end
     /// on the surface. Neither are moves that were drawn at the surface or below it: the material there has been milled away.
-    pub(super) fn rapid_below(
+    pub(super) fn rapid_below_surface_problem(
         &self,
         program: Source<'_>,
         applied: &[AppliedCorrection],
@@ -113,7 +113,7 @@ impl MeasuredSurface {
     }
 
     /// Returns PB606 for the cut whose end is corrected most differently from what was measured there, if the difference matters.
-    pub(super) fn stale_correction(
+    pub(super) fn stale_correction_problem(
         &self,
         program: Source<'_>,
         applied: &[AppliedCorrection],

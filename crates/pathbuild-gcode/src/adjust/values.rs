@@ -82,7 +82,7 @@ pub(super) fn read<'a>(values: Source<'a>, problems: &mut Vec<Diagnostic>) -> Ve
 }
 
 /// Returns the message (PB605) about what would be lost if a file of measured values were written again; `None` if nothing was entered in it.
-pub fn loss_of_values(values: Source<'_>) -> Option<&'static Message> {
+pub fn lost_values_message(values: Source<'_>) -> Option<&'static Message> {
     let mut problems = Vec::new();
     let lines = read(values, &mut problems);
     if problems.iter().any(hides_probes) {
@@ -202,7 +202,7 @@ pub(super) fn fill_from_log<'a>(
         return mark_reported(probes);
     }
     for (probe, measured) in in_order.into_iter().zip(measured) {
-        take_measured(probe, measured, problems);
+        apply_logged_height(probe, measured, problems);
     }
 }
 
@@ -213,7 +213,11 @@ fn mark_reported(probes: &mut [ProbeLine<'_>]) {
     }
 }
 
-fn take_measured<'a>(probe: &mut ProbeLine<'a>, measured: LoggedHeight<'a>, problems: &mut Vec<Diagnostic>) {
+fn apply_logged_height<'a>(
+    probe: &mut ProbeLine<'a>,
+    measured: LoggedHeight<'a>,
+    problems: &mut Vec<Diagnostic>,
+) {
     match probe.value {
         EnteredValue::Nothing => {
             probe.value = EnteredValue::Value(measured.place[2]);

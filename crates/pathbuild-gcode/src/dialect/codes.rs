@@ -81,7 +81,7 @@ const fn inert(letter: char, code: u16, values: &'static [u8]) -> InertWord {
     InertWord { letter, code, values, harmless: &[], needs: &[] }
 }
 
-const fn needing(letter: char, code: u16, values: &'static [u8], needs: &'static [u8]) -> InertWord {
+const fn inert_requiring(letter: char, code: u16, values: &'static [u8], needs: &'static [u8]) -> InertWord {
     InertWord { letter, code, values, harmless: &[], needs }
 }
 
@@ -131,13 +131,13 @@ pub(super) static LINUXCNC: Words = Words {
         inert('M', 510, b"P"),
         inert('M', 520, b"P"),
         inert('M', 530, b"P"),
-        needing('M', 620, b"P", b"P"),
-        needing('M', 630, b"P", b"P"),
-        needing('M', 640, b"P", b"P"),
-        needing('M', 650, b"P", b"P"),
-        needing('M', 660, b"PELQ", b"PE"),
-        needing('M', 670, b"EQ", b"E"),
-        needing('M', 680, b"EQ", b"E"),
+        inert_requiring('M', 620, b"P", b"P"),
+        inert_requiring('M', 630, b"P", b"P"),
+        inert_requiring('M', 640, b"P", b"P"),
+        inert_requiring('M', 650, b"P", b"P"),
+        inert_requiring('M', 660, b"PELQ", b"PE"),
+        inert_requiring('M', 670, b"EQ", b"E"),
+        inert_requiring('M', 680, b"EQ", b"E"),
     ],
     own_m_codes: true,
     ..COMMON_WORDS

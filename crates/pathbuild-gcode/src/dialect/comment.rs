@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use pathbuild_diagnostic::shown;
+use pathbuild_diagnostic::escaping;
 
 use super::rules::OBEYED_COMMENTS;
 use super::{Dialect, NotationSupport, Percent};
@@ -23,7 +23,7 @@ impl Dialect {
     /// begin with certain words.
     pub fn comment(self, text: &str, charset: Charset) -> String {
         let spelling = &self.rules().spelling;
-        let text = within_comment(text, Some(self), charset);
+        let text = comment_safe_text(text, Some(self), charset);
         match spelling {
             spelling if spelling.round_comments == NotationSupport::Usual => format!("({text})"),
             spelling if spelling.slash_comments == NotationSupport::Usual => format!("// {text}"),
@@ -34,7 +34,7 @@ impl Dialect {
 
 /// Changes a text so that it neither ends a comment of the dialect nor makes the control act. If `dialect` is `None`, the result is safe in all
 /// dialects.
-pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) -> String {
+pub fn comment_safe_text(text: &str, dialect: Option<Dialect>, charset: Charset) -> String {
     let spelling = dialect.map(|dialect| &dialect.rules().spelling);
     let acts_at_once = spelling.is_none_or(|spelling| spelling.real_time_bytes);
     let knows_percent = spelling.is_some_and(|spelling| spelling.percent != Percent::Refused);
@@ -48,7 +48,7 @@ pub fn within_comment(text: &str, dialect: Option<Dialect>, charset: Charset) ->
         '%' if !knows_percent => '-',
         '!' | '?' if acts_at_once => '.',
         '~' if acts_at_once => '-',
-        c if shown::is_active(c) => ' ',
+        c if escaping::is_active(c) => ' ',
         c => c,
     };
     let is_ascii = charset == Charset::Ascii || spelling.is_some_and(|spelling| spelling.real_time_bytes);
@@ -84,7 +84,7 @@ pub fn ascii(text: &str) -> String {
             || (is_after_capital && !is_before_letter);
         match c {
             c if c.is_ascii() => ascii.push(c),
-            c if shown::is_active(c) => ascii.push(' '),
+            c if escaping::is_active(c) => ascii.push(' '),
             c if c.is_uppercase() && is_among_capitals => ascii.push_str(&transliterated(c).to_uppercase()),
             c => ascii.push_str(transliterated(c)),
         }
@@ -128,11 +128,11 @@ fn transliterated(character: char) -> &'static str {
 
 /// Whether some control acts on a comment with this text, for example by opening a file, printing, hiding moves or running a program.
 pub fn is_active_comment(text: &str) -> bool {
-    beginning_of(text, OBEYED_COMMENTS).or_else(|| beginning_of(text, DISPLAY_WORDS)).is_some()
+    leading_word(text, OBEYED_COMMENTS).or_else(|| leading_word(text, DISPLAY_WORDS)).is_some()
 }
 
 /// Returns the word from `words` with which a comment begins, ignoring blanks and case.
-pub(crate) fn beginning_of(text: &str, words: &[&'static str]) -> Option<&'static str> {
+pub(crate) fn leading_word(text: &str, words: &[&'static str]) -> Option<&'static str> {
     let begins = |word: &str| {
         let mut letters = text.chars().filter(|c| !c.is_whitespace());
         word.chars().all(|letter| letters.next().is_some_and(|c| c.eq_ignore_ascii_case(&letter)))

@@ -10,8 +10,8 @@ use std::fmt;
 use std::str::FromStr;
 
 pub use codes::{InertWord, Letters, Words};
-pub(crate) use comment::beginning_of;
-pub use comment::{Charset, ascii, is_active_comment, within_comment};
+pub(crate) use comment::leading_word;
+pub use comment::{Charset, ascii, comment_safe_text, is_active_comment};
 pub use rules::{
     ArcRules, Blanks, DwellRules, DwellUnit, FeedMode, Grammar, LengthRules, LineLength, MCodeLimit,
     MCodeOrder, NotationSupport, Operators, Percent, RadiusTolerance, Rules, Slash, Spelling, StartMotion,

@@ -524,7 +524,8 @@ impl Interpreter<'_> {
 
     /// Executes M97, M98 and M99.
     pub(super) fn execute_subprogram_word(&mut self, block: &Block<'_>) {
-        let Some((code, span)) = self.words.m_code(CALLS).filter(|(code, _)| self.calls(*code)) else {
+        let Some((code, span)) = self.words.m_code(CALLS).filter(|(code, _)| self.is_subprogram_code(*code))
+        else {
             return;
         };
         let place = self.words.values.take_slot(b'P');

@@ -42,7 +42,7 @@ impl Interpreter<'_> {
         let coordinates = self.words.values.take_coordinates();
         let axis = self.state.plane.third();
         if self.drills_nothing() {
-            return self.pass_over_hole(block, coordinates);
+            return self.move_without_drilling(block, coordinates);
         }
         let repeats = self.take_repeat_count(block);
         self.check_change_within_cycle(block);
@@ -66,7 +66,7 @@ impl Interpreter<'_> {
             });
         }
         for _ in 0..repeats {
-            let over = self.place_over_hole(coordinates, old);
+            let over = self.position_over_hole(coordinates, old);
             self.rapid(block, over);
             if old != hole.r {
                 self.lift_to(block, hole.r);
@@ -94,18 +94,18 @@ impl Interpreter<'_> {
     }
 
     /// Stores the values of the cycle, and moves to the position in the line without drilling there.
-    fn pass_over_hole(&mut self, block: &Block<'_>, coordinates: [Option<Slot>; 3]) {
+    fn move_without_drilling(&mut self, block: &Block<'_>, coordinates: [Option<Slot>; 3]) {
         self.words.values.take(self.rules.repeats);
         let height = self.approach_height();
         self.store_cycle_words(block, coordinates[self.state.plane.third()]);
         if self.state.plane.axes().iter().any(|axis| coordinates[*axis].is_some()) {
-            let over = self.place_over_hole(coordinates, height);
+            let over = self.position_over_hole(coordinates, height);
             self.rapid(block, over);
         }
     }
 
     /// Returns the position over a hole, at a height in mm.
-    fn place_over_hole(&mut self, mut coordinates: [Option<Slot>; 3], height: f64) -> Position {
+    fn position_over_hole(&mut self, mut coordinates: [Option<Slot>; 3], height: f64) -> Position {
         let axis = self.state.plane.third();
         coordinates[axis] = None;
         let mut over = self.target(coordinates);

@@ -10,7 +10,7 @@ use super::codes::{Command, Motion, ValueOwner};
 use super::evaluate::{Fault, Parameters, StatedProbes};
 use super::half_circles::DoubtfulArcs;
 use super::state::{ClearedZero, Heights, Options, State};
-use crate::dialect::{MCodeOrder, Percent, Rules, beginning_of};
+use crate::dialect::{MCodeOrder, Percent, Rules, leading_word};
 use crate::read::{Block, OWordKind, Problems, SourcePosition, Span};
 
 /// Interpreter of a program, with the modal state of the control and the effects of the last block.
@@ -91,7 +91,7 @@ impl<'i> Interpreter<'i> {
         self.begin_words(block);
         self.words.clear();
         let o_word = block.o_word.map_or(Ok(()), |word| self.o_word(block, word));
-        if let Err((fault, span)) = o_word.and_then(|()| self.gather(block)) {
+        if let Err((fault, span)) = o_word.and_then(|()| self.evaluate_words(block)) {
             self.report(block, &say::NO_VALUE, span, |d| d.with("reason", fault.0));
             return;
         }
@@ -107,7 +107,7 @@ impl<'i> Interpreter<'i> {
 
     /// Reports a comment that the control obeys because of its beginning.
     fn check_active(&mut self, block: &Block<'_>, text: Span) {
-        if let Some(word) = beginning_of(&block.text_of(text), self.rules.spelling.active_comments) {
+        if let Some(word) = leading_word(&block.text_of(text), self.rules.spelling.active_comments) {
             self.report(block, &say::ACTIVE_COMMENT, text, |d| d.quoting("word", word.trim_end_matches(',')));
         }
     }

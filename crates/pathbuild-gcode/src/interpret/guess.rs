@@ -7,7 +7,7 @@ use pathbuild_diagnostic::{Code, Diagnostic, Text};
 use pathbuild_motion::Group;
 
 use super::codes::{Command, name};
-use super::switches::{is_followed_m, is_unsupported_m};
+use super::switches::{is_executed_m, is_unsupported_m};
 use super::{Options, interpret_each};
 use crate::dialect::{Dialect, DwellUnit, Rules};
 use crate::provenance::Provenance;
@@ -111,7 +111,7 @@ fn guess_by_feature(head: &[u8]) -> Option<Guess> {
     let lines = || (1_u32..).zip(head.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii));
     FEATURES.iter().find_map(|&(dialect, has_sign, reason)| {
         let (line, _) = lines().find(|(_, line)| has_sign(line))?;
-        if dialect == Dialect::Xpertmill && states_modes(head) {
+        if dialect == Dialect::Xpertmill && sets_modes(head) {
             return None;
         }
         let guess =
@@ -122,7 +122,7 @@ fn guess_by_feature(head: &[u8]) -> Option<Guess> {
 
 /// Replaces a guess of Fanuc with another control with program numbers, if that control accepts every line of the program and Fanuc does not.
 fn with_all_words(head: &[u8], guess: Guess) -> Guess {
-    if takes_every_line(head, guess.dialect) {
+    if accepts_every_line(head, guess.dialect) {
         return guess;
     }
     let reason = &Text {
@@ -131,13 +131,13 @@ fn with_all_words(head: &[u8], guess: Guess) -> Guess {
     };
     [Dialect::Haas, Dialect::Mach3]
         .into_iter()
-        .find(|dialect| takes_every_line(head, *dialect))
+        .find(|dialect| accepts_every_line(head, *dialect))
         .map_or(guess, |dialect| Guess { dialect, evidence: Evidence { reason, ..guess.evidence } })
 }
 
 /// Whether a program sets the unit or the distance mode with G20, G21, G90 or G91, which XpertMILL does not know. XpertMILL would interpret the
 /// inches of such a program as millimetres.
-fn states_modes(head: &[u8]) -> bool {
+fn sets_modes(head: &[u8]) -> bool {
     let mut reader = BlockReader::new(head, Dialect::Xpertmill.rules());
     while let Some(block) = reader.next_block() {
         let is_mode = |word: &Word| {
@@ -167,7 +167,7 @@ fn guess_by_words(head: &[u8]) -> Guess {
     }
     if !is_complete {
         let others = [Dialect::LinuxCnc, Dialect::Grbl, Dialect::Mach3, Dialect::Fanuc, Dialect::Haas];
-        if let Some(complete) = others.into_iter().find(|dialect| takes_every_line(head, *dialect)) {
+        if let Some(complete) = others.into_iter().find(|dialect| accepts_every_line(head, *dialect)) {
             (dialect, fewest) = (complete, 0);
         }
     }
@@ -195,7 +195,7 @@ fn is_unknown(code: Code) -> bool {
 
 /// Whether a control of the dialect knows and uses all words in `head`, the beginning of a program, and refuses none of its lines for containing two
 /// words that exclude each other.
-fn takes_every_line(head: &[u8], dialect: Dialect) -> bool {
+fn accepts_every_line(head: &[u8], dialect: Dialect) -> bool {
     are_in_accepted_lines(&problems(head, dialect))
 }
 
@@ -238,7 +238,7 @@ fn ends_in_keyword(line: &[u8]) -> bool {
 
 /// The interpretation of a word if no dialect is named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UnionWord {
+pub enum MeaningWithoutDialect {
     /// The word means the same as this code of LinuxCNC.
     Followed(u16),
     /// The word is ignored: it switches off something that is already off, or does not affect the position of the tool tip.
@@ -251,22 +251,24 @@ pub enum UnionWord {
 }
 
 /// Returns the interpretation of a word if no dialect is named. `code` is ten times its number.
-pub fn union_word(letter: char, code: u16) -> UnionWord {
-    if letter == 'M' { union_m_word(code) } else { union_g_word(code) }
+pub fn meaning_without_dialect(letter: char, code: u16) -> MeaningWithoutDialect {
+    if letter == 'M' { m_meaning_without_dialect(code) } else { g_meaning_without_dialect(code) }
 }
 
-fn union_m_word(code: u16) -> UnionWord {
+fn m_meaning_without_dialect(code: u16) -> MeaningWithoutDialect {
     match code {
         // M48 enables the operator's overrides, as they are by default. M49 disables them.
-        480 => UnionWord::Neutral,
-        490 => UnionWord::NotFollowed { is_dangerous: false },
-        _ if is_unsupported_m(code) || code == 190 => UnionWord::NotFollowed { is_dangerous: true },
-        _ if is_followed_m(code) => UnionWord::Followed(code),
-        _ => UnionWord::NotFollowed { is_dangerous: false },
+        480 => MeaningWithoutDialect::Neutral,
+        490 => MeaningWithoutDialect::NotFollowed { is_dangerous: false },
+        _ if is_unsupported_m(code) || code == 190 => {
+            MeaningWithoutDialect::NotFollowed { is_dangerous: true }
+        }
+        _ if is_executed_m(code) => MeaningWithoutDialect::Followed(code),
+        _ => MeaningWithoutDialect::NotFollowed { is_dangerous: false },
     }
 }
 
-fn union_g_word(code: u16) -> UnionWord {
+fn g_meaning_without_dialect(code: u16) -> MeaningWithoutDialect {
     let code = match code {
         // G70 and G71 select the units in DIN 66025.
         700 => 200,
@@ -277,19 +279,19 @@ fn union_g_word(code: u16) -> UnionWord {
     };
     match Command::of(code) {
         Command::NotFollowed(_) | Command::LengthByNumber | Command::NumberedSystem => {
-            UnionWord::NotFollowed { is_dangerous: true }
+            MeaningWithoutDialect::NotFollowed { is_dangerous: true }
         }
         Command::System(_) if !Dialect::LinuxCnc.rules().words.has_g(code) => {
-            UnionWord::NotFollowed { is_dangerous: true }
+            MeaningWithoutDialect::NotFollowed { is_dangerous: true }
         }
-        Command::NoEffect(_) if code == 432 => UnionWord::NotFollowed { is_dangerous: true },
+        Command::NoEffect(_) if code == 432 => MeaningWithoutDialect::NotFollowed { is_dangerous: true },
         Command::NoEffect(Group::CutterCompensation | Group::ToolLength | Group::PathControl)
             if Dialect::LinuxCnc.rules().words.has_g(code) =>
         {
-            UnionWord::Followed(code)
+            MeaningWithoutDialect::Followed(code)
         }
-        Command::NoEffect(_) | Command::StoreHome(_) => UnionWord::Neutral,
-        _ => UnionWord::Followed(code),
+        Command::NoEffect(_) | Command::StoreHome(_) => MeaningWithoutDialect::Neutral,
+        _ => MeaningWithoutDialect::Followed(code),
     }
 }
 

@@ -17,7 +17,7 @@ const MAX_CENTRE_SHIFT: f64 = 0.05;
 const MAX_AMPLIFICATION: f64 = 2.0;
 
 /// Number of decimals with which no arc that a machine can mill is doubtful.
-const MOST_DECIMALS: u8 = 9;
+const SUFFICIENT_DECIMALS: u8 = 9;
 
 /// The arcs of a program that may be doubtful.
 #[derive(Debug, Default)]
@@ -48,7 +48,7 @@ impl DoubtfulArcs {
             return;
         }
         let known = self.finest.max(arc.decimals);
-        let Some(coarse) = (known..MOST_DECIMALS).rfind(|decimals| arc.is_doubtful(*decimals)) else {
+        let Some(coarse) = (known..SUFFICIENT_DECIMALS).rfind(|decimals| arc.is_doubtful(*decimals)) else {
             return;
         };
         self.found.entry(coarse + 1).or_default().add(&say::NEAR_HALF_CIRCLE, at, |d| {

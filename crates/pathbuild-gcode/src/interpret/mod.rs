@@ -23,7 +23,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::gcode::{EMPTY_PROGRAM, NOT_G_CODE, PROGRAM_IN_UTF_16};
 use pathbuild_motion::{Move, Step};
 
-pub use self::guess::{DisputedWords, UnionWord, union_word};
+pub use self::guess::{DisputedWords, MeaningWithoutDialect, meaning_without_dialect};
 pub use self::state::{Heights, MachineOffsets, Options, UnitCodes};
 pub use codes::name as code_name;
 pub use cycle::PECK_CLEARANCE;
@@ -86,7 +86,7 @@ pub fn interpret_until(
     }
     let (problems, has_words) = interpret_parts([text], dialect, options, each);
     let is_other = !has_words && problems.iter().any(Diagnostic::is_error);
-    if is_other { vec![no_g_code(text)] } else { problems }
+    if is_other { vec![no_g_code_error(text)] } else { problems }
 }
 
 /// A program that can pass on its steps repeatedly, so that they need not be stored.
@@ -154,7 +154,7 @@ pub(crate) fn interpret_parts(
 }
 
 /// Creates the single report for a file without any words, instead of one per line.
-fn no_g_code(text: &[u8]) -> Diagnostic {
+fn no_g_code_error(text: &[u8]) -> Diagnostic {
     let lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
     let first = lines.into_iter().find(|line| !line.is_empty()).unwrap_or_default();
     let shown: String =

@@ -253,7 +253,7 @@ impl Interpreter<'_> {
                 let stated = StatedLength { line: block.line, unit: self.state.unit };
                 self.state.shift_stated = are_shifted.then_some(stated);
             }
-            let is_followed = self.is_zero_followed(command);
+            let is_followed = self.keeps_zero(command);
             self.step(block, Action::Change(Change::Offsets { code, are_shifted, is_followed }));
         }
         match command {
@@ -297,7 +297,7 @@ impl Interpreter<'_> {
     }
 
     /// Whether the positions after a command that moves origins count from the same zero as those before it.
-    fn is_zero_followed(&self, command: Command) -> bool {
+    fn keeps_zero(&self, command: Command) -> bool {
         let offsets = &self.state.offsets;
         let value = |letter: u8| self.words.values.peek(letter).map(|slot| slot.value);
         match command {
@@ -306,9 +306,9 @@ impl Interpreter<'_> {
                 let is_active =
                     number.is_none_or(|number| WorkSystem::from_number(number) == Some(offsets.active));
                 let is_here = value(b'L').and_then(whole_number) == Some(20);
-                is_active && if is_here { self.knows_place() } else { offsets.is_fixed_to_machine() }
+                is_active && if is_here { self.is_position_known() } else { offsets.is_fixed_to_machine() }
             }
-            Command::SetOrigin => self.knows_place(),
+            Command::SetOrigin => self.is_position_known(),
             Command::LocalOffset => {
                 let keeps = |(axis, letter): (usize, u8)| {
                     value(letter).is_none_or(|value| value * self.state.unit == offsets.local(axis))
@@ -322,8 +322,8 @@ impl Interpreter<'_> {
     }
 
     /// Whether the position of the tool is known along the axes in the block.
-    fn knows_place(&self) -> bool {
-        let known = self.state.followed_axes();
+    fn is_position_known(&self) -> bool {
+        let known = self.state.located_axes();
         let given = |axis: &usize| self.words.values.has(Values::AXES[*axis]);
         self.state.offsets.is_fixed() && (0..3).filter(given).all(|axis| known.has(Axes::of(axis)))
     }
@@ -359,12 +359,12 @@ impl Interpreter<'_> {
             let Some(coordinate) = slot.map(|slot| self.millimetres(slot)) else { continue };
             if kind == 2 {
                 is_followed &= self.state.offsets.place(system, axis, coordinate);
-            } else if self.state.followed_axes().has(Axes::of(axis)) {
+            } else if self.state.located_axes().has(Axes::of(axis)) {
                 let here = self.state.position.at[axis];
                 self.forget_cleared_zero(axis);
                 self.state.offsets.place_here(system, axis, coordinate, here);
             } else if let Some(system) = system.filter(|system| *system != self.state.offsets.active) {
-                self.state.offsets.displace(system);
+                self.state.offsets.mark_position_unknown(system);
             } else {
                 self.set_origin(block, axis, coordinate);
             }
@@ -474,7 +474,7 @@ impl Interpreter<'_> {
         for (axis, slot) in self.words.values.take_coordinates().into_iter().enumerate() {
             if let Some(slot) = slot {
                 let coordinate = self.millimetres(slot);
-                if !self.state.followed_axes().has(Axes::of(axis)) {
+                if !self.state.located_axes().has(Axes::of(axis)) {
                     self.state.offsets.touched_off = self.state.offsets.touched_off.with(Axes::of(axis));
                 }
                 self.set_origin(block, axis, coordinate);
@@ -485,7 +485,7 @@ impl Interpreter<'_> {
     /// Sets the coordinate of the current position. If only the machine knows this position, after a probe or after a stop at which the operator may
     /// have touched off, all later coordinates are relative to this position.
     fn set_origin(&mut self, block: &Block<'_>, axis: usize, coordinate: f64) {
-        let is_followed = self.state.followed_axes().has(Axes::of(axis));
+        let is_followed = self.state.located_axes().has(Axes::of(axis));
         let is_moved_by_hand = self.state.position.known.has(Axes::of(axis)) && !is_followed;
         self.forget_cleared_zero(axis);
         self.state.stated_axes = self.state.stated_axes.with(Axes::of(axis));

@@ -170,7 +170,7 @@ impl State {
     }
 
     /// Forgets which positions are stated, because the operator may move the axes or change the tool.
-    pub(super) fn begin_stop(&mut self) {
+    pub(super) fn forget_stated_positions(&mut self) {
         self.stated_since_stop = Axes::NONE;
         self.zeroed_since_stop = Axes::NONE;
         self.offsets.clear_reference_length();
@@ -178,7 +178,7 @@ impl State {
 
     /// Returns the axes on which the program knows where the tool is: it has stated the position since the last stop, and no probe has made contact
     /// since.
-    pub(super) fn followed_axes(&self) -> Axes {
+    pub(super) fn located_axes(&self) -> Axes {
         self.position.known.and(self.stated_since_stop.with(self.zeroed_since_stop))
     }
 }
@@ -342,7 +342,7 @@ impl Offsets {
     }
 
     /// Marks the position of a system as unknown, because the operator has moved the tool to the place whose coordinate G10 L20 sets.
-    pub(super) fn displace(&mut self, system: WorkSystem) {
+    pub(super) fn mark_position_unknown(&mut self, system: WorkSystem) {
         self.systems[system.index()].origin = SystemOrigin::Unknown;
     }
 

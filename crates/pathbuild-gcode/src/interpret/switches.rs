@@ -52,7 +52,7 @@ impl Interpreter<'_> {
             self.enter_layer(block, self.state.tool.unwrap_or(0));
         } else {
             self.state.stated_axes = Axes::NONE;
-            self.state.begin_stop();
+            self.state.forget_stated_positions();
         }
         let is_turning = self.state.spindle.turning.is_on();
         if is_turning && !self.rules.layers {
@@ -98,7 +98,7 @@ impl Interpreter<'_> {
         }
         for index in 0..self.words.m_codes.len() {
             let (code, _) = self.words.m_codes[index];
-            if !is_followed_m(code) {
+            if !is_executed_m(code) {
                 self.step(block, Action::Change(Change::Switch(code)));
             }
         }
@@ -114,7 +114,7 @@ impl Interpreter<'_> {
     }
 
     /// Whether an M code calls or ends a subprogram in this dialect.
-    pub(super) fn calls(&self, m_code: u16) -> bool {
+    pub(super) fn is_subprogram_code(&self, m_code: u16) -> bool {
         self.rules.program_numbers && CALLS.contains(&m_code)
     }
 
@@ -122,7 +122,7 @@ impl Interpreter<'_> {
         let words = self.rules.words;
         let is_own = words.own_m_codes && (1000..2000).contains(&m_code) || words.m_own.contains(&m_code);
         let is_inert = words.inert('M', m_code).is_some();
-        is_unsupported_m(m_code) && !self.calls(m_code) && !is_inert || is_own
+        is_unsupported_m(m_code) && !self.is_subprogram_code(m_code) && !is_inert || is_own
     }
 
     /// Returns the time in seconds of the block's G4, if any. Removes the letters that state it, so that F and S do not set the feed and the speed.
@@ -327,7 +327,7 @@ impl Interpreter<'_> {
                 if self.rules.stop_is_complete {
                     self.switch_off(block);
                 }
-                self.state.begin_stop();
+                self.state.forget_stated_positions();
                 self.step(block, Action::Stop { optional: code == 10 });
             }
             None => {}
@@ -357,7 +357,7 @@ pub(super) fn is_unsupported_m(m_code: u16) -> bool {
 }
 
 /// Whether the interpreter executes an M code: stops, tools, spindle, coolant. All others become a [`Change::Switch`].
-pub(super) fn is_followed_m(m_code: u16) -> bool {
+pub(super) fn is_executed_m(m_code: u16) -> bool {
     [STOPS, TOOL, COOLANT].iter().any(|group| group.contains(&m_code)) || matches!(m_code, 30 | 40 | 50)
 }
 

@@ -7,7 +7,7 @@ use pathbuild_motion::{Action, Group, StatedWord, WordEffect};
 use super::codes::{self, Command, Motion, ValueOwner};
 use super::evaluate::{Scope, name_of, parameter_number};
 use super::execute::{AssignedParameter, Interpreter, Slot, ValueFault, Values, limits};
-use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_followed_m};
+use super::switches::{COOLANT, SPINDLE, STOPS, TOOL, is_executed_m};
 use crate::dialect::MCodeLimit;
 use crate::read::{Block, Span, Target, Value, Word};
 
@@ -16,12 +16,12 @@ const EXPRESSION_DECIMALS: u8 = u8::MAX;
 
 impl Interpreter<'_> {
     /// Sorts the words of a block and evaluates them.
-    pub(super) fn gather(&mut self, block: &Block<'_>) -> Result<(), ValueFault> {
+    pub(super) fn evaluate_words(&mut self, block: &Block<'_>) -> Result<(), ValueFault> {
         if self.rules.one_command {
             self.check_command(block);
         }
         if self.rules.one_word_each {
-            self.check_one_each(block);
+            self.check_one_word_each(block);
         }
         for (index, word) in block.words.iter().enumerate() {
             let (value, decimals) = self.value(block, word.value, word.span)?;
@@ -47,7 +47,7 @@ impl Interpreter<'_> {
             let target = match setting.target {
                 Target::Numbered(code) => {
                     let (number, _) = self.value(block, Value::Expression(code), setting.span)?;
-                    let number = parameter_number(number, self.most_parameters());
+                    let number = parameter_number(number, self.max_parameters());
                     AssignedParameter::Numbered(number.map_err(|fault| (fault, setting.span))?)
                 }
                 Target::Named(name) => AssignedParameter::Named(name_of(block, name)),
@@ -68,7 +68,7 @@ impl Interpreter<'_> {
             Value::Expression(code) => code,
         };
         let has_names = self.rules.spelling.grammar.as_ref().is_some_and(|grammar| grammar.has_names);
-        let scope = Scope { most: self.most_parameters(), has_names, state: &self.state };
+        let scope = Scope { most: self.max_parameters(), has_names, state: &self.state };
         let value = self.parameters.evaluate(block, code, &scope).map_err(|fault| (fault, span))?;
         for parameter in std::mem::take(&mut self.parameters.machine_values) {
             self.report(block, &say::MACHINE_VALUE, span, |d| {
@@ -78,7 +78,7 @@ impl Interpreter<'_> {
         Ok((value, EXPRESSION_DECIMALS))
     }
 
-    fn most_parameters(&self) -> u32 {
+    fn max_parameters(&self) -> u32 {
         self.rules.spelling.grammar.as_ref().map_or(0, |grammar| grammar.parameters)
     }
 
@@ -89,7 +89,7 @@ impl Interpreter<'_> {
         }
         let command = self.words.commands.first().map(|(command, ..)| *command);
         match block.words.first().map(|word| word.letter) {
-            Some(b'M') if self.words.m_codes.first().is_some_and(|(code, _)| is_followed_m(*code)) => {
+            Some(b'M') if self.words.m_codes.first().is_some_and(|(code, _)| is_executed_m(*code)) => {
                 ValueOwner::Command
             }
             Some(b'M') => ValueOwner::NotFollowed,
@@ -124,7 +124,7 @@ impl Interpreter<'_> {
     }
 
     /// Checks that there is only one G word and one M word, because the control obeys only one of each per line.
-    fn check_one_each(&mut self, block: &Block<'_>) {
+    fn check_one_word_each(&mut self, block: &Block<'_>) {
         for letter in [b'G', b'M'] {
             let mut words = block.words.iter().filter(|word| word.letter == letter);
             if let (Some(first), Some(second)) = (words.next(), words.next()) {
@@ -269,8 +269,8 @@ impl Interpreter<'_> {
         for index in 0..self.words.m_codes.len() {
             let (code, _) = self.words.m_codes[index];
             let effect = match code {
-                _ if self.calls(code) => WordEffect::Call,
-                _ if is_followed_m(code) && self.rules.words.inert('M', code).is_none() => {
+                _ if self.is_subprogram_code(code) => WordEffect::Call,
+                _ if is_executed_m(code) && self.rules.words.inert('M', code).is_none() => {
                     WordEffect::Followed
                 }
                 _ => WordEffect::NotFollowed,
@@ -283,7 +283,7 @@ impl Interpreter<'_> {
         for (target, value) in std::mem::take(&mut self.words.settings) {
             match target {
                 AssignedParameter::Numbered(number) => {
-                    if MACHINE_PLACES.contains(&number) {
+                    if MACHINE_POSITION_PARAMETERS.contains(&number) {
                         self.report(block, &say::NOT_FOLLOWED, block.span(), |d| {
                             d.quoting("word", format!("#{number}="))
                         });
@@ -297,7 +297,7 @@ impl Interpreter<'_> {
 }
 
 /// Parameters in which RS274 controls store the positions of G28, G30, G92 and the coordinate systems.
-const MACHINE_PLACES: std::ops::RangeInclusive<u32> = 5161..=5390;
+const MACHINE_POSITION_PARAMETERS: std::ops::RangeInclusive<u32> = 5161..=5390;
 
 /// Converts a G or M number to ten times its value; `None` if it has more than one decimal. Controls disagree whether `G0.9999` is G0 or G1.
 fn code_of(value: f64) -> Option<u16> {

@@ -7,15 +7,15 @@ use pathbuild_motion::turn_angle;
 use pathbuild_toolpath::{Correction, Height, LAST_DIGIT, ProbePoint, Program, ProgramStep, Surface, Xy};
 
 /// Formats a number with three decimals. The exact binary value is rounded, with ties to even, and zero has no sign.
-pub fn f3(number: f64) -> String {
+pub fn three_decimals(number: f64) -> String {
     let mut text = String::with_capacity(10);
-    push_f3(&mut text, number);
+    push_three_decimals(&mut text, number);
     text
 }
 
 /// Appends a number with three decimals. `{:.3}` needs a long division for numbers as close to a thousandth as those of drawings, which took a
 /// quarter of the time for compiling a project.
-pub(super) fn push_f3(text: &mut String, number: f64) {
+pub(super) fn push_three_decimals(text: &mut String, number: f64) {
     let Some(thousandths) = thousandths(number) else {
         _ = write!(text, "{number:.3}");
         return;
@@ -35,7 +35,7 @@ pub(super) fn push_f3(text: &mut String, number: f64) {
 }
 
 /// Rounds a number to the three decimals that are printed.
-pub(super) fn printed(number: f64) -> f64 {
+pub(super) fn round_to_three_decimals(number: f64) -> f64 {
     let rounded = |thousandths: u64| (thousandths as f64 / 1000.0).copysign(number) + 0.0;
     thousandths(number).map_or(number, rounded)
 }
@@ -104,7 +104,7 @@ pub(super) struct PrintedArc {
 
 impl PrintedArc {
     pub(super) fn new(from: Xy, centre: Xy, clockwise: bool) -> Self {
-        Self { from: rounded(from), centre: rounded(centre), clockwise }
+        Self { from: round_point(from), centre: round_point(centre), clockwise }
     }
 
     /// Returns the end to print for an arc of this length in mm: `to`, or, if rounding would make the controller mill almost a turn too much or too
@@ -115,16 +115,17 @@ impl PrintedArc {
         }
         let beside = |middle: Xy| {
             let steps = || [-LAST_DIGIT, 0.0, LAST_DIGIT].into_iter();
-            steps().flat_map(move |x| steps().map(move |y| rounded(Xy::new(middle.x + x, middle.y + y))))
+            steps().flat_map(move |x| steps().map(move |y| round_point(Xy::new(middle.x + x, middle.y + y))))
         };
         let distance = |end: &Xy| (end - to).norm();
-        let candidates = beside(rounded(to)).chain(beside(self.from)).filter(|end| self.sweeps(*end, length));
+        let candidates =
+            beside(round_point(to)).chain(beside(self.from)).filter(|end| self.sweeps(*end, length));
         candidates.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
     /// Whether a controller sweeps the angle of an arc of this length in mm to an end, and not a full turn more or less.
     pub(super) fn sweeps(&self, end: Xy, length: f64) -> bool {
-        (self.angle(rounded(end)) - length / self.centre.coords.norm()).abs() <= PI
+        (self.angle(round_point(end)) - length / self.centre.coords.norm()).abs() <= PI
     }
 
     /// Returns the angle in radians that a controller sweeps to an end; 2 pi if the end equals the start.
@@ -134,8 +135,8 @@ impl PrintedArc {
     }
 }
 
-fn rounded(at: Xy) -> Xy {
-    Xy::new(printed(at.x), printed(at.y))
+fn round_point(at: Xy) -> Xy {
+    Xy::new(round_to_three_decimals(at.x), round_to_three_decimals(at.y))
 }
 
 /// Number of the parameter for the first probe.
@@ -176,7 +177,7 @@ impl<'a> Formulas<'a> {
             text.push_str("*[#");
             text.push_str(&(FIRST_PARAMETER + probe).to_string());
             text.push('-');
-            push_f3(text, self.probes[probe].height);
+            push_three_decimals(text, self.probes[probe].height);
             text.push(']');
         }
         text.push(')');
@@ -201,7 +202,7 @@ impl<'a> Formulas<'a> {
     }
 
     fn push_number(&self, text: &mut String, number: f64) {
-        if self.is_rounded { push_f3(text, number) } else { push_exact(text, number) }
+        if self.is_rounded { push_three_decimals(text, number) } else { push_exact(text, number) }
     }
 }
 

@@ -7,12 +7,14 @@ use pathbuild_diagnostic::{Diagnostic, Lang};
 use pathbuild_motion::WrittenArc;
 use pathbuild_toolpath::{
     Comment, Correction, ElementKind, Height, OmittedCurves, PlannedMove, ProbePoint, Program, ProgramStep,
-    Statistics, Total, Xy, is_doubtful, is_point, is_short,
+    Statistics, Total, Xy, is_doubtful_arc, is_point_arc, is_short_arc,
 };
 
-use super::number::{FIRST_PARAMETER, Formulas, PrintedArc, f3, printed, push_f3};
+use super::number::{
+    FIRST_PARAMETER, Formulas, PrintedArc, push_three_decimals, round_to_three_decimals, three_decimals,
+};
 use super::program_probe::{PROBE_COMMENT, ProgramProbe};
-use crate::dialect::{Charset, Dialect, within_comment};
+use crate::dialect::{Charset, Dialect, comment_safe_text};
 use crate::statistics::statistics;
 
 /// Options for writing programs.
@@ -81,7 +83,7 @@ fn split_ignoring_case<'t>(title: &'t str, text: &str) -> Option<(&'t str, &'t s
 /// Reduces a title, or the drawing's name in it, to the characters that all dialects preserve, so that titles can be compared regardless of the post
 /// that wrote them.
 pub fn plain_title(text: &str) -> String {
-    within_comment(text, None, Charset::Ascii).to_lowercase()
+    comment_safe_text(text, None, Charset::Ascii).to_lowercase()
 }
 
 /// Whether a title found in a program names the given path and drawing.
@@ -120,7 +122,7 @@ const PATH: &str = "Path ";
 const OF_DRAWING: &str = ", drawing ";
 
 /// Returns the lines that set the machine up. Only those of compatible programs have F before G94, which LinuxCNC rejects.
-pub(super) fn setup(program: &Program) -> &'static str {
+pub(super) fn setup_lines(program: &Program) -> &'static str {
     if program.compatible {
         "F150\nG17 G21 G40 G49 G54 G80 G90 G94\nT1\n"
     } else {
@@ -161,8 +163,8 @@ pub fn write_program(
     let mut writer = Writer { program, options, formulas, text, at: Xy::origin() };
     writer.line("%");
     writer.header(provenance);
-    writer.text.push_str(setup(program));
-    writer.line(&format!("G00 Z{}", f3(program.start_height())));
+    writer.text.push_str(setup_lines(program));
+    writer.line(&format!("G00 Z{}", three_decimals(program.start_height())));
     writer.line("G00 X0.000 Y0.000");
     for step in steps.as_ref() {
         match step {
@@ -170,10 +172,10 @@ pub fn write_program(
             ProgramStep::Comment(comment) => writer.program_comment(comment),
         }
         if writer.text.len() > most {
-            return Err(too_large(most));
+            return Err(output_too_large_error(most));
         }
     }
-    writer.line(&format!("G00 Z{}", f3(program.start_height())));
+    writer.line(&format!("G00 Z{}", three_decimals(program.start_height())));
     for line in
         statistics_lines(&statistics(program, options.rapid), options.lang, options.comment_style(program))
     {
@@ -181,11 +183,11 @@ pub fn write_program(
     }
     writer.line("M30\n%");
     writer.text.shrink_to_fit();
-    if writer.text.len() <= most { Ok(writer.text) } else { Err(too_large(most)) }
+    if writer.text.len() <= most { Ok(writer.text) } else { Err(output_too_large_error(most)) }
 }
 
 /// Creates PB005: a program exceeds the given number of bytes.
-pub fn too_large(most: usize) -> Box<Diagnostic> {
+pub fn output_too_large_error(most: usize) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(&files::OUTPUT_TOO_LARGE).with("limit", most).quoting("key", "output-size"))
 }
 
@@ -246,7 +248,7 @@ impl Writer<'_> {
                 self.z(z);
             }
             PlannedMove::Arc { feed, clockwise, centre, to, z, is_spiral } => {
-                let end = self.arc_end(to, centre, clockwise, length).filter(|_| !is_point(centre));
+                let end = self.arc_end(to, centre, clockwise, length).filter(|_| !is_point_arc(centre));
                 let Some(to) = end else {
                     return self.step(&PlannedMove::Line { feed, to, z }, length);
                 };
@@ -269,11 +271,11 @@ impl Writer<'_> {
     /// Returns the end to print for an arc: `to`, or a point near it if rounding would change the arc by almost a turn. `None` if a short arc cannot
     /// be printed as one.
     fn arc_end(&self, to: Xy, centre: Xy, clockwise: bool, length: f64) -> Option<Xy> {
-        if !is_doubtful(centre, length) {
+        if !is_doubtful_arc(centre, length) {
             return Some(to);
         }
         let end = PrintedArc::new(self.at, centre, clockwise).end(to, length);
-        end.or_else(|| (!is_short(length)).then_some(to))
+        end.or_else(|| (!is_short_arc(length)).then_some(to))
     }
 
     /// Returns the centre to print, relative to the position of the tool. Except in compatible programs, it is shifted by up to one unit of the last
@@ -286,7 +288,7 @@ impl Writer<'_> {
             from: [self.at.x, self.at.y],
             to: [to.x, to.y],
             centre: [centre.x, centre.y],
-            length: &printed,
+            length: &round_to_three_decimals,
             is_absolute: false,
             unit: 1.0,
         };
@@ -297,7 +299,7 @@ impl Writer<'_> {
     fn word(&mut self, letter: char, value: f64) {
         self.text.push(' ');
         self.text.push(letter);
-        push_f3(&mut self.text, value);
+        push_three_decimals(&mut self.text, value);
     }
 
     fn xy(&mut self, to: Xy) {
@@ -320,10 +322,16 @@ impl Writer<'_> {
             Comment::StartSubpath(name) => format!("START Subpath {}", names.get(name)),
             Comment::EndSubpath(name) => format!("END Subpath {}", names.get(name)),
             Comment::Element { kind, at, bottom, .. } => {
-                format!("{} [{}|{}] Z{}", self.kind_name(kind), f3(at.x), f3(at.y), f3(bottom))
+                format!(
+                    "{} [{}|{}] Z{}",
+                    self.kind_name(kind),
+                    three_decimals(at.x),
+                    three_decimals(at.y),
+                    three_decimals(bottom)
+                )
             }
             Comment::Pass { number, z } => {
-                format!("{} {number}: Z{}", self.options.lang.choose("Pass", "Durchgang"), f3(z))
+                format!("{} {number}: Z{}", self.options.lang.choose("Pass", "Durchgang"), three_decimals(z))
             }
         };
         self.comment(&text);
@@ -344,7 +352,7 @@ const DWELL: &str = "G04 P4";
 
 /// Writes the probing program, which probes at one point after the other and dwells after each.
 pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptions) -> String {
-    let clearance = f3(program.sweep_height);
+    let clearance = three_decimals(program.sweep_height);
     // If the tool makes no contact, G38.2 raises an alarm; with G38.3, which PathDxf2GCode writes, the machine continues.
     let probing = if program.compatible { "G38.3" } else { "G38.2" };
     let style = options.comment_style(program);
@@ -352,7 +360,7 @@ pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptio
     for line in first_lines(program, provenance) {
         _ = writeln!(text, "{}", style.comment(&line));
     }
-    text.push_str(setup(program));
+    text.push_str(setup_lines(program));
     _ = writeln!(text, "G00 Z{clearance}\nG00 X0.000 Y0.000");
     let mut at = Xy::origin();
     for (index, probe) in program.probes.iter().enumerate() {
@@ -363,11 +371,11 @@ pub fn probing_program(program: &Program, provenance: &str, options: &WriteOptio
             style.comment(&format!("{PROBE_COMMENT}{} {name}", FIRST_PARAMETER + index))
         );
         if !pathbuild_path::approx::is_negligible((probe.at - at).norm()) {
-            _ = writeln!(text, "G00 X{} Y{}", f3(probe.at.x), f3(probe.at.y));
+            _ = writeln!(text, "G00 X{} Y{}", three_decimals(probe.at.x), three_decimals(probe.at.y));
         }
         at = probe.at;
-        _ = writeln!(text, "G00 Z{}", f3(probe.height + program.tool));
-        _ = writeln!(text, "{probing} Z0 F{}\n{DWELL}\nG00 Z{clearance}", f3(probe.feed));
+        _ = writeln!(text, "G00 Z{}", three_decimals(probe.height + program.tool));
+        _ = writeln!(text, "{probing} Z0 F{}\n{DWELL}\nG00 Z{clearance}", three_decimals(probe.feed));
     }
     _ = writeln!(text, "G00 X0.000 Y0.000\nG00 Z{clearance}\nM30\n%");
     text
@@ -396,8 +404,8 @@ pub fn values_file(program: &Program, options: &WriteOptions) -> String {
 /// Formats the name of a probe in files: its position in the drawing, its label and the expected height.
 pub fn probe_name(probe: &ProbePoint) -> String {
     let label = probe.label.as_ref().map(|label| format!("/L:{label}")).unwrap_or_default();
-    let (x, y) = (f3(probe.drawn_at.x), f3(probe.drawn_at.y));
-    format!("[{x} {y}]{label}/T={}", f3(probe.height))
+    let (x, y) = (three_decimals(probe.drawn_at.x), three_decimals(probe.drawn_at.y));
+    format!("[{x} {y}]{label}/T={}", three_decimals(probe.height))
 }
 
 /// Formats the name of a probe and its position in the emitted drawing, because a path that is embedded twice has each of its probes twice.
@@ -406,7 +414,7 @@ fn name_and_place(probe: &ProbePoint, program: &Program) -> String {
     if program.compatible {
         return name;
     }
-    format!("{name} @ [{}|{}]", f3(probe.at.x), f3(probe.at.y))
+    format!("{name} @ [{}|{}]", three_decimals(probe.at.x), three_decimals(probe.at.y))
 }
 
 /// The characters and the notation with which comments are written.
@@ -422,8 +430,10 @@ impl CommentStyle {
         if !self.compatible {
             return Dialect::Native.comment(text, self.charset);
         }
-        let parts: Vec<String> =
-            text.split('(').map(|part| within_comment(part, Some(Dialect::Native), self.charset)).collect();
+        let parts: Vec<String> = text
+            .split('(')
+            .map(|part| comment_safe_text(part, Some(Dialect::Native), self.charset))
+            .collect();
         format!("({})", parts.join("("))
     }
 }
@@ -467,7 +477,7 @@ pub(crate) fn stated_length(comment: &str) -> Option<(&str, f64)> {
 pub(crate) fn kind_of_label(label: &str) -> Option<usize> {
     let is_meant = |known: &str| {
         let known = known.trim_end_matches(':');
-        known == label || within_comment(known, Some(Dialect::Native), Charset::Ascii) == label
+        known == label || comment_safe_text(known, Some(Dialect::Native), Charset::Ascii) == label
     };
     [Lang::En, Lang::De].iter().find_map(|lang| labels(*lang)[..4].iter().position(|known| is_meant(known)))
 }

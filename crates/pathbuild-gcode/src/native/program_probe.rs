@@ -7,7 +7,7 @@ use pathbuild_path::{Xy, parse_number};
 use pathbuild_toolpath::ProbePoint;
 use regex::Regex;
 
-use super::number::f3;
+use super::number::three_decimals;
 
 /// A probe, as the header lists it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,8 +36,14 @@ pub(super) const PROBE_COMMENT: &str = "Probe #";
 impl fmt::Display for ProgramProbe {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { drawn_at, height, .. } = self;
-        write!(f, "[{} {}] T={}", f3(drawn_at.x), f3(drawn_at.y), f3(*height))?;
-        self.at.map_or(Ok(()), |at| write!(f, " X{} Y{}", f3(at.x), f3(at.y)))
+        write!(
+            f,
+            "[{} {}] T={}",
+            three_decimals(drawn_at.x),
+            three_decimals(drawn_at.y),
+            three_decimals(*height)
+        )?;
+        self.at.map_or(Ok(()), |at| write!(f, " X{} Y{}", three_decimals(at.x), three_decimals(at.y)))
     }
 }
 

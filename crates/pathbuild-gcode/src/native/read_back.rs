@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Diagnostic, Value};
 use pathbuild_motion as motion;
 use pathbuild_motion::{Axes, Pace};
 use pathbuild_toolpath::{
-    Correction, LAST_DIGIT, PlannedMove, ProbePoint, Program, ProgramStep, is_doubtful,
+    Correction, LAST_DIGIT, PlannedMove, ProbePoint, Program, ProgramStep, is_doubtful_arc,
 };
 
 use crate::adjust::{FormulaText, formula_texts, probe_entries, without_comments};
@@ -27,7 +27,7 @@ const DECIMALS: i32 = 3;
 /// # Errors
 /// PB006 if the moves differ, which is a bug in pathbuild.
 pub fn read_back(text: &str, program: &Program) -> Result<(), Box<Diagnostic>> {
-    if is_read_back([text], program) {
+    if contains_exact_moves([text], program) {
         return Ok(());
     }
     let exactly = Tolerance::of_decimals(DECIMALS);
@@ -58,7 +58,7 @@ fn is_broken(problem: &Diagnostic) -> bool {
 
 /// Whether the text of a program, given in parts of whole lines, contains exactly the moves of the program. If not, [`read_back`] may still
 /// find them equivalent.
-pub fn is_read_back(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: &Program) -> bool {
+pub fn contains_exact_moves(parts: impl IntoIterator<Item = impl AsRef<[u8]>>, program: &Program) -> bool {
     let mut comparison = LockstepComparison::new(program.moves(), Tolerance::of_decimals(DECIMALS));
     let mut rules = Rules::new(None);
     let mut each = |step: motion::Step| {
@@ -151,7 +151,7 @@ const SHORT_LINE: usize = 20;
 fn has_doubtful_arcs(program: &Program) -> bool {
     let is_one = |step: &ProgramStep| match step {
         ProgramStep::Move { to: PlannedMove::Arc { centre, .. }, count } => {
-            is_doubtful(*centre, count.length)
+            is_doubtful_arc(*centre, count.length)
         }
         _ => false,
     };
@@ -191,13 +191,13 @@ pub fn formula_differences(text: &[u8], program: &Program, correction: Correctio
         match (found.next(), expected.next()) {
             (None, None) => break None,
             (Some(found), Some(expected)) if found.text == expected => {}
-            (found, expected) => break Some(not_drawn_error(found, expected)),
+            (found, expected) => break Some(formula_not_drawn_error(found, expected)),
         }
     };
     probe_difference(text, &program.probes).into_iter().chain(difference).collect()
 }
 
-fn not_drawn_error(found: Option<FormulaText>, expected: Option<String>) -> Diagnostic {
+fn formula_not_drawn_error(found: Option<FormulaText>, expected: Option<String>) -> Diagnostic {
     let none = || "-".to_owned();
     let line = found.as_ref().map(|found| found.line);
     let problem = Diagnostic::new(&say::FORMULA_NOT_DRAWN)

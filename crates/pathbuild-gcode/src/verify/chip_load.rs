@@ -16,13 +16,13 @@ pub struct ChipLoadRules {
     /// The spindle speed in 1/min that the program has set: 0 if it has stopped the spindle, `None` if it has set no speed.
     speed: Option<f64>,
     /// The tool, the feed and the speed of the last cut, which need not be checked again.
-    last: Option<Cut>,
-    reported: BTreeSet<Cut>,
+    last: Option<CutKey>,
+    reported: BTreeSet<CutKey>,
     problems: Problems,
 }
 
 /// Tool, feed and speed of a cut, as bits.
-type Cut = (usize, u64, Option<u64>);
+type CutKey = (usize, u64, Option<u64>);
 
 impl ChipLoadRules {
     /// Creates the rule for the limits of the tools.
@@ -42,7 +42,7 @@ impl ChipLoadRules {
             Action::Move(motion) => {
                 let Pace::Feed(feed) = motion.pace else { return };
                 // Moves that change the height are not checked, because feeds into the material are lower on purpose.
-                if feed > 0.0 && motion.axis_shares()[2] == 0.0 && motion.length() > 0.0 {
+                if feed > 0.0 && motion.axis_speed_fractions()[2] == 0.0 && motion.length() > 0.0 {
                     self.check(step, feed);
                 }
             }

@@ -76,9 +76,10 @@ pub fn compare(found: &[(u32, Move)], expected: &[(u32, Move)], tolerance: &Tole
     {
         return Some(difference);
     }
-    let (found, expected) = (counting_moves(found, tolerance.ends), counting_moves(expected, tolerance.ends));
+    let (found, expected) =
+        (comparable_moves(found, tolerance.ends), comparable_moves(expected, tolerance.ends));
     let (mut found, mut expected) = (Walker::new(&found), Walker::new(&expected));
-    if let Err(kind) = begin_together(&mut found, &mut expected, tolerance) {
+    if let Err(kind) = advance_to_common_start(&mut found, &mut expected, tolerance) {
         return Some(difference(kind, &found, &expected));
     }
     loop {
@@ -86,8 +87,8 @@ pub fn compare(found: &[(u32, Move)], expected: &[(u32, Move)], tolerance: &Tole
         let belong_together =
             matches!(pair, (Some(ours), Some(theirs)) if ours.end_together(&theirs, tolerance.place));
         if !belong_together
-            && (skip_standing(&mut found, &expected, tolerance)
-                || skip_standing(&mut expected, &found, tolerance))
+            && (skip_rounding_move(&mut found, &expected, tolerance)
+                || skip_rounding_move(&mut expected, &found, tolerance))
         {
             continue;
         }
@@ -112,7 +113,7 @@ pub(crate) fn is_same_move(found: &Move, expected: &Move, tolerance: &Tolerance)
         let ours = Course::new(ours, &found.from, &found.to);
         let theirs = Course::new(theirs, &expected.from, &expected.to);
         return is_near(&found.to.at, &expected.to.at, tolerance.place)
-            && are_alike(ours.length(), theirs.length(), tolerance.place)
+            && are_similar_lengths(ours.length(), theirs.length(), tolerance.place)
             && check_pace(found, expected, tolerance).is_ok()
             && is_same_course(&ours, &theirs, tolerance);
     }
@@ -226,7 +227,7 @@ fn check_unplaced(ours: &Move, theirs: &Move, tolerance: &Tolerance) -> Result<(
 }
 
 /// Selects the moves to be compared along their course: those to known positions, and at both ends of the program only those that `ends` requires.
-fn counting_moves(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
+fn comparable_moves(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
     let is_known = |(_, movement): &(u32, Move)| movement.to.known == Axes::ALL;
     let is_cut = |movement: &(u32, Move)| is_known(movement) && movement.1.pace != Pace::Rapid;
     let (first, end) = match ends {
@@ -248,7 +249,7 @@ fn counting_moves(moves: &[(u32, Move)], ends: Ends) -> Cow<'_, [(u32, Move)]> {
 }
 
 /// Advances both programs to their first common position, skipping rapid moves of one of them.
-fn begin_together(
+fn advance_to_common_start(
     found: &mut Walker<'_>,
     expected: &mut Walker<'_>,
     tolerance: &Tolerance,
@@ -267,7 +268,7 @@ fn begin_together(
 
 /// Skips a move that is too short to be anything but rounding, if it ends at the position reached in the other program. Returns whether a move was
 /// skipped.
-fn skip_standing(one: &mut Walker<'_>, other: &Walker<'_>, tolerance: &Tolerance) -> bool {
+fn skip_rounding_move(one: &mut Walker<'_>, other: &Walker<'_>, tolerance: &Tolerance) -> bool {
     let Some(stretch) = one.stretch() else { return false };
     let here = other.place().unwrap_or(stretch.end());
     // The rounded end of a short arc must differ from its start, or the arc would be a full circle; the writer therefore extends the arc by
@@ -479,7 +480,7 @@ impl Stretch {
     pub(super) fn end_together(&self, other: &Self, slack: f64) -> bool {
         let from_unknown = self.movement.from.known != Axes::ALL || other.movement.from.known != Axes::ALL;
         is_near(&self.end(), &other.end(), slack)
-            && (from_unknown || are_alike(self.length, other.length, slack))
+            && (from_unknown || are_similar_lengths(self.length, other.length, slack))
     }
 
     /// Returns the fraction of the move at which it is nearest to a position about `along` mm ahead; `None` if the move has no length.
@@ -513,7 +514,7 @@ impl Stretch {
 }
 
 /// Whether the lengths in mm of two paths between the same ends are so similar that neither path has a full turn more.
-pub(super) fn are_alike(one: f64, other: f64, slack: f64) -> bool {
+pub(super) fn are_similar_lengths(one: f64, other: f64, slack: f64) -> bool {
     one.max(other) <= 1.25 * one.min(other) + 10.0 * slack
 }
 

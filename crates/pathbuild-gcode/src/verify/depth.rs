@@ -36,7 +36,7 @@ impl DepthRules {
                 self.depths.add(self.moves, movement);
                 self.moves += 1;
             }
-            Action::System { .. } => self.leave_frame(step),
+            Action::System { .. } => self.forget_cuts_of_frame(step),
             Action::Stop { .. } => self.report_at_cut(&say::STOP_AT_CUT, step.line),
             Action::ChangeTool(_) => self.report_at_cut(&say::CHANGE_AT_CUT, step.line),
             _ => {}
@@ -44,7 +44,7 @@ impl DepthRules {
     }
 
     /// Forgets the cuts so far if the step begins another coordinate system whose position relative to the previous one is not known.
-    fn leave_frame(&mut self, step: &Step) {
+    fn forget_cuts_of_frame(&mut self, step: &Step) {
         if self.frames.step(step) {
             self.depths.cut = None;
             self.depths.at_cut = None;

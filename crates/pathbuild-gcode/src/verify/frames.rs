@@ -45,10 +45,10 @@ impl Frames {
     pub(super) fn check<P: Program + ?Sized>(self, program: &P, stock: &Stock, problems: &mut Problems) {
         let mut check = |program: &dyn Program| material::check(program, stock, problems);
         if self.used.len() <= 1 {
-            return check(&Whole(program));
+            return check(&WholeProgram(program));
         }
         for frame in self.used {
-            check(&InFrame { program, frame });
+            check(&MovesInFrame { program, frame });
         }
     }
 
@@ -68,9 +68,9 @@ impl Frames {
     }
 }
 
-struct Whole<'p, P: ?Sized>(&'p P);
+struct WholeProgram<'p, P: ?Sized>(&'p P);
 
-impl<P: Program + ?Sized> Program for Whole<'_, P> {
+impl<P: Program + ?Sized> Program for WholeProgram<'_, P> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
         self.0.each(take);
     }
@@ -103,12 +103,12 @@ impl<P: Program + ?Sized> Program for CutsAndRapids<'_, P> {
 }
 
 /// The moves of a program in one frame. The first move after those in another frame has an unknown start.
-struct InFrame<'p, P: ?Sized> {
+struct MovesInFrame<'p, P: ?Sized> {
     program: &'p P,
     frame: Frame,
 }
 
-impl<P: Program + ?Sized> Program for InFrame<'_, P> {
+impl<P: Program + ?Sized> Program for MovesInFrame<'_, P> {
     fn each(&self, take: &mut dyn FnMut(&Step)) {
         let mut current = Frame::default();
         let mut is_entered = true;

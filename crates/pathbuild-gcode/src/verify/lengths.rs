@@ -27,9 +27,9 @@ pub struct LengthRules<'c> {
     /// The line and the tool of the first cut with a known tool before any length was applied.
     bare: Option<(u32, u32)>,
     /// The cuts with the length of an H number other than that of the tool.
-    cuts_with_other_entry: Vec<OtherEntry>,
+    cuts_with_other_entry: Vec<MismatchedLength>,
     /// The rapid moves that state Z with the length in an H whose number is not that of the tool.
-    rapids_with_other_entry: Vec<OtherEntry>,
+    rapids_with_other_entry: Vec<MismatchedLength>,
     tools_with_own_length: BTreeSet<u32>,
     /// The line and the tool of the first rapid move that states Z with a known tool before any length was applied.
     bare_rapid: Option<(u32, u32)>,
@@ -45,7 +45,7 @@ pub struct LengthRules<'c> {
     first_inserted: Option<u32>,
     /// Whether the program has cut since the last M6.
     has_cut_since_change: bool,
-    waiting: Option<WaitingTool>,
+    waiting: Option<PreselectedTool>,
     /// The line of the last T word.
     selected_line: u32,
     /// Problems of tools that T selects without a stop before the next cut. They are reported only if the program has no M6.
@@ -55,7 +55,7 @@ pub struct LengthRules<'c> {
 
 /// A tool that has cut, or made a rapid move, with the length in an H whose number is not that of the tool.
 #[derive(Clone, Copy, Debug)]
-struct OtherEntry {
+struct MismatchedLength {
     /// The line that set the length, or that of the rapid move.
     line: u32,
     tool: u32,
@@ -64,7 +64,7 @@ struct OtherEntry {
 
 /// A tool that T has selected but M6 has not inserted.
 #[derive(Clone, Copy, Debug)]
-struct WaitingTool {
+struct PreselectedTool {
     /// The line of the T word.
     line: u32,
     number: u32,
@@ -111,7 +111,7 @@ impl<'c> LengthRules<'c> {
                     self.first_inserted = *number;
                 }
                 self.has_cut_since_change = false;
-                self.leave_waiting(*number);
+                self.report_abandoned_tool(*number);
             }
             Action::Change(Change::ToolLength(length)) => {
                 self.begin_length();
@@ -161,14 +161,15 @@ impl<'c> LengthRules<'c> {
     /// Handles a T word, which on controls with a tool changer may only prepare the next change.
     fn check_selected_tool(&mut self, line: u32, number: u32) {
         self.selected_line = line;
-        self.leave_waiting(Some(number));
+        self.report_abandoned_tool(Some(number));
         let is_new = self.has_changed && self.tools.inserted() != Some(number);
         let may_be_for_next_run = self.first_inserted == Some(number) && !self.has_cut_since_change;
-        self.waiting = is_new.then_some(WaitingTool { line, number, has_cut: false, may_be_for_next_run });
+        self.waiting =
+            is_new.then_some(PreselectedTool { line, number, has_cut: false, may_be_for_next_run });
     }
 
-    /// Reports the waiting tool if another one takes its place after cuts that were probably meant for it.
-    fn leave_waiting(&mut self, next: Option<u32>) {
+    /// Reports the preselected tool if another one takes its place after cuts that were probably meant for it.
+    fn report_abandoned_tool(&mut self, next: Option<u32>) {
         let Some(waiting) = self.waiting.take().filter(|waiting| waiting.has_cut) else { return };
         if next == Some(waiting.number) {
             return;
@@ -195,7 +196,7 @@ impl<'c> LengthRules<'c> {
                 self.wrong_rapid.add_at_line(&say::RAPID_WITHOUT_LENGTH, line, |d| d.with("set", set));
             }
             (LengthFit::OfEntry(entry), Some(tool), _) => {
-                add_once(&mut self.rapids_with_other_entry, OtherEntry { line, tool, entry });
+                add_once(&mut self.rapids_with_other_entry, MismatchedLength { line, tool, entry });
             }
             (LengthFit::Off | LengthFit::Unstated, Some(tool), None) => {
                 self.bare_rapid.get_or_insert((line, tool));
@@ -205,7 +206,7 @@ impl<'c> LengthRules<'c> {
     }
 
     /// Drops the finding about a rapid move with the current tool and length, and checks no further one, because a cut is reported instead.
-    fn forgive_rapid(&mut self) {
+    fn drop_rapid_finding(&mut self) {
         self.wrong_rapid = Problems::default();
         self.is_rapid_checked = true;
     }
@@ -219,14 +220,14 @@ impl<'c> LengthRules<'c> {
         let (tool, set) = (self.tools.inserted(), self.tools.length_line().unwrap_or(step.line));
         match (self.tools.length_fit(), tool, self.first) {
             (LengthFit::Outdated, ..) => {
-                self.forgive_rapid();
+                self.drop_rapid_finding();
                 let change = change_word(tool);
                 self.problems.add_at_line(&say::LENGTH_BEFORE_CHANGE, step.line, |d| {
                     d.quoting("change", change).with("set", u64::from(set))
                 });
             }
             (LengthFit::Off, _, Some(first)) => {
-                self.forgive_rapid();
+                self.drop_rapid_finding();
                 self.problems.add_at_line(&say::LENGTH_SWITCHED_OFF, step.line, |d| {
                     d.with("set", u64::from(set)).with("first", u64::from(first))
                 });
@@ -235,7 +236,7 @@ impl<'c> LengthRules<'c> {
                 self.bare.get_or_insert((step.line, tool));
             }
             (LengthFit::OfEntry(entry), Some(tool), _) => {
-                add_once(&mut self.cuts_with_other_entry, OtherEntry { line: set, tool, entry });
+                add_once(&mut self.cuts_with_other_entry, MismatchedLength { line: set, tool, entry });
             }
             (LengthFit::Fits, Some(tool), _) => _ = self.tools_with_own_length.insert(tool),
             _ => {}
@@ -245,7 +246,7 @@ impl<'c> LengthRules<'c> {
     /// Returns all problems, ordered by line.
     pub fn finish(mut self) -> Vec<Diagnostic> {
         self.waiting = self.waiting.filter(|waiting| !waiting.may_be_for_next_run);
-        self.leave_waiting(None);
+        self.report_abandoned_tool(None);
         self.begin_length();
         if !self.has_changed {
             self.problems.append(std::mem::take(&mut self.unchanged));
@@ -260,7 +261,7 @@ impl<'c> LengthRules<'c> {
                 d.with("tool", u64::from(tool)).with("first", u64::from(first))
             });
         }
-        for OtherEntry { line, tool, entry } in std::mem::take(&mut self.rapids_with_other_entry) {
+        for MismatchedLength { line, tool, entry } in std::mem::take(&mut self.rapids_with_other_entry) {
             // Some shops number H independently of T, but then neither the tool cuts with its own H, nor another tool with this one.
             let is_wrong = [tool, entry].iter().any(|number| self.tools_with_own_length.contains(number));
             let is_reported =
@@ -271,7 +272,7 @@ impl<'c> LengthRules<'c> {
                 });
             }
         }
-        for OtherEntry { line, tool, entry } in std::mem::take(&mut self.cuts_with_other_entry) {
+        for MismatchedLength { line, tool, entry } in std::mem::take(&mut self.cuts_with_other_entry) {
             // Some shops number H independently of T, but then no other tool cuts with this H.
             let is_taken = self.tools_with_own_length.contains(&entry);
             let message = if is_taken { &say::LENGTH_OF_OTHER_TOOL } else { &say::LENGTH_OF_OTHER_NUMBER };
@@ -284,7 +285,7 @@ impl<'c> LengthRules<'c> {
 }
 
 /// Adds an entry unless there is one with the same tool and H.
-fn add_once(entries: &mut Vec<OtherEntry>, new: OtherEntry) {
+fn add_once(entries: &mut Vec<MismatchedLength>, new: MismatchedLength) {
     if !entries.iter().any(|known| (known.tool, known.entry) == (new.tool, new.entry)) {
         entries.push(new);
     }

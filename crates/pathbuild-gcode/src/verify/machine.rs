@@ -126,7 +126,7 @@ impl<'m> MachineRules<'m> {
                 .problems
                 .add_at_line(&say::FEED_ABOVE_MOST, line, |d| d.with("feed", feed).with("most", most));
         }
-        for (axis, share) in movement.axis_shares().into_iter().enumerate() {
+        for (axis, share) in movement.axis_speed_fractions().into_iter().enumerate() {
             if let Some(most) = self.machine.rates[axis].filter(|most| feed * share > most * (1.0 + 1e-9)) {
                 self.last_feed = Some(feed);
                 return self.problems.add_at_line(&say::FEED_TOO_HIGH, line, |d| {

@@ -74,7 +74,7 @@ fn apply_moves(
     look: &mut dyn FnMut(&mut KnownMaterial<'_>, &Step, &Move, &mut Problems),
 ) {
     let mut extent = MaterialEstimate::default();
-    each_followed_move(program, stock, &mut |step, movement| extent.add(step, movement, stock));
+    each_checkable_move(program, stock, &mut |step, movement| extent.add(step, movement, stock));
     if extent.pieces > stock.most_pieces {
         let (line, limit) = (extent.line, stock.most_pieces);
         return problems.add_at_line(&say::TOO_MANY_PIECES, line, |d| {
@@ -87,7 +87,7 @@ fn apply_moves(
     let mut material = KnownMaterial::new(stock, resolution, stock.cells());
     let mut reached = 0;
     let mut each = |take: &mut dyn FnMut(&mut KnownMaterial<'_>, &Step, &Move)| {
-        each_followed_move(program, stock, &mut |step, movement| {
+        each_checkable_move(program, stock, &mut |step, movement| {
             if !material.map.is_exhausted() {
                 reached = step.line;
                 take(&mut material, step, movement);
@@ -139,7 +139,7 @@ pub(super) fn have_cleared_path<'c>(
 
 /// Passes each move to `take`, with its step. A move whose end is unknown only ends an excursion. A rapid move whose start is unknown is replaced by a vertical one
 /// to its end: whether that end is in the material does not depend on where the tool comes from.
-fn each_followed_move(program: &(impl Program + ?Sized), stock: &Stock, take: &mut dyn FnMut(&Step, &Move)) {
+fn each_checkable_move(program: &(impl Program + ?Sized), stock: &Stock, take: &mut dyn FnMut(&Step, &Move)) {
     let highest = stock.highest().filter(|highest| highest.is_finite());
     program.each(&mut |step| {
         let Action::Move(movement) = &step.action else { return };
@@ -208,7 +208,8 @@ impl MaterialEstimate {
         };
         let coarse = stock.resolution().max(least(visited, cells));
         let fine = FINE_RESOLUTION.max(least(visited + self.overlap, FINE_VISITED_CELLS.min(cells)));
-        let resolution = if stock.is_flat() && self.passes > 0.0 { coarse.min(fine) } else { coarse };
+        let resolution =
+            if stock.has_only_flat_cutters() && self.passes > 0.0 { coarse.min(fine) } else { coarse };
         let is_of_use = stock.narrowest().is_none_or(|cutter| resolution * MIN_CELLS_ACROSS_CUTTER <= cutter);
         (is_of_use && resolution.is_finite()).then_some(resolution)
     }
@@ -216,7 +217,7 @@ impl MaterialEstimate {
 
 struct KnownMaterial<'s> {
     stock: &'s Stock,
-    is_flat: bool,
+    has_only_flat_cutters: bool,
     /// The lowest surface of the stock in mm. Where the material is unknown, excursions are compared with this one, because a higher surface may be
     /// that of another sheet.
     lowest: Option<f64>,
@@ -230,8 +231,16 @@ struct KnownMaterial<'s> {
 impl<'s> KnownMaterial<'s> {
     fn new(stock: &'s Stock, resolution: f64, cells: u64) -> Self {
         let map = HeightMap::new(resolution, cells);
-        let (is_flat, lowest) = (stock.is_flat(), stock.lowest());
-        Self { stock, is_flat, lowest, resolution, map, excursions: Excursions::default(), has_hit: false }
+        let (has_only_flat_cutters, lowest) = (stock.has_only_flat_cutters(), stock.lowest());
+        Self {
+            stock,
+            has_only_flat_cutters,
+            lowest,
+            resolution,
+            map,
+            excursions: Excursions::default(),
+            has_hit: false,
+        }
     }
 
     /// Adds the material within O of a cutting move. Where the surface is unknown, material is only added along the rapid moves to be checked.
@@ -354,7 +363,11 @@ impl<'s> KnownMaterial<'s> {
     /// Returns the width in mm beside a cut that is not counted as material. The centre of a cell is exact, but coordinates are rounded, and chords
     /// deviate from their arc. If the cutter is not flat, the width of the cut is not known either.
     fn slack(&self) -> f64 {
-        if self.is_flat { RESIDUE_WIDTH + self.resolution / CELL_PER_SAGITTA } else { self.resolution }
+        if self.has_only_flat_cutters {
+            RESIDUE_WIDTH + self.resolution / CELL_PER_SAGITTA
+        } else {
+            self.resolution
+        }
     }
 
     fn parts(&self, movement: &Move) -> impl Iterator<Item = MovePiece> + use<> {
@@ -526,7 +539,7 @@ impl Cutter {
 
     /// Combines the cutter with another source's diameter: the smaller diameter removes material, the larger one collides with it.
     #[must_use]
-    pub fn or_diameter(self, diameter: f64) -> Self {
+    pub fn combined_with_diameter(self, diameter: f64) -> Self {
         Self {
             diameter: self.diameter.max(diameter),
             removed: self.removed.min(diameter),
@@ -655,7 +668,7 @@ impl Stock {
     }
 
     /// Whether every cutter clears exactly the width with which it collides. The exact width of any other cutter is not known.
-    fn is_flat(&self) -> bool {
+    fn has_only_flat_cutters(&self) -> bool {
         self.pieces
             .iter()
             .all(|piece| piece.cutter.removed == piece.cutter.colliding && piece.cutter.removed > 0.0)

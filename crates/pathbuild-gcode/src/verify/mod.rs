@@ -31,7 +31,7 @@ use pathbuild_diagnostic::Diagnostic;
 use pathbuild_motion::Step;
 
 pub use self::compare::same_move_lines;
-pub use against::{Agreement, Clamps, DrawingComparison, ExpectedProgram, ToolUse};
+pub use against::{Clamps, ComparisonResult, DrawingComparison, ExpectedProgram, ToolUse};
 pub use bent_rapids::BentRapidRules;
 pub use blind_rapids::{BlindRapidRules, BlindRapids};
 pub use chip_load::ChipLoadRules;

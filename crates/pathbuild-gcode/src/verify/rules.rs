@@ -165,7 +165,7 @@ impl<'c> Rules<'c> {
         self.report_stop();
         self.check_diagonal(line, movement);
         self.check_home_move(line, movement);
-        self.leave_frame(line, movement);
+        self.check_first_move_in_frame(line, movement);
         let replaces_probe =
             movement.pace != Pace::Rapid && self.check_announced_probe(Some((line, movement)));
         check_probe_direction(line, movement, &mut self.problems);
@@ -189,7 +189,7 @@ impl<'c> Rules<'c> {
     }
 
     /// Checks the first move in another coordinate system. The direction of this move is unknown.
-    fn leave_frame(&mut self, line: u32, movement: &Move) {
+    fn check_first_move_in_frame(&mut self, line: u32, movement: &Move) {
         let leaves = std::mem::take(&mut self.changes_frame);
         let rises = movement.keeps_xy() && movement.to.z() >= movement.from.z();
         if leaves && !rises && movement.named.is_none() {

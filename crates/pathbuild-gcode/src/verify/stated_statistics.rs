@@ -26,7 +26,7 @@ pub struct StatedStatistics {
 impl StatedStatistics {
     /// Processes the next step of the program.
     pub fn step(&mut self, step: &Step) {
-        let has_length = self.counting.counts(step);
+        let has_length = self.counting.includes_length(step);
         match &step.action {
             Action::Move(movement) => self.tally.add(movement, has_length),
             Action::Comment(text) => {

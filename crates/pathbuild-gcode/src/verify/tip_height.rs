@@ -92,7 +92,7 @@ impl TipHeight {
 
     /// Returns the line of the first move in the plane since the last stop, if it began at the height of that stop, and if the program has neither
     /// stated a height in a later move nor cut since.
-    pub fn moved_since_stop(&self) -> Option<u32> {
+    pub fn first_move_since_stop(&self) -> Option<u32> {
         match self.height {
             Height::Stopped { moved } => moved,
             _ => self.moved_aslant,
@@ -144,8 +144,8 @@ impl TipHeight {
         self.is_homed = !movement.to.known.has(Axes::Z) && (self.is_homed || movement.homes_z());
         let found = match self.height {
             Height::Known => None,
-            Height::Unstated => self.leave_start(movement),
-            Height::Stopped { .. } | Height::Changed => self.leave_stop(step, movement),
+            Height::Unstated => self.handle_move_without_height(movement),
+            Height::Stopped { .. } | Height::Changed => self.handle_move_after_stop(step, movement),
         };
         if movement.is_cut() {
             self.cutting = self.selected;
@@ -158,7 +158,7 @@ impl TipHeight {
 
     /// Handles a move before any height is known. A move to a machine position that does not change X or Y, such as `G53 Z0` or `G28 Z0`, is assumed
     /// to raise the tool, although the height is unknown.
-    fn leave_start(&mut self, movement: &Move) -> Option<&'static Message> {
+    fn handle_move_without_height(&mut self, movement: &Move) -> Option<&'static Message> {
         let is_raised = movement.to.known.has(Axes::Z) || (movement.homes_z() && movement.keeps_xy());
         let moves_in_plane = !movement.to.known.and(Axes::XY).is_empty() || homes_in_plane(movement);
         if is_raised || moves_in_plane {
@@ -169,7 +169,7 @@ impl TipHeight {
 
     /// Handles a move after a stop or a tool change. A coordinate that has not changed is treated as a move too, since the operator may have moved
     /// the axes.
-    fn leave_stop(&mut self, step: &Step, movement: &Move) -> Option<&'static Message> {
+    fn handle_move_after_stop(&mut self, step: &Step, movement: &Move) -> Option<&'static Message> {
         let stated = step.stated_since_stop;
         let rises = movement.keeps_xy() && (movement.homes_z() || movement.to.z() > movement.from.z());
         let is_height_known = rises || stated.has(Axes::Z);

@@ -157,7 +157,7 @@ impl ToolState {
 
     /// Whether the state that the program has set for the spindle differs from the expected one, or is missing. Nothing is compared where `None` is
     /// expected. Speeds may differ by `slack` in 1/min.
-    pub fn turns_otherwise(&self, turning: Option<Turning>, speed: Option<f64>, slack: f64) -> bool {
+    pub fn has_other_spindle_state(&self, turning: Option<Turning>, speed: Option<f64>, slack: f64) -> bool {
         // XpertMILL switches the spindle by events of its own, and the speed belongs to the layer.
         let is_tied = self.dialect.rules().layers;
         let differs = turning.is_some_and(|turning| turning != self.spindle.turning) && !is_tied;

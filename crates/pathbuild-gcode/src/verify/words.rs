@@ -23,7 +23,7 @@ const NATIVE_SAMPLE: &[u8] =
 pub struct PostWords {
     /// G and M words other than motions; codes are times ten.
     codes: BTreeSet<(char, u16)>,
-    /// The changes that its programs make and later positions do not show: see [`unfollowed_change`].
+    /// The changes that its programs make and later positions do not show: see [`untracked_change`].
     changes: BTreeSet<String>,
     /// The words that the post writes before the first move: codes (times ten) by group.
     pub(super) lead: BTreeMap<Group, u16>,
@@ -110,7 +110,7 @@ impl PostWords {
                 self.rapid_feed = Some(self.rapid_feed.map_or(*feed, |known| known.max(*feed)));
             }
             Action::Change(Change::Corners(Corners::Rounded(None))) => self.rounds_freely = true,
-            Action::Change(change) => self.changes.extend(unfollowed_change(change)),
+            Action::Change(change) => self.changes.extend(untracked_change(change)),
             _ => {}
         }
     }
@@ -163,12 +163,12 @@ impl ProgramStart {
     /// Processes the next step. Returns the finding about it; nothing if a move to a machine position has raised the cutter before.
     pub fn step(&mut self, step: &Step) -> Option<Diagnostic> {
         let Action::Move(movement) = &step.action else { return None };
-        let is_wrong = self.is_aslant(movement) && !self.has_gone_home;
+        let is_wrong = self.is_diagonal_start(movement) && !self.has_gone_home;
         is_wrong.then(|| Diagnostic::new(&say::START_ASLANT).at_line(step.line, None))
     }
 
     /// Processes the next move. Returns whether it is the first one in the plane, and goes from an unknown height to a known one.
-    fn is_aslant(&mut self, movement: &Move) -> bool {
+    fn is_diagonal_start(&mut self, movement: &Move) -> bool {
         self.has_gone_home |= movement.homes_z() && movement.keeps_xy();
         let is_first = moves_in_plane(movement) && !std::mem::replace(&mut self.has_moved_in_plane, true);
         is_first && movement.to.known.has(Axes::Z) && !movement.from.known.has(Axes::Z)
@@ -266,10 +266,10 @@ impl<'w> WordRules<'w> {
     /// Checks the first move in the plane. In a comparison, it may be inclined if that of the post's programs is, and a move to a machine position
     /// before it does not count as raising the cutter. (Moves at unknown height are checked in [`super::rules`].)
     fn check_start(&mut self, line: u32, movement: &Move) {
-        let is_aslant = self.start.is_aslant(movement);
+        let is_diagonal_start = self.start.is_diagonal_start(movement);
         let raises_first = self.words.raises_first == Some(true);
         let is_wrong = if self.is_strict { raises_first } else { !self.start.has_gone_home };
-        if is_aslant && is_wrong {
+        if is_diagonal_start && is_wrong {
             let severity = if self.is_strict { Severity::Error } else { Severity::Warning };
             self.problems.add_at_line(&say::START_ASLANT, line, |d| Diagnostic { severity, ..d });
         }
@@ -313,13 +313,13 @@ pub fn foreign_modes(steps: &[Step], words: &PostWords, dialect: Dialect) -> Vec
                 if let Some(group) = word.group {
                     missing.remove(&group);
                 }
-                if is_beside_moves(*word) && !words.has(word.letter, word.code) {
+                if is_not_shown_by_positions(*word) && !words.has(word.letter, word.code) {
                     let word = code_name(word.letter, word.code);
                     problems.add_at_line(&say::NOT_IN_DRAWING, step.line, |d| d.quoting("word", word));
                 }
             }
             Action::Change(change) => {
-                let word = unfollowed_change(change).filter(|word| !words.changes.contains(word));
+                let word = untracked_change(change).filter(|word| !words.changes.contains(word));
                 if let Some(word) = word {
                     problems.add_at_line(&say::NOT_IN_DRAWING, step.line, |d| d.quoting("word", word));
                 }
@@ -340,7 +340,7 @@ fn report_missing(missing: &mut BTreeMap<Group, u16>, line: u32, problems: &mut 
 }
 
 /// Returns the name of a change that later positions do not show: a zero that only the machine knows, or a parameter.
-fn unfollowed_change(change: &Change) -> Option<String> {
+fn untracked_change(change: &Change) -> Option<String> {
     match change {
         Change::Offsets { code, is_followed: false, .. } => Some(code_name('G', *code)),
         Change::Parameter => Some("#".to_owned()),
@@ -349,6 +349,6 @@ fn unfollowed_change(change: &Change) -> Option<String> {
 }
 
 /// Whether a word changes the tool, its length or the plane, which the positions of straight moves do not show.
-fn is_beside_moves(word: StatedWord) -> bool {
+fn is_not_shown_by_positions(word: StatedWord) -> bool {
     matches!(word.group, Some(Group::ToolLength | Group::Plane)) || (word.letter, word.code) == ('M', 60)
 }

@@ -33,7 +33,7 @@ use crate::variables::{Bindings, Interpolation};
 
 /// The outcome of binding a path that may have errors: as much of the path as is known, and the problems with its values.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct ExaminedPath {
+pub struct PartiallyBoundPath {
     /// The path; one with [faults](Path::has_faults) serves only to find further problems. `None` if nothing is drawn.
     pub path: Option<Path>,
     /// Problems with the path's values, unless they merely follow from errors in the drawing.
@@ -44,17 +44,17 @@ pub struct ExaminedPath {
 ///
 /// The bindings must match the path's variable definitions.
 pub fn bind(raw: &RawPath, bindings: &Bindings, language: &Language) -> (Option<Path>, Vec<Diagnostic>) {
-    let ExaminedPath { path, problems } = examine(raw, bindings, language);
+    let PartiallyBoundPath { path, problems } = bind_leniently(raw, bindings, language);
     (path.filter(|path| !path.has_faults()), problems)
 }
 
 /// Binds a raw path to values, even if the path has errors, and reports problems with the values.
-pub fn examine(raw: &RawPath, bindings: &Bindings, language: &Language) -> ExaminedPath {
+pub fn bind_leniently(raw: &RawPath, bindings: &Bindings, language: &Language) -> PartiallyBoundPath {
     let mut binder = Binder::new(raw, bindings, language);
     let path = binder.path();
     let mut problems = binder.problems;
     group_missing(&mut problems);
-    ExaminedPath { path, problems }
+    PartiallyBoundPath { path, problems }
 }
 
 struct Binder<'a> {
@@ -245,7 +245,7 @@ impl<'a> Binder<'a> {
             let number = u32::try_from(drawn.elements.len()).unwrap_or(u32::MAX);
             drawn.elements.push(element.clone());
             let kind = SegmentKind::Sweep { height: None };
-            path.segments.push(Segment { element: number, order: UNNUMBERED, kind });
+            path.segments.push(Segment { element: number, order: ORDER_WITHOUT_N, kind });
         }
     }
 
@@ -340,7 +340,7 @@ impl<'a> Binder<'a> {
         class: ElementClass,
     ) -> Values<'a> {
         let Some(text) = text else { return Values::default() };
-        if self.raw.may_be_of_path(text) {
+        if self.raw.may_be_start_text(text) {
             return Values::default();
         }
         let mut values = Values::of(text, class, &self.interpolation);
@@ -433,7 +433,7 @@ pub fn regex_reason(error: &regex::Error) -> Value {
 }
 
 /// Order of elements without N among the segments that meet at a point. (book: language/chains-and-passes)
-const UNNUMBERED: f64 = 9998.0;
+const ORDER_WITHOUT_N: f64 = 9998.0;
 
 impl Binder<'_> {
     fn bind_segments(&mut self, tool: Option<f64>) {
@@ -454,7 +454,7 @@ impl Binder<'_> {
                 }
                 // The texts of sweeps and disabled subpaths with these line types are ignored.
                 (Role::SilentSweep | Role::SkippedSubpath, _) => {
-                    segments.push(segment(UNNUMBERED, SegmentKind::Sweep { height: None }));
+                    segments.push(segment(ORDER_WITHOUT_N, SegmentKind::Sweep { height: None }));
                 }
                 _ => segments
                     .extend(self.bind_other_element(element).map(|(order, kind)| segment(order, kind))),
@@ -514,7 +514,7 @@ impl Binder<'_> {
         self.unknown.order |=
             scope.values.number(Letter::N) == GivenNumber::Faulty && scope.values.has(Letter::N);
         self.may_hide_order |= scope.values.unread.contains(Letter::N);
-        self.value(scope, Letter::N).unwrap_or(UNNUMBERED)
+        self.value(scope, Letter::N).unwrap_or(ORDER_WITHOUT_N)
     }
 
     fn subpath(&mut self, element: &Element, scope: &Scope<'_>, curve: Curve) -> Subpath {

@@ -114,7 +114,7 @@ impl PathPattern {
     }
 
     /// Returns the path name that a text becomes if its underscores and commas are replaced by points; `None` if that is no path name.
-    pub(crate) fn name_meant_by(&self, text: &str) -> Option<PathName> {
+    pub(crate) fn corrected_name(&self, text: &str) -> Option<PathName> {
         let meant = text.replace(['_', ','], ".");
         self.matches(&meant).then(|| PathName(meant.into()))
     }

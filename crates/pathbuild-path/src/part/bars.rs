@@ -134,7 +134,7 @@ fn whole_bars(path: &PathCuts) -> Vec<Vec<(&StandingBar, Curve)>> {
         let mut next = 0;
         while let Some(member) = group.get(next).copied() {
             for other in boxes.near(extent(member)) {
-                if !is_grouped[other] && meeting_point(&bars[member].1, &bars[other].1).is_some() {
+                if !is_grouped[other] && common_end(&bars[member].1, &bars[other].1).is_some() {
                     is_grouped[other] = true;
                     group.push(other);
                 }
@@ -149,14 +149,14 @@ fn whole_bars(path: &PathCuts) -> Vec<Vec<(&StandingBar, Curve)>> {
 /// Margin in mm around the boxes of bars, larger than the distance up to which ends coincide.
 const BOX_MARGIN: f64 = 0.01;
 
-fn meeting_point(one: &Curve, other: &Curve) -> Option<Xy> {
+fn common_end(one: &Curve, other: &Curve) -> Option<Xy> {
     let ends = [one.start(), one.end()];
     ends.into_iter().find(|end| [other.start(), other.end()].iter().any(|at| approx::coincide(*end, *at)))
 }
 
 /// Returns the midpoint of a bar, or the first corner round which it stands.
 fn middle_of(sections: &[Curve]) -> Xy {
-    let corner = sections.windows(2).find_map(|pair| meeting_point(&pair[0], &pair[1]));
+    let corner = sections.windows(2).find_map(|pair| common_end(&pair[0], &pair[1]));
     let middle = || sections.first().map(Curve::middle);
     corner.or_else(middle).unwrap_or_else(Xy::origin)
 }
@@ -178,7 +178,7 @@ impl BarLoss<'_> {
         let mut losses = Losses::new();
         let mut start = 0.0;
         for (bar, middle) in self.bar {
-            for number in self.cuts.covering(middle, self.tolerance) {
+            for number in self.cuts.possibly_covering_cuts(middle, self.tolerance) {
                 let cut = &self.cuts.cuts[number];
                 let Some(below) = cut.cut.way.part_below(bar.top - self.tolerance) else { continue };
                 let mut stretches = Vec::new();

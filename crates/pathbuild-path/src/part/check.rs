@@ -10,7 +10,9 @@ use super::cuts::{CutIndex, IndexedCut, PathCuts};
 use super::enclosure::Enclosure;
 use super::gouge::{ClassifiedCut, ClassifiedCuts, Gouge, classify_cuts, gouges};
 use super::intervals::offset_curve;
-use super::leftover::{Beside, LeftMaterial, Leftover, LeftoverSearch, Leftovers, UnreachableOutline};
+use super::leftover::{
+    AdjacentCut, Leftover, LeftoverMaterial, LeftoverSearch, Leftovers, UnreachableOutline,
+};
 use super::prepared::{PreparedPart, Side};
 use super::{Part, PartRing, PartSettings};
 use crate::boxes::{may_be_near, widened_box};
@@ -29,7 +31,7 @@ pub struct PartFindings {
     /// For each path, the indices of the parts that may belong to it and to which it comes within O, and of those that its cuts spoil.
     pub parts: Vec<Vec<usize>>,
     /// The material that each path leaves at outlines, by path.
-    pub left: Vec<Vec<LeftMaterial>>,
+    pub left: Vec<Vec<LeftoverMaterial>>,
     /// The parts that nothing holds: for each, its index, and that of the path whose cut makes it loose.
     pub loose: Vec<(usize, usize)>,
     /// For each path, the centre lines of its support bars that are cut away.
@@ -155,7 +157,7 @@ impl<'s> PartCheck<'s> {
         let rings = self.part.part.rings.iter().enumerate();
         let inner = rings.filter(|(_, drawn)| !drawn.around.is_empty());
         let is_cut = |ring: usize, drawn: &PartRing| {
-            self.has_bars_outside(ring, drawn) || self.is_cut_round(ring, drawn)
+            self.has_bars_outside(ring, drawn) || self.has_cut_around(ring, drawn)
         };
         inner.filter(move |(ring, drawn)| is_cut(*ring, drawn)).map(|(ring, _)| ring)
     }
@@ -178,7 +180,7 @@ impl<'s> PartCheck<'s> {
     }
 
     /// Whether cuts through the plate follow the whole outside of a ring within O, and none lies directly inside the ring.
-    fn is_cut_round(&self, ring: usize, drawn: &PartRing) -> bool {
+    fn has_cut_around(&self, ring: usize, drawn: &PartRing) -> bool {
         let is_followed = |curve: &Curve, share: f64| {
             let extent = widened_box(curve, 0.0);
             self.cuts.near(extent).any(|number| self.is_beside_outside(ring, curve, share, number))
@@ -194,7 +196,9 @@ impl<'s> PartCheck<'s> {
         let cut = &self.cuts.cuts[number];
         let IndexedCut { path, radius, .. } = cut;
         // The right of an opening's curves is inside it.
-        let Some((through, away)) = cut.through().zip(offset_curve(curve, -radius)) else { return false };
+        let Some((through, away)) = cut.through_section().zip(offset_curve(curve, -radius)) else {
+            return false;
+        };
         let at = away.at(share * away.length());
         let Side::Openings(around) = self.part.side(at) else { return false };
         let rings = &self.part.part.rings;
@@ -215,7 +219,7 @@ impl<'s> PartCheck<'s> {
             *inner != ring
                 && matches!(self.part.side(start), Side::Openings(around) if around.contains(&ring))
         };
-        judged.cut.through().is_some() && around.contains(&ring) && !around.iter().any(is_in_ring)
+        judged.cut.through_section().is_some() && around.contains(&ring) && !around.iter().any(is_in_ring)
     }
 
     /// Returns the findings about the part, each with the index of its path. Whether material is left depends on the cuts of all owners together.
@@ -270,7 +274,7 @@ impl<'s> PartCheck<'s> {
     ) -> Vec<(usize, Diagnostic)> {
         let mut of_elements: BTreeMap<(usize, u32, bool), Vec<&Leftover>> = BTreeMap::new();
         for left in stretches {
-            let is_through = left.beside == Beside::ThroughCut;
+            let is_through = left.beside == AdjacentCut::ThroughCut;
             of_elements.entry((left.path, left.element, !is_through)).or_default().push(left);
         }
         let mut found: Vec<(usize, Diagnostic)> = Vec::new();
@@ -372,13 +376,13 @@ fn leftover_problem(stretches: &[&Leftover], corner_radius: f64) -> Option<Diagn
     let longest =
         stretches.iter().reduce(|best, next| if best.is_exceeded_by(next) { next } else { best })?;
     let problem = match longest.beside {
-        Beside::ThroughCut => Diagnostic::new(&messages::LEFTOVER).with("thickness", longest.thickness),
-        Beside::RoundTip(height) => Diagnostic::new(&messages::ROUND_TIP)
+        AdjacentCut::ThroughCut => Diagnostic::new(&messages::LEFTOVER).with("thickness", longest.thickness),
+        AdjacentCut::RoundTip(height) => Diagnostic::new(&messages::ROUND_TIP)
             .with("thickness", longest.thickness)
             .with("height", height)
             .with("bottom", -corner_radius),
-        Beside::ShallowCut(height) => Diagnostic::new(&messages::NOT_CUT_THROUGH).with("height", height),
-        Beside::Sweep => Diagnostic::new(&messages::SWEEP_ALONG_OUTLINE),
+        AdjacentCut::ShallowCut(height) => Diagnostic::new(&messages::NOT_CUT_THROUGH).with("height", height),
+        AdjacentCut::Sweep => Diagnostic::new(&messages::SWEEP_ALONG_OUTLINE),
     };
     let problem =
         problem.with("from", diagnostic_point(longest.from)).with("to", diagnostic_point(longest.to));

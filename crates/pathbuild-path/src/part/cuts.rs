@@ -180,7 +180,9 @@ impl<'c> CutIndex<'c> {
     /// Whether a cut may cut out an outline beside it: it goes through the plate, belongs to a segment with support bars, or is milled
     /// with a slot cutter.
     pub(super) fn may_cut_out(&self, cut: &IndexedCut<'c>) -> bool {
-        cut.through().is_some() || cut.element(self).supported.is_some() || self.paths[cut.path].is_slot
+        cut.through_section().is_some()
+            || cut.element(self).supported.is_some()
+            || self.paths[cut.path].is_slot
     }
 
     /// Returns the numbers of the sweeps that may run beside a curve at a distance of half of O, in ascending order.
@@ -189,7 +191,11 @@ impl<'c> CutIndex<'c> {
     }
 
     /// Returns the numbers of the cuts that may cover part of a curve by more than `tolerance` mm, in ascending order.
-    pub(super) fn covering(&self, curve: &Curve, tolerance: f64) -> impl Iterator<Item = usize> {
+    pub(super) fn possibly_covering_cuts(
+        &self,
+        curve: &Curve,
+        tolerance: f64,
+    ) -> impl Iterator<Item = usize> {
         self.boxes.near(widened_box(curve, self.largest_radius - tolerance))
     }
 }
@@ -201,7 +207,7 @@ impl IndexedCut<'_> {
     }
 
     /// Returns the section that goes through the plate.
-    pub(super) fn through(&self) -> Option<Curve> {
+    pub(super) fn through_section(&self) -> Option<Curve> {
         self.cut.way.part_below(THROUGH_HEIGHT)
     }
 
@@ -209,7 +215,7 @@ impl IndexedCut<'_> {
     /// between them is part of an outline and no groove, so everything that it mills in the material counts.
     pub(super) fn spoiling_section(&self, index: &CutIndex<'_>) -> Option<Curve> {
         if self.element(index).bottom > THROUGH_HEIGHT {
-            return self.through();
+            return self.through_section();
         }
         let top = index.paths[self.path].thickness - MIN_CUT_DEPTH;
         self.cut.way.part_below(top.max(THROUGH_HEIGHT))

@@ -32,7 +32,7 @@ impl<'s> Enclosure<'s> {
         let near = cuts.near(widened(&part.extent(), farthest)).map(|number| &cuts.cuts[number]);
         let others = near.filter(|cut| !own[cut.path] && cuts.contours[cut.path]);
         let is_beside = |(cut, curve): &Cut<'_>| part.is_near_rim(curve, reach(cut.radius.max(largest)));
-        let beside = others.filter_map(through).filter(is_beside).collect();
+        let beside = others.filter_map(with_through_section).filter(is_beside).collect();
         Self { part, cuts, own, beside }
     }
 
@@ -70,7 +70,7 @@ impl<'s> Enclosure<'s> {
     }
 
     fn own_cuts(&self) -> Vec<Cut<'s>> {
-        self.cuts.cuts.iter().filter(|cut| self.own[cut.path]).filter_map(through).collect()
+        self.cuts.cuts.iter().filter(|cut| self.own[cut.path]).filter_map(with_through_section).collect()
     }
 
     fn is_closed(&self, through: &[Cut<'_>]) -> bool {
@@ -85,6 +85,6 @@ impl<'s> Enclosure<'s> {
     }
 }
 
-fn through<'s>(cut: &'s IndexedCut<'s>) -> Option<Cut<'s>> {
-    Some((cut, cut.through()?))
+fn with_through_section<'s>(cut: &'s IndexedCut<'s>) -> Option<Cut<'s>> {
+    Some((cut, cut.through_section()?))
 }

@@ -69,7 +69,7 @@ pub(super) fn classify_cuts<'c>(
         let cut = &index.cuts[number];
         let element = cut.element(index);
         let shapes = || cut.cut.way.lowest() <= element.lowest + JOIN_GAP;
-        let shaping = cut.through().or_else(|| shapes().then_some(cut.cut.way.curve));
+        let shaping = cut.through_section().or_else(|| shapes().then_some(cut.cut.way.curve));
         let spoiling = cut.spoiling_section(index);
         if shaping.is_none() && spoiling.is_none() {
             continue;

@@ -37,13 +37,13 @@ pub(super) struct Leftover {
     pub(super) length: f64,
     /// The largest distance in mm, at some samples, between the outline and the edge of the nearest cut; O for a sweep.
     pub(super) thickness: f64,
-    pub(super) beside: Beside,
-    pub(super) material: LeftMaterial,
+    pub(super) beside: AdjacentCut,
+    pub(super) material: LeftoverMaterial,
 }
 
 /// What runs along a stretch at which material is left.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Beside {
+pub(super) enum AdjacentCut {
     ThroughCut,
     /// A through cut with a round tip that reaches the outline only above the plate's lower face, with its lowest height in mm.
     RoundTip(f64),
@@ -54,7 +54,7 @@ pub(super) enum Beside {
 
 /// Material that is left at an outline.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LeftMaterial {
+pub struct LeftoverMaterial {
     /// The stretch of the outline.
     pub outline: Vec<Curve>,
     /// Distance in mm from the outline to which the material extends.
@@ -102,7 +102,7 @@ pub(super) struct LeftoverSearch<'s> {
     grooves: BTreeSet<(usize, u32)>,
     /// Whether the cuts and support bars of the paths that cut the part out close a ring round it, so that the edge of the plate is nowhere the edge
     /// of the part. Computed when first needed.
-    is_ringed: OnceCell<bool>,
+    has_closed_ring: OnceCell<bool>,
 }
 
 /// Stretches of a ring that through cuts do not reach, as positions in mm along the ring.
@@ -126,7 +126,7 @@ impl RingStretches {
 
 /// How well the cuts follow one of several nested rings, from best to worst.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Agreement {
+enum RingFit {
     /// Cuts come near at least a part of the ring.
     Followed,
     /// No cut comes near.
@@ -164,7 +164,7 @@ impl<'s> LeftoverSearch<'s> {
         };
         let grooves = judged.iter().filter(enters).map(|judged| judged.cut.number());
         let grooves = grooves.collect();
-        Self { part, cuts, judged, contours, tolerance, grooves, is_ringed: OnceCell::new() }
+        Self { part, cuts, judged, contours, tolerance, grooves, has_closed_ring: OnceCell::new() }
     }
 
     /// Returns the material left at all rings. Of the rings of a nest, only the ring that the cuts follow best is considered.
@@ -196,9 +196,9 @@ impl<'s> LeftoverSearch<'s> {
             let length_left = |stretches: &RingStretches| total_length(stretches.stretches_left());
             one.0.cmp(&other.0).then_with(|| length_left(&one.2).total_cmp(&length_left(&other.2)))
         });
-        let is_exceeded = judged.iter().any(|(agreement, ..)| *agreement == Agreement::Exceeded);
+        let is_exceeded = judged.iter().any(|(agreement, ..)| *agreement == RingFit::Exceeded);
         let (agreement, ring, mut stretches) = judged.into_iter().next()?;
-        if is_exceeded && agreement == Agreement::Uncut {
+        if is_exceeded && agreement == RingFit::Uncut {
             stretches.left = join_ends(std::mem::take(&mut stretches.never), self.part.ring_length(ring));
         }
         Some((ring, stretches))
@@ -212,17 +212,17 @@ impl<'s> LeftoverSearch<'s> {
     }
 
     /// Returns how far the cuts follow a ring of a nest of several rings.
-    fn agreement(&self, ring: usize, stretches: &RingStretches) -> Agreement {
+    fn agreement(&self, ring: usize, stretches: &RingStretches) -> RingFit {
         let length = self.part.ring_length(ring);
         let exceeded = self
             .ring_curves(ring)
             .map(|curve| total_length(self.stretches_within_cuts(&curve, -self.tolerance).into_iter()));
         if 2.0 * exceeded.sum::<f64>() > length {
-            Agreement::Exceeded
+            RingFit::Exceeded
         } else if total_length(stretches.never.iter().copied()) > length - MIN_REPORTED_LENGTH {
-            Agreement::Uncut
+            RingFit::Uncut
         } else {
-            Agreement::Followed
+            RingFit::Followed
         }
     }
 
@@ -264,11 +264,11 @@ impl<'s> LeftoverSearch<'s> {
         all: &mut RingStretches,
         uncut: &mut Vec<Stretch>,
     ) {
-        let gaps = difference(gaps, &self.beside_bars(curve));
+        let gaps = difference(gaps, &self.stretches_beside_bars(curve));
         if gaps.is_empty() {
             return;
         }
-        let close = self.close_stretches(curve);
+        let close = self.stretches_near_cuts(curve);
         let open = intersection(&close, &gaps);
         all.never.extend(curve.on_ring(difference(&gaps, &close)));
         if open.is_empty() {
@@ -297,7 +297,7 @@ impl<'s> LeftoverSearch<'s> {
         let mut found = Vec::new();
         let mut last = None;
         for cut in curve.near.iter().map(|number| &self.cuts.cuts[*number]) {
-            let Some(through) = cut.through().filter(|_| self.contours[cut.path]) else { continue };
+            let Some(through) = cut.through_section().filter(|_| self.contours[cut.path]) else { continue };
             let supported = cut.element(self.cuts).supported;
             if supported.is_some() && last.replace(cut.number()) == Some(cut.number()) {
                 continue;
@@ -320,11 +320,12 @@ impl<'s> LeftoverSearch<'s> {
     }
 
     /// Returns the stretches of a curve near a cut beside the part: within O of a cut that goes through the plate, or reached by a cut that does not.
-    fn close_stretches(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
+    fn stretches_near_cuts(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for judged in self.cuts_beside(curve) {
             let radius = judged.cut.radius;
-            let reach = if judged.cut.through().is_some() { 2.0 * radius } else { radius + self.tolerance };
+            let reach =
+                if judged.cut.through_section().is_some() { 2.0 * radius } else { radius + self.tolerance };
             add_stretches_within(curve.curve, &judged.curve, reach, &mut found);
         }
         join_stretches(found, JOIN_GAP)
@@ -336,7 +337,7 @@ impl<'s> LeftoverSearch<'s> {
         let Some(radius) = self.smallest_radius() else { return };
         let is_notch = |(from, to): &Stretch| to - from >= 2.0 * radius;
         let long: Vec<Stretch> = all.never.iter().copied().filter(is_notch).collect();
-        if long.is_empty() || !self.is_ringed(ring) {
+        if long.is_empty() || !self.has_closed_ring(ring) {
             return;
         }
         let mut notches = difference(&long, &self.stretches_near_bars(ring));
@@ -424,11 +425,11 @@ impl<'s> LeftoverSearch<'s> {
     }
 
     /// Whether cuts and bars close a ring round the part or, for an opening that lies alone, round waste in it.
-    fn is_ringed(&self, ring: usize) -> bool {
-        let sweeps = self.all_contour_cuts().filter_map(|cut| Some((cut.through()?, cut.radius)));
+    fn has_closed_ring(&self, ring: usize) -> bool {
+        let sweeps = self.all_contour_cuts().filter_map(|cut| Some((cut.through_section()?, cut.radius)));
         let ways = sweeps.chain(self.bars().map(|(bar, radius)| (bar.foot, radius)));
         if ring == 0 {
-            return *self.is_ringed.get_or_init(|| is_surrounded(self.part, &ways.collect::<Vec<_>>()));
+            return *self.has_closed_ring.get_or_init(|| is_surrounded(self.part, &ways.collect::<Vec<_>>()));
         }
         let part = self.part.part;
         let is_alone =
@@ -471,7 +472,7 @@ impl<'s> LeftoverSearch<'s> {
     }
 
     /// Returns the stretches beside support bars, where the path is meant to cut only down to the bar.
-    fn beside_bars(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
+    fn stretches_beside_bars(&self, curve: &RingCurve<'_>) -> Vec<Stretch> {
         let mut found = Vec::new();
         for (bar, radius) in self.bars() {
             add_stretches_within(curve.curve, &bar.foot, radius + self.tolerance, &mut found);
@@ -512,7 +513,7 @@ impl<'s> LeftoverSearch<'s> {
         // Take no samples at the ends: the end of the cut may be there, where the distance to its edge is largest.
         let sample = |number| place(from + length * (f64::from(number) + 0.5) / f64::from(SAMPLES));
         let thickness = (0..SAMPLES).map(sample).map(|at| self.distance(at)).fold(0.0, f64::max);
-        let is_through = nearest.through().is_some();
+        let is_through = nearest.through_section().is_some();
         let foot = nearest.radius - self.lower_radius(nearest);
         Some(Leftover {
             nest: self.part.part.nest(ring),
@@ -523,13 +524,13 @@ impl<'s> LeftoverSearch<'s> {
             length,
             thickness,
             beside: if !is_through {
-                Beside::ShallowCut(nearest.cut.way.lowest())
+                AdjacentCut::ShallowCut(nearest.cut.way.lowest())
             } else if foot > 0.0 && thickness - foot <= self.tolerance {
-                Beside::RoundTip(nearest.element(self.cuts).lowest)
+                AdjacentCut::RoundTip(nearest.element(self.cuts).lowest)
             } else {
-                Beside::ThroughCut
+                AdjacentCut::ThroughCut
             },
-            material: LeftMaterial {
+            material: LeftoverMaterial {
                 outline: self.part.ring_section(ring, (from, to)),
                 reach: if is_through { thickness } else { 2.0 * nearest.radius },
             },
@@ -547,8 +548,11 @@ impl<'s> LeftoverSearch<'s> {
             to: self.part.ring_point(ring, to),
             length: to - from,
             thickness: 2.0 * radius,
-            beside: Beside::Sweep,
-            material: LeftMaterial { outline: self.part.ring_section(ring, (from, to)), reach: 2.0 * radius },
+            beside: AdjacentCut::Sweep,
+            material: LeftoverMaterial {
+                outline: self.part.ring_section(ring, (from, to)),
+                reach: 2.0 * radius,
+            },
         }
     }
 
@@ -603,7 +607,7 @@ impl<'s> LeftoverSearch<'s> {
         let curve = RingCurve { ring, start: 0.0, curve: &point, near };
         let distance = |judged: &ClassifiedCut<'_>| judged.curve.distance_to(at) - judged.cut.radius;
         let counts = |judged: &&ClassifiedCut<'_>| {
-            judged.cut.through().is_some() || distance(judged) <= self.tolerance + JOIN_GAP
+            judged.cut.through_section().is_some() || distance(judged) <= self.tolerance + JOIN_GAP
         };
         let nearest = self.cuts_beside(&curve).filter(counts).min_by(|one, other| {
             distance(one).total_cmp(&distance(other)).then_with(|| one.cut.number().cmp(&other.cut.number()))
@@ -619,7 +623,8 @@ impl<'s> LeftoverSearch<'s> {
             |number: &usize| self.judged.get(*number).map_or(ring == 0, |judged| judged.side.is_beside(ring));
         let cuts = self.cuts.cuts.iter().enumerate();
         let beside = cuts.filter(|(number, cut)| self.contours[cut.path] && is_beside(number));
-        let way = |cut: &IndexedCut<'s>| Some(cut.element(self.cuts).supported.unwrap_or(cut.through()?));
+        let way =
+            |cut: &IndexedCut<'s>| Some(cut.element(self.cuts).supported.unwrap_or(cut.through_section()?));
         let beside: Vec<_> = beside.filter_map(|(_, cut)| Some((cut, way(cut)?))).collect();
         let at = curve.at(along);
         let farthest = |(_, curve): &(&IndexedCut<'_>, Curve)| (curve.start() - at).norm() + curve.length();

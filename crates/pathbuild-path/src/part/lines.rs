@@ -12,7 +12,7 @@ use crate::boxes::square;
 use crate::geometry::{Curve, Xy};
 
 /// Number of sample points on an outline at which the check looks for cuts.
-const PLACES: u32 = 32;
+const SAMPLE_COUNT: u32 = 32;
 
 impl DrawnParts {
     /// Uses the cuts of a drawing's paths to report open outlines that lack a piece (PB219), and to leave out openings that are only lines on a part:
@@ -76,9 +76,9 @@ fn lines_on_part(part: &Part, cuts: &CutIndex<'_>) -> BTreeSet<usize> {
 /// Whether cuts run along most of an opening.
 fn is_cut_out(part: &PreparedPart<'_>, ring: usize, cuts: &CutIndex<'_>) -> bool {
     let length = part.ring_length(ring);
-    let place = |number| part.ring_point(ring, length * (f64::from(number) + 0.5) / f64::from(PLACES));
-    let cut = (0..PLACES).map(place).filter(|at| is_cut_at(part, ring, *at, cuts));
-    2 * cut.count() > PLACES as usize
+    let place = |number| part.ring_point(ring, length * (f64::from(number) + 0.5) / f64::from(SAMPLE_COUNT));
+    let cut = (0..SAMPLE_COUNT).map(place).filter(|at| is_cut_at(part, ring, *at, cuts));
+    2 * cut.count() > SAMPLE_COUNT as usize
 }
 
 /// Whether a cut through the plate comes within O of a place on an opening's edge, on the inside, and its own edge is not nearer to another outline.
@@ -87,7 +87,8 @@ fn is_cut_at(part: &PreparedPart<'_>, ring: usize, at: Xy, cuts: &CutIndex<'_>) 
     let inside = cuts.near(square(at, 0.0)).filter_map(|number| {
         let cut = &cuts.cuts[number];
         let is_own = part.part.may_belong_to(&cuts.paths[cut.path].name);
-        let way = through_way(cut, cuts).filter(|way| is_own && part.contains(ring, way.middle()))?;
+        let way = through_section_or_segment(cut, cuts)
+            .filter(|way| is_own && part.contains(ring, way.middle()))?;
         (way.distance_to(at) < 2.0 * cut.radius).then_some((way, cut.radius))
     });
     let Some(nearest) = inside.min_by(|one, other| error(one).total_cmp(&error(other))) else { return false };
@@ -101,7 +102,7 @@ fn is_cut_at(part: &PreparedPart<'_>, ring: usize, at: Xy, cuts: &CutIndex<'_>) 
 }
 
 /// Returns the section of a cut that goes through the plate or, if support bars interrupt it, the whole segment.
-fn through_way(cut: &IndexedCut<'_>, cuts: &CutIndex<'_>) -> Option<Curve> {
+fn through_section_or_segment(cut: &IndexedCut<'_>, cuts: &CutIndex<'_>) -> Option<Curve> {
     let element = cut.element(cuts);
-    element.supported.filter(|_| element.bottom <= THROUGH_HEIGHT).or(cut.through())
+    element.supported.filter(|_| element.bottom <= THROUGH_HEIGHT).or(cut.through_section())
 }

@@ -29,7 +29,7 @@ pub(super) fn is_cut_out<'b>(
     bars: &(impl Iterator<Item = (&'b StandingBar, f64)> + Clone),
 ) -> bool {
     let beside = || {
-        let beside = bars.clone().flat_map(|(bar, radius)| beside_bar(bar, radius));
+        let beside = bars.clone().flat_map(|(bar, radius)| points_beside_bar(bar, radius));
         beside.filter(|(at, _)| part.is_material(*at))
     };
     // For most bars a cheap test suffices: a straight line across the bar meets no cut.
@@ -53,7 +53,7 @@ pub(super) fn is_enclosed(at: Xy, cuts: &[(Curve, f64)]) -> bool {
 /// Returns the index of the first through cut beside which the cuts, each with its cutter radius, close a ring round material.
 pub(crate) fn first_enclosing(cuts: &[(Curve, f64)]) -> Option<usize> {
     let sweeps = swept_by(cuts);
-    let points = || (0..).zip(cuts).flat_map(|(cut, (curve, radius))| beside_cut(cut, curve, *radius));
+    let points = || (0..).zip(cuts).flat_map(|(cut, (curve, radius))| points_beside_cut(cut, curve, *radius));
     let is_removed = |at: Xy| cuts.iter().any(|(curve, radius)| curve.distance_to(at) < *radius);
     let contacts = LazyCell::new(|| contacts(&sweeps));
     let is_enclosed = |at: Xy| !can_escape(at, &sweeps) && is_ring_closed(at, &sweeps, &contacts);
@@ -71,7 +71,7 @@ const POINT_DISTANCE: f64 = 5.0;
 const MAX_POINTS: f64 = 200.0;
 
 /// Returns points on both sides of a cut just beyond its edge, each with the number of the cut.
-fn beside_cut(cut: usize, curve: &Curve, radius: f64) -> impl Iterator<Item = (usize, Xy)> {
+fn points_beside_cut(cut: usize, curve: &Curve, radius: f64) -> impl Iterator<Item = (usize, Xy)> {
     let away = radius + MAX_WEAK_BRIDGE;
     [away, -away].into_iter().filter_map(|away| offset_curve(curve, away)).flat_map(move |beside| {
         let length = beside.length();
@@ -96,7 +96,7 @@ pub(super) fn is_surrounded(part: &PreparedPart<'_>, cuts: &[(Curve, f64)]) -> b
 }
 
 /// Returns the points on both sides of a bar where the part may begin, each with the middle of the bar.
-fn beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = (Xy, Xy)> {
+fn points_beside_bar(bar: &StandingBar, radius: f64) -> impl Iterator<Item = (Xy, Xy)> {
     bar.middle.into_iter().flat_map(move |middle| {
         let aside = [radius, -radius]
             .into_iter()
@@ -170,10 +170,10 @@ fn contacts(sweeps: &[SweptLine]) -> Vec<Contact> {
 /// Groups overlapping sweeps by union-find. Each sweep stores its angle around the point relative to its parent. If two sweeps of one group overlap
 /// at an angle that differs from the stored one, they close a ring.
 fn is_ring_closed(centre: Xy, sweeps: &[SweptLine], contacts: &[Contact]) -> bool {
-    let mut groups = Groups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };
+    let mut groups = SweepGroups { parents: (0..sweeps.len()).collect(), angles: vec![0.0; sweeps.len()] };
     contacts.iter().any(|Contact { sweeps: [one, other], points: [here, there] }| {
         let way = [sweeps[*one].line.start, *here, *there, sweeps[*other].line.start];
-        let angle = way.windows(2).map(|step| turn(centre, step[0], step[1])).sum();
+        let angle = way.windows(2).map(|step| angle_between(centre, step[0], step[1])).sum();
         groups.unite(*one, *other, angle)
     })
 }
@@ -182,7 +182,7 @@ fn is_ring_closed(centre: Xy, sweeps: &[SweptLine], contacts: &[Contact]) -> boo
 const MIN_OVERLAP: f64 = 1e-6;
 
 /// Returns the angle from one point to another as seen from `centre`, from -pi to pi.
-fn turn(centre: Xy, from: Xy, to: Xy) -> f64 {
+fn angle_between(centre: Xy, from: Xy, to: Xy) -> f64 {
     let (from, to) = (from - centre, to - centre);
     libm::atan2(from.perp(&to), from.dot(&to))
 }
@@ -199,7 +199,7 @@ impl SweptLine {
         let (start, end) = (width(self.line.start), width(self.line.end));
         let out = self.line.start - at;
         let direction = libm::atan2(out.y, out.x);
-        let turn = turn(at, self.line.start, self.line.end);
+        let turn = angle_between(at, self.line.start, self.line.end);
         let (from, to) = (direction + (-start).min(turn - end), direction + start.max(turn + end));
         let whole = if from < -PI { TAU } else { 0.0 };
         Some((from + whole, to + whole))
@@ -207,13 +207,13 @@ impl SweptLine {
 }
 
 /// Union-find of sweeps that overlap, directly or through others.
-struct Groups {
+struct SweepGroups {
     parents: Vec<usize>,
     /// The angle by which each sweep is ahead of its parent.
     angles: Vec<f64>,
 }
 
-impl Groups {
+impl SweepGroups {
     /// Unites two sweeps; `angle` is the angle by which the second is ahead of the first. Returns whether that closes a ring.
     fn unite(&mut self, one: usize, other: usize, angle: f64) -> bool {
         let ((root, ahead), (other_root, other_ahead)) = (self.root(one), self.root(other));

@@ -33,7 +33,7 @@ pub use check::{PartFindings, check_parts};
 pub use cuts::{CutElement, EmbeddedPlace, PartCut, PartSweep, PathCuts, StandingBar, THROUGH_HEIGHT};
 pub use displacement::largest_displacement;
 pub use gouge::{MilledMove, gouging_moves};
-pub use leftover::LeftMaterial;
+pub use leftover::LeftoverMaterial;
 pub use loose::MAX_WEAK_BRIDGE;
 pub use neighbours::{NeighbourCuts, NeighbourGouge, PlacedCuts, SeveredPart};
 pub use waste::{EarlierCuts, WasteCut};
@@ -138,7 +138,7 @@ pub struct PlacedPart<'d> {
     /// The part as drawn.
     pub drawn: &'d Part,
     /// The material that is left at the part's outline, as drawn.
-    pub left: &'d [LeftMaterial],
+    pub left: &'d [LeftoverMaterial],
     /// The stretches of the part's outlines that the cutter does not reach, as drawn.
     pub corners: &'d [Curve],
     /// The centre lines of the support bars that the cuts of the part's own path remove, as drawn.

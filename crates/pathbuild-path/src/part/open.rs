@@ -28,8 +28,8 @@ const MIN_CUT_SHARE: f64 = 0.5;
 /// count.
 const MAX_ERROR: f64 = 0.75;
 
-/// Places on a curve at which cuts are looked for, as shares of its length.
-const PLACES: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
+/// Positions on a curve at which the check looks for cuts, as fractions of its length.
+const SAMPLE_POSITIONS: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
 
 impl DrawnParts {
     /// Adds PB219 for each open outline along which these paths cut, and leaves out the parts that it surrounds: they are its openings. Cuts beside
@@ -65,8 +65,9 @@ impl OpenOutline {
     fn is_cut(&self, cuts: &CutIndex<'_>, edges: &Edges<'_>) -> bool {
         let length: f64 = self.curves.iter().map(Curve::length).sum();
         let followed = |curve: &Curve| {
-            let places = PLACES.iter().filter(|share| self.is_cut_at(curve, **share, cuts, edges)).count();
-            curve.length() * places as f64 / PLACES.len() as f64
+            let places =
+                SAMPLE_POSITIONS.iter().filter(|share| self.is_cut_at(curve, **share, cuts, edges)).count();
+            curve.length() * places as f64 / SAMPLE_POSITIONS.len() as f64
         };
         self.closing_line().length() < 0.999 * length
             && self.curves.iter().map(followed).sum::<f64>() >= MIN_CUT_SHARE * length

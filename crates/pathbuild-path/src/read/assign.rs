@@ -14,11 +14,11 @@ use crate::letter::{Letter, LetterUse, Letters};
 use crate::names::is_tilde_layer;
 use crate::read::candidates::{
     AssignedCandidate, Candidate, Doubt, Owner, Rival, SearchBudget, find, find_rival, find_shape,
-    find_taken, is_overlapped, nearest_miss,
+    find_with_text, is_overlapped, nearest_miss,
 };
 use crate::read::collect::PathCollector;
 use crate::read::entities::{FoundText, TextCircle};
-use crate::read::texts::{GivenText, LayerTexts, MAX_EXAMINED_ELEMENTS, MAX_SEARCHED_LAYERS, Texts};
+use crate::read::texts::{LayerTexts, MAX_EXAMINED_ELEMENTS, MAX_SEARCHED_LAYERS, TextWithCandidate, Texts};
 use crate::text::{ParameterText, ParameterTexts, TextId, without_percent_codes};
 
 /// Maximum number of other layers with a suitable element that the finding about a text without an element lists.
@@ -49,7 +49,7 @@ impl<'d> Texts<'d> {
         let has_several = self.layers.iter().filter(|layer| !layer.candidates.is_empty()).nth(1).is_some();
         let given = &mut self.given;
         for layer in &mut self.layers {
-            let remember = |text: &FoundText<'d>, found| given.push(GivenText { text: *text, found });
+            let remember = |text: &FoundText<'d>, found| given.push(TextWithCandidate { text: *text, found });
             if let Some(problem) = layer.assign(path, margin, &budget, remember) {
                 // The elements of the remaining texts are unknown.
                 path.diagnostics.push(problem);
@@ -86,7 +86,7 @@ impl<'d> Texts<'d> {
     /// Reports PB116 for each text if an element without a text, on another layer of the path, is nearer than the text's own element.
     fn check_other_layers(&self, path: &mut PathCollector<'_>) {
         let budget = SearchBudget::new(MAX_EXAMINED_FOR_HINTS);
-        for GivenText { text, found } in &self.given {
+        for TextWithCandidate { text, found } in &self.given {
             let number = text.source.layer as usize;
             let others = self.layers.iter().enumerate().filter(|(other, _)| *other != number);
             let rivals = others.map(|(_, layer)| Rivals { layer, path: &*path, margin: 0.0 });
@@ -112,7 +112,7 @@ pub(super) fn check_other_paths(paths: &mut [PathCollector<'_>], margin: f64) {
             continue;
         }
         let others = || paths.iter().enumerate().filter(|(other, _)| *other != number);
-        let doubt = |GivenText { text, found }: &GivenText<'_>| {
+        let doubt = |TextWithCandidate { text, found }: &TextWithCandidate<'_>| {
             let is_on = |distance| !above(distance, margin);
             let layers =
                 others().flat_map(|(_, path)| path.texts.layers.iter().map(move |layer| (layer, path)));
@@ -155,7 +155,7 @@ impl<'d> LayerTexts<'d> {
                         [found.candidate, rival.candidate].map(|index| layer.candidates[index].owner);
                     rival.doubt != Doubt::NearerOfSameKind && !are_copies_of_subpath(owners, &path.elements)
                 };
-                layer.doubt(text, &found, &Rivals { layer, path, margin }, budget, is_of_layer)
+                layer.ambiguity_problem(text, &found, &Rivals { layer, path, margin }, budget, is_of_layer)
             });
             match doubt {
                 Some((rival, doubt)) if !is_overlapped(&circle, &layer.candidates[rival.candidate].shape) => {
@@ -201,7 +201,7 @@ impl<'d> LayerTexts<'d> {
 
     /// Returns PB116 if the text could belong to an element of the rivals' layer as well. Ignores elements on which the text would be an error: a
     /// marker instead of an element or the reverse, and elements that do not accept one of its letters.
-    fn doubt(
+    fn ambiguity_problem(
         &self,
         text: &FoundText<'_>,
         found: &AssignedCandidate,
@@ -268,7 +268,7 @@ impl<'d> LayerTexts<'d> {
         };
         others.take(MAX_SEARCHED_LAYERS).find_map(|rivals| {
             let name = &rivals.layer.name;
-            let (_, doubt) = self.doubt(text, found, &rivals, budget, is_nearer)?;
+            let (_, doubt) = self.ambiguity_problem(text, found, &rivals, budget, is_nearer)?;
             let doubt = Diagnostic { message: &messages::NEARER_ON_OTHER_LAYER, ..doubt };
             Some(doubt.quoting("layer", &**name))
         })
@@ -326,9 +326,9 @@ impl<'d> LayerTexts<'d> {
         // A start text is meant for the start marker, whatever it lies on.
         let has = |letter| texts.first().is_some_and(|text| text.letters.contains(letter));
         let is_start_text = has(Letter::O) && has(Letter::T) && !has(Letter::Embed);
-        let silent = || self.silent_element(text, path, &budgets.silent).filter(|_| !is_start_text);
+        let silent = || self.textless_element_note(text, path, &budgets.silent).filter(|_| !is_start_text);
         let budget = &budgets.candidates;
-        let taken = find_taken(&circle, &self.candidates, &self.boxes, budget);
+        let taken = find_with_text(&circle, &self.candidates, &self.boxes, budget);
         if let Some(taken) = taken.map(|taken| &self.candidates[taken]) {
             let message = match path.text_of(taken.owner) {
                 Some(text) if text.pieces().is_empty() => &messages::HAS_A_BLANK_TEXT,
@@ -365,7 +365,7 @@ impl<'d> LayerTexts<'d> {
     }
 
     /// Returns the note about the nearest HIDDEN element, end marker or turn marker that a text overlaps.
-    fn silent_element(
+    fn textless_element_note(
         &self,
         text: &FoundText<'_>,
         path: &PathCollector<'_>,

@@ -175,7 +175,9 @@ pub(crate) fn find_rival(
         if !budget.spend() {
             return;
         }
-        let Some((doubt, farther)) = doubt(circle, own, margin, &candidates[candidate]) else { return };
+        let Some((doubt, farther)) = reason_for_doubt(circle, own, margin, &candidates[candidate]) else {
+            return;
+        };
         let rival = Rival { doubt, farther, candidate };
         if most_doubtful.is_none_or(|known| rival < known) && is_possible(&rival) {
             most_doubtful = Some(rival);
@@ -185,7 +187,7 @@ pub(crate) fn find_rival(
 }
 
 /// Returns why another candidate could be the one that a text belongs to, and how much farther away it is in mm.
-fn doubt(
+fn reason_for_doubt(
     circle: &TextCircle,
     own: &AssignedCandidate,
     margin: f64,
@@ -217,7 +219,7 @@ fn doubt(
 }
 
 /// Returns the nearest candidate that a text overlaps and that has a text already.
-pub(crate) fn find_taken(
+pub(crate) fn find_with_text(
     circle: &TextCircle,
     candidates: &[Candidate],
     boxes: &CandidateIndex,
@@ -381,7 +383,8 @@ mod tests {
     use crate::geometry::{Arc, Curve, Line, Xy};
     use crate::read::candidates::Owner;
     use crate::read::candidates::{
-        Candidate, CandidateIndex, Rival, SearchBudget, doubt, find, find_rival, nearest_miss, overlap,
+        Candidate, CandidateIndex, Rival, SearchBudget, find, find_rival, nearest_miss, overlap,
+        reason_for_doubt,
     };
     use crate::read::entities::TextCircle;
 
@@ -431,7 +434,7 @@ mod tests {
             if let Some(own) = found {
                 let others = (0..).zip(&candidates).filter(|(other, _)| *other != own.candidate);
                 let rivals = others.filter_map(|(candidate, other)| {
-                    let (doubt, farther) = doubt(&circle, &own, 0.1, other)?;
+                    let (doubt, farther) = reason_for_doubt(&circle, &own, 0.1, other)?;
                     Some(Rival { doubt, farther, candidate })
                 });
                 let expected = rivals.reduce(|first, other| if other < first { other } else { first });

@@ -421,7 +421,7 @@ impl<'d> PathCollector<'d> {
     fn add_circle(&mut self, found: &LayerEntity<'_>, centre: Xy, radius: f64) {
         let shape = Shape::Circle { centre, radius };
         let Some(line_type) = found.line_type else {
-            let like = LineType::like(&found.entity.line_type).unwrap_or(LineType::Phantom);
+            let like = LineType::guess(&found.entity.line_type).unwrap_or(LineType::Phantom);
             self.add_unclear(found, shape, IntendedMarker::of(like, radius));
             return self.add_unknown(found, shape);
         };
@@ -487,7 +487,7 @@ impl<'d> PathCollector<'d> {
     fn add_unknown(&mut self, found: &LayerEntity<'_>, shape: Shape) {
         let known: Value = LineType::NAMES.iter().map(|(name, _)| *name).collect();
         let name = &*found.entity.line_type;
-        let like = LineType::like(name);
+        let like = LineType::guess(name);
         let (message, shown) = match (found.line_type, like) {
             (Some(_), _) => (&messages::LINE_TYPE_ON_ENTITY, None),
             (None, Some(like)) => (&messages::LINE_TYPE_LIKE_ANOTHER, Some(like.name())),
@@ -534,9 +534,9 @@ impl PathCollector<'_> {
         let mut has_other_line_type = false;
         if self.start.is_none() {
             self.start =
-                self.take_unclear(IntendedMarker::Start).or_else(|| self.circle_with_path_text(texts));
+                self.take_unclear(IntendedMarker::Start).or_else(|| self.take_circle_with_path_text(texts));
             if self.start.is_none() {
-                self.start = self.element_with_path_text(texts);
+                self.start = self.take_element_with_path_text(texts);
                 has_other_line_type = self.start.is_some();
             }
             if let Some(start) = &self.start {
@@ -552,7 +552,8 @@ impl PathCollector<'_> {
         }
         if self.ends.is_empty() {
             let end = self.take_unclear(IntendedMarker::End);
-            let end = end.or_else(|| has_other_line_type.then(|| self.element_like_end(texts)).flatten());
+            let end =
+                end.or_else(|| has_other_line_type.then(|| self.take_element_like_end(texts)).flatten());
             self.ends.extend(end);
         }
         self.report_other_starts(texts);
@@ -594,7 +595,7 @@ impl PathCollector<'_> {
 
     /// Returns a circle that is another marker or has no meaning, but has the text of a start marker. It then no longer counts as the other marker.
     /// Reports PB101 at the circle.
-    fn circle_with_path_text(&mut self, texts: &Texts<'_>) -> Option<Marker> {
+    fn take_circle_with_path_text(&mut self, texts: &Texts<'_>) -> Option<Marker> {
         let unclear = self.unclear.iter();
         let unclear = unclear.map(|circle| (&circle.marker, circle.shape.radius().unwrap_or_default()));
         let ends = self.ends.iter().map(|end| (end, END_RADIUS));
@@ -618,7 +619,7 @@ impl PathCollector<'_> {
     }
 
     /// Removes and returns a circle to mill or drill that has the text of a start, because its line type was lost. Reports PB101 at the circle.
-    fn element_with_path_text(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
+    fn take_element_with_path_text(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
         let circles = self.elements.iter().enumerate();
         let mut circles = circles.filter_map(|(index, element)| Some((index, element.shape.radius()?)));
         let index = circles
@@ -634,7 +635,7 @@ impl PathCollector<'_> {
 
     /// Removes and returns the only circle to mill with the diameter of an end marker, in a path with a start that has lost its line type. Reports
     /// PB102 at the circle.
-    fn element_like_end(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
+    fn take_element_like_end(&mut self, texts: &mut Texts<'_>) -> Option<Marker> {
         let is_like_end = |element: &Element| {
             element.role == Role::Cut(Cut::Mill)
                 && element.shape.radius().is_some_and(|radius| has_diameter_of(radius, END_RADIUS))

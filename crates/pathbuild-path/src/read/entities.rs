@@ -102,7 +102,7 @@ impl TextCircle {
     /// Returns the circle of a single-line text.
     pub fn of_text(text: &Text) -> Self {
         let letter = LETTER_WIDTH * text.height;
-        let string = seen(&text.string, text.counts_invisible);
+        let string = visible_text(&text.string, text.counts_invisible);
         let (row, indent) = visible_row(&string, counts_blanks(&string, text.counts_invisible));
         let length = row.chars().count();
         let mut offset = offset(text.horizontal, text.vertical, letter * length as f64, text.height);
@@ -125,7 +125,7 @@ impl TextCircle {
     pub fn of_mtext(text: &MText) -> Self {
         let letter = LETTER_WIDTH * text.height;
         let room = text.width.map_or(f64::INFINITY, |width| width / letter);
-        let plain = seen(&text.plain, text.counts_invisible);
+        let plain = visible_text(&text.plain, text.counts_invisible);
         let counts_blanks = counts_blanks(&plain, text.counts_invisible);
         // Only the part with letters counts: the rows from the first to the last with letters, and the columns from `indent` to `longest`.
         let (mut rows, mut first, mut last) = (0, None, 0);
@@ -146,7 +146,8 @@ impl TextCircle {
         let mut offset =
             offset(text.paragraphs, text.vertical, letter * longest as f64, text.height * f64::from(rows));
         offset.x += letter * indent as f64 / 2.0;
-        offset.x += text.width.unwrap_or_default() * (share(text.paragraphs) - share(text.horizontal));
+        offset.x += text.width.unwrap_or_default()
+            * (fraction_before_anchor(text.paragraphs) - fraction_before_anchor(text.horizontal));
         offset.y += text.height * f64::from(rows - last - first) / 2.0;
         let width = letter * (longest - indent) as f64;
         let height = text.height * f64::from(last - first);
@@ -205,7 +206,7 @@ impl TextCircle {
 }
 
 /// Returns the characters of a text that count for its size: in compatible mode all, otherwise those that CAD programs show.
-fn seen(text: &str, is_compatible: bool) -> Cow<'_, str> {
+fn visible_text(text: &str, is_compatible: bool) -> Cow<'_, str> {
     if is_compatible { Cow::Borrowed(text) } else { as_seen(text) }
 }
 
@@ -252,7 +253,7 @@ impl Iterator for Rows<'_> {
 
 /// Returns the vector from the anchor to the centre of an unrotated text.
 fn offset(horizontal: HorizontalAlign, vertical: VerticalAlign, width: f64, height: f64) -> Vector2<f64> {
-    let right = width * (0.5 - share(horizontal));
+    let right = width * (0.5 - fraction_before_anchor(horizontal));
     let up = match vertical {
         VerticalAlign::Baseline | VerticalAlign::Bottom => height / 2.0,
         VerticalAlign::Middle => 0.0,
@@ -261,8 +262,8 @@ fn offset(horizontal: HorizontalAlign, vertical: VerticalAlign, width: f64, heig
     Vector2::new(right, up)
 }
 
-/// Returns the share of a box that lies to the left of its anchor.
-fn share(horizontal: HorizontalAlign) -> f64 {
+/// Returns the fraction of the width of a box that lies to the left of its anchor.
+fn fraction_before_anchor(horizontal: HorizontalAlign) -> f64 {
     match horizontal {
         HorizontalAlign::Left => 0.0,
         HorizontalAlign::Centre => 0.5,

@@ -46,13 +46,13 @@ pub fn keep_outs(drawing: &Drawing, language: &Language) -> KeepOuts {
         .extend(hidden.filter(|problem| problem.place.layer.as_deref().is_some_and(is_clamp)).cloned());
     // If an outline has an error, a hatch may belong to that outline.
     if !found.problems.iter().any(Diagnostic::is_error) {
-        found.problems.extend(lone_hatches(drawing, language, &found.all));
+        found.problems.extend(lone_hatch_problems(drawing, language, &found.all));
     }
     found
 }
 
 /// Returns PB117 for each hatch on a layer with clamps that fills no outline of a clamp.
-fn lone_hatches(drawing: &Drawing, language: &Language, clamps: &[KeepOut]) -> Vec<Diagnostic> {
+fn lone_hatch_problems(drawing: &Drawing, language: &Language, clamps: &[KeepOut]) -> Vec<Diagnostic> {
     let is_clamp = |place: &&Place| {
         let is_on = |layer: &str| language.is_keep_out(layer) && !language.path_pattern.is_layer(layer);
         place.layer.as_deref().is_some_and(is_on)
@@ -61,7 +61,7 @@ fn lone_hatches(drawing: &Drawing, language: &Language, clamps: &[KeepOut]) -> V
     if hatches.peek().is_none() {
         return Vec::new();
     }
-    let map = flat_map(clamps.iter().map(|clamp| &*clamp.outline));
+    let map = outline_map(clamps.iter().map(|clamp| &*clamp.outline));
     let fills = |place: &Place| {
         let touches =
             |point: Point| !outlines_at(&map, Xy::new(point.x.0, point.y.0), END_SEARCH_RADIUS).is_empty();
@@ -98,7 +98,7 @@ pub(super) fn unread_clamps(
         }
         let (outlines, _) =
             ClampReader { drawing, language, layer, number, problems: Vec::new() }.outlines(&entities);
-        let map = flat_map(outlines.iter().map(|closed| &*closed.outline));
+        let map = outline_map(outlines.iter().map(|closed| &*closed.outline));
         let is_inside = |(_, text): &&(usize, AnyText<'_>)| {
             let TextCircle { centre, radius } = text.circle();
             !outlines_at(&map, centre, radius).is_empty()
@@ -114,7 +114,7 @@ pub(super) fn unread_clamps(
 }
 
 /// Creates a map of outlines for [`outlines_at`].
-fn flat_map<'k>(outlines: impl Iterator<Item = &'k [Curve]>) -> KeepOutMap {
+fn outline_map<'k>(outlines: impl Iterator<Item = &'k [Curve]>) -> KeepOutMap {
     KeepOutMap::new(outlines.map(|outline| (1.0, outline)))
 }
 
@@ -300,7 +300,7 @@ impl ClampReader<'_> {
         outlines: &[ClosedOutline],
         broken: &[AABB<[f64; 2]>],
     ) -> Vec<Option<f64>> {
-        let map = flat_map(outlines.iter().map(|closed| &*closed.outline));
+        let map = outline_map(outlines.iter().map(|closed| &*closed.outline));
         let mut texts = vec![OutlineTexts::default(); outlines.len()];
         for number in entities {
             let Some(text) = AnyText::of(&self.drawing.entities[*number].geometry) else { continue };

@@ -172,7 +172,7 @@ pub fn proxy_lines(drawing: &Drawing, language: &Language) -> Vec<ProxyLine> {
                 texts.add_mtext(text, source);
             }
             _ => {
-                let Some(curve) = dash_dotted(entity, language) else { continue };
+                let Some(curve) = dash_dotted_curve(entity, language) else { continue };
                 let shape = Shape::Curve(curve);
                 let group = entity.group;
                 let candidate = Candidate { id, shape, group, owner: Owner::Faulty, is_taken: false };
@@ -196,7 +196,7 @@ fn is_subpath(text: &str) -> bool {
     ParameterTexts::from(text).first().is_some_and(|text| text.piece(Letter::Embed).is_some())
 }
 
-fn dash_dotted(entity: &Entity, language: &Language) -> Option<Curve> {
+fn dash_dotted_curve(entity: &Entity, language: &Language) -> Option<Curve> {
     if LineType::of(&entity.line_type, &language.line_types) != Some(LineType::Dashdot) {
         return None;
     }

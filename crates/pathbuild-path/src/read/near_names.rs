@@ -7,7 +7,7 @@ use crate::look_alikes;
 use crate::names::{LayerPattern, PathName};
 
 /// Maximum number of characters after a path name that are taken for a typing error.
-const MAX_SLIP_CHARACTERS: usize = 2;
+const MAX_TYPO_CHARACTERS: usize = 2;
 
 /// Words before or after the name of a layer that mark another version of its content, in English and German.
 const VERSIONS: [&str; 8] = ["old", "new", "copy", "copy of", "alt", "neu", "Kopie", "Kopie von"];
@@ -51,7 +51,7 @@ impl NearNames {
         let layer = case_folded(layer);
         let before_tilde = layer.find('~').and_then(|tilde| self.by_folded.get(&layer[..tilde]));
         let ends = layer.char_indices().rev().map(|(at, _)| at);
-        let mut ends = std::iter::once(layer.len()).chain(ends).take(MAX_SLIP_CHARACTERS + 1);
+        let mut ends = std::iter::once(layer.len()).chain(ends).take(MAX_TYPO_CHARACTERS + 1);
         let version = || {
             let name = |word: &String| {
                 let others = [layer.strip_suffix(word.as_str()), layer.strip_prefix(word.as_str())];
@@ -142,7 +142,7 @@ fn similar_names(layer: &str) -> Vec<String> {
     if !is_long(plain) {
         return Vec::new();
     }
-    let ends = plain.char_indices().rev().map(|(at, _)| at).take(MAX_SLIP_CHARACTERS);
+    let ends = plain.char_indices().rev().map(|(at, _)| at).take(MAX_TYPO_CHARACTERS);
     let shorter = std::iter::once(plain.len()).chain(ends).map(|end| plain[..end].trim_end());
     let shorter = shorter.filter(|name| is_long(name)).map(str::to_owned);
     let longer = PLURALS.iter().chain(&NUMBERS).map(|ending| [plain, ending].concat());

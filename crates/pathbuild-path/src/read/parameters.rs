@@ -124,7 +124,7 @@ impl PathCheck<'_> {
             if !seen.insert(text) {
                 continue;
             }
-            let text = drawn.texts.get(text).filter(|text| !self.raw.may_be_of_path(*text));
+            let text = drawn.texts.get(text).filter(|text| !self.raw.may_be_start_text(*text));
             if let Some(text) =
                 text.filter(|text| element.role == Role::SkippedSubpath && looks_like_parameters(*text))
             {

@@ -189,13 +189,15 @@ fn crossing(along: &Curve, other: &Curve) -> Option<f64> {
     add_stretches_within(along, other, JOIN_DISTANCE, &mut near);
     let length = along.length();
     let crosses = |(from, to): &Stretch| {
-        *from > 0.0 && *to < length && side(other, along.at(*from)) != side(other, along.at(*to))
+        *from > 0.0
+            && *to < length
+            && is_left_or_inside(other, along.at(*from)) != is_left_or_inside(other, along.at(*to))
     };
     join_stretches(near, JOIN_DISTANCE).into_iter().find(crosses).map(|(from, to)| f64::midpoint(from, to))
 }
 
 /// Whether a point is on the left of a line, or inside the circle of an arc.
-fn side(curve: &Curve, at: Xy) -> bool {
+fn is_left_or_inside(curve: &Curve, at: Xy) -> bool {
     match curve {
         Curve::Line(line) => (line.end - line.start).perp(&(at - line.start)) > 0.0,
         Curve::Arc(arc) => (at - arc.centre).norm() < arc.radius,

@@ -59,13 +59,13 @@ pub fn stray_findings(drawing: &Drawing, language: &Language) -> Vec<Diagnostic>
         } else if let Some(text) = AnyText::of(&entity.geometry)
             && is_other[entity.layer as usize]
         {
-            let stray = stray_text(drawing, number, text, &paths, &budget);
-            findings.extend(stray.or_else(|| stray_probe(drawing, number, text, &probes, &budget)));
+            let stray = stray_text_finding(drawing, number, text, &paths, &budget);
+            findings.extend(stray.or_else(|| stray_probe_finding(drawing, number, text, &probes, &budget)));
         }
     }
     findings.extend(drawing.labels.iter().filter_map(|label| {
         let layer = label.layer as usize;
-        unread_label(label, &drawing.layers[layer].name, is_other[layer], &paths, &budget)
+        unread_label_finding(label, &drawing.layers[layer].name, is_other[layer], &paths, &budget)
     }));
     let mut left_out: BTreeMap<u32, Vec<&OmittedCurve>> = BTreeMap::new();
     for curve in &drawing.left_out {
@@ -116,7 +116,7 @@ fn add_layers_with_texts<'n>(
 }
 
 /// Returns PB119 if a text would have an effect on the layer of a path.
-fn stray_text(
+fn stray_text_finding(
     drawing: &Drawing,
     entity: usize,
     text: AnyText<'_>,
@@ -140,7 +140,7 @@ fn stray_text(
 
 /// Returns PB119 for the text of a multileader or dimension on the layer of a path, unless a text of the path says the same, and for the text
 /// of a multileader on another layer if it would have an effect on the element at the tip of the multileader's arrow.
-fn unread_label(
+fn unread_label_finding(
     label: &Label,
     layer: &str,
     is_other: bool,
@@ -203,7 +203,7 @@ fn probe_circles(drawing: &Drawing, language: &Language) -> Vec<(u32, Shape)> {
 }
 
 /// Returns PB119 if a text and the circle that it overlaps would be a probe on the layer of a path.
-fn stray_probe(
+fn stray_probe_finding(
     drawing: &Drawing,
     entity: usize,
     text: AnyText<'_>,

@@ -11,7 +11,7 @@ use crate::element::{Marker, Origin, Shape, Source};
 use crate::geometry::Xy;
 use crate::letter::Letter;
 use crate::read::candidates::{
-    AssignedCandidate, Candidate, CandidateIndex, Owner, SearchBudget, find, find_taken, nearest_miss,
+    AssignedCandidate, Candidate, CandidateIndex, Owner, SearchBudget, find, find_with_text, nearest_miss,
 };
 use crate::read::entities::{AnyText, FoundText, TextCircle};
 use crate::text::{ParameterTexts, without_percent_codes};
@@ -21,11 +21,11 @@ use crate::text::{ParameterTexts, without_percent_codes};
 pub(crate) struct Texts<'d> {
     pub(super) layers: Vec<LayerTexts<'d>>,
     /// The texts that belong to an element.
-    pub(super) given: Vec<GivenText<'d>>,
+    pub(super) given: Vec<TextWithCandidate<'d>>,
 }
 
 /// A text with the candidate of its layer that it belongs to.
-pub(super) struct GivenText<'d> {
+pub(super) struct TextWithCandidate<'d> {
     pub(super) text: FoundText<'d>,
     pub(super) found: AssignedCandidate,
 }
@@ -177,7 +177,7 @@ impl<'d> Texts<'d> {
     ) -> impl Iterator<Item = (&'t str, &'t Candidate)> {
         let missed = move |layer: &'t LayerTexts<'d>| {
             let (candidates, boxes) = (&layer.candidates, &layer.boxes);
-            if find_taken(circle, candidates, boxes, budget).is_some() {
+            if find_with_text(circle, candidates, boxes, budget).is_some() {
                 return None;
             }
             let miss = nearest_miss(circle, candidates, boxes, budget)?;

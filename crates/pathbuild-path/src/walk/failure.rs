@@ -19,7 +19,7 @@ const ON_CURVE_TOLERANCE: f64 = 0.001;
 const MAX_SEARCHED_CIRCLES: usize = 16;
 
 /// An end of a remaining segment that a small gap separates from the end of a traversed one.
-struct EndBeside {
+struct NearbyEnd {
     segment: usize,
     end: Xy,
     /// The traversed segment.
@@ -32,11 +32,11 @@ impl Walker<'_> {
         self.path.start_origin.at(Diagnostic::new(&messages::EMPTY_PATH))
     }
 
-    pub(super) fn nothing_continues(&self) -> Diagnostic {
-        if let Some(problem) = self.last.and_then(|last| self.runs_back_on_copy(last)) {
+    pub(super) fn nothing_continues_problem(&self) -> Diagnostic {
+        if let Some(problem) = self.last.and_then(|last| self.runs_back_on_copy_problem(last)) {
             return problem;
         }
-        if let Some(problem) = self.stops_beside_end(self.at).filter(|_| self.is_nearest_to_end()) {
+        if let Some(problem) = self.stops_beside_end_problem(self.at).filter(|_| self.is_nearest_to_end()) {
             return self.at_end_marker(problem, self.at);
         }
         let last = self.last.map(|segment| self.path.origin(&self.path.segments[segment]));
@@ -48,8 +48,9 @@ impl Walker<'_> {
         };
         let has_passed_branch = self.passed_branch().is_some();
         let is_dead_end = has_passed_branch && self.duplicate_segment().is_none();
-        let split = || self.ends_on_another(&messages::ENDS_ON_OTHER).filter(|_| !self.has_open_end_beside());
-        if let Some(problem) = self.begins_on_another().or_else(split) {
+        let split =
+            || self.ends_on_another_problem(&messages::ENDS_ON_OTHER).filter(|_| !self.has_open_end_beside());
+        if let Some(problem) = self.begins_on_another_problem().or_else(split) {
             report(problem)
         } else if let Some((at, distance)) = self.turn_marker_beside().filter(|_| has_passed_branch) {
             let problem = Diagnostic::new(&messages::TURN_MARKER_BESIDE_TIP);
@@ -69,7 +70,7 @@ impl Walker<'_> {
     }
 
     /// Returns the problem that a segment lies on another one, wholly or in part, so that the path runs back along it.
-    fn runs_back_on_copy(&self, segment: usize) -> Option<Diagnostic> {
+    fn runs_back_on_copy_problem(&self, segment: usize) -> Option<Diagnostic> {
         let (segment, message) = if self.is_drawn_twice(segment) {
             (segment, &messages::DRAWN_TWICE)
         } else {
@@ -84,13 +85,13 @@ impl Walker<'_> {
 
     /// Adds a note with the number of segments that lie on others, if there are several.
     fn with_copies(&self, problem: Diagnostic) -> Diagnostic {
-        let count = Curves::new(self.path, 0..self.path.segments.len()).copies();
+        let count = Curves::new(self.path, 0..self.path.segments.len()).copy_count();
         if count > 1 { problem.note(&messages::COPIES, vec![("count", count.into())]) } else { problem }
     }
 
     /// Returns the problem that the path ends in the middle of a line or arc that was not reached. Excluded are those that branch off at a point that
     /// the walk passed, to which it may come back, and subpaths, which cannot be split.
-    fn ends_on_another(&self, message: &'static Message) -> Option<Diagnostic> {
+    fn ends_on_another_problem(&self, message: &'static Message) -> Option<Diagnostic> {
         let is_meant = |segment: &usize| {
             self.passes_through(*segment, self.at)
                 && !matches!(self.path.segments[*segment].kind, SegmentKind::Subpath(_))
@@ -102,7 +103,7 @@ impl Walker<'_> {
     }
 
     /// Returns the problem that the nearest segment that was not reached begins in the middle of a traversed one, unless that is a small gap.
-    fn begins_on_another(&self) -> Option<Diagnostic> {
+    fn begins_on_another_problem(&self) -> Option<Diagnostic> {
         let (segment, begin, distance) = self.nearest_end(self.at)?;
         let other = self.segment_through(begin)?;
         let is_near = distance <= MAX_SKIPPED_GAP;
@@ -162,11 +163,11 @@ impl Walker<'_> {
         })
     }
 
-    pub(super) fn turn_found_nothing(&self, marker: usize) -> Diagnostic {
+    pub(super) fn turn_found_nothing_problem(&self, marker: usize) -> Diagnostic {
         let problem = Diagnostic::new(&messages::TURN_FOUND_NOTHING).with("left", self.left);
         let problem = self.path.turns[marker].origin.at(problem);
         match self.end_beside_traversed() {
-            Some(EndBeside { segment, end, distance, .. }) => problem.note(
+            Some(NearbyEnd { segment, end, distance, .. }) => problem.note(
                 &messages::END_BESIDE_WAY_BACK,
                 vec![
                     ("element", self.word(segment).into()),
@@ -179,7 +180,7 @@ impl Walker<'_> {
     }
 
     /// Returns the end of a remaining segment that is nearest to the traversed segments' ends, if only a small gap separates them.
-    fn end_beside_traversed(&self) -> Option<EndBeside> {
+    fn end_beside_traversed(&self) -> Option<NearbyEnd> {
         let passed = OpenEnds::new(self.traversed_segments(), &self.ends);
         let beside = self.unreached_segments().flat_map(|segment| {
             let [one, two] = self.ends.of(segment);
@@ -188,7 +189,7 @@ impl Walker<'_> {
             let ends = [(one, two), (two, one)].map(|(end, from)| {
                 let (other, distance) = passed.nearest(end)?;
                 let is_gap = !self.is_passed(end) && distance <= MAX_SKIPPED_GAP && !is_short_branch(from);
-                is_gap.then_some(EndBeside { segment, end, other, distance })
+                is_gap.then_some(NearbyEnd { segment, end, other, distance })
             });
             ends.into_iter().flatten()
         });
@@ -221,14 +222,14 @@ impl Walker<'_> {
             Diagnostic::new(&messages::UNREACHED_CIRCLE)
                 .with("diameter", 2.0 * arc.radius)
                 .with("point", diagnostic_point(arc.centre))
-        } else if let Some(EndBeside { segment, end, other, distance }) = self.end_beside_traversed() {
+        } else if let Some(NearbyEnd { segment, end, other, distance }) = self.end_beside_traversed() {
             let [one, two] = self.ends.of(other);
             let beside = if (two - end).norm() < (one - end).norm() { two } else { one };
             about(&messages::UNREACHED_BESIDE, (segment, end))
                 .with("other", self.word(other))
                 .with("end", diagnostic_point(beside))
                 .with("distance", distance)
-        } else if let Some(problem) = self.ends_on_another(&messages::UNREACHED_ENDS_ON_OTHER) {
+        } else if let Some(problem) = self.ends_on_another_problem(&messages::UNREACHED_ENDS_ON_OTHER) {
             problem
         } else if let Some(branch) = branch {
             about(&messages::UNREACHED_BRANCH, branch)
@@ -280,7 +281,7 @@ impl Walker<'_> {
         self.path.curve(&self.path.segments[segment]).is_some_and(is_on)
     }
 
-    pub(super) fn end_not_reached(&self, stopped_at: Xy) -> Diagnostic {
+    pub(super) fn end_not_reached_problem(&self, stopped_at: Xy) -> Diagnostic {
         let part = self.last.and_then(|last| self.part_drawn_twice(last));
         let about_copy = |message, segment: usize| {
             let problem = Diagnostic::new(message).with("element", self.word(segment));
@@ -291,7 +292,7 @@ impl Walker<'_> {
             about_copy(&messages::END_NOT_REACHED_TWICE, segment)
         } else if let Some(segment) = part {
             about_copy(&messages::END_NOT_REACHED_PART_TWICE, segment)
-        } else if let Some(problem) = self.stops_beside_end(stopped_at) {
+        } else if let Some(problem) = self.stops_beside_end_problem(stopped_at) {
             problem
         } else if self.is_passed(end) && !coincide(end, self.path.start) {
             Diagnostic::new(&messages::END_PASSED)
@@ -307,7 +308,7 @@ impl Walker<'_> {
     }
 
     /// Returns the problem that only a small gap separates the path from its end marker.
-    fn stops_beside_end(&self, stopped_at: Xy) -> Option<Diagnostic> {
+    fn stops_beside_end_problem(&self, stopped_at: Xy) -> Option<Diagnostic> {
         let distance = (self.path.end - stopped_at).norm();
         let is_beside = distance <= MAX_SKIPPED_GAP && !self.is_start_of_short_last_segment(self.path.end);
         is_beside.then(|| Diagnostic::new(&messages::STOPS_BESIDE_END).with("distance", distance))
@@ -487,13 +488,13 @@ impl<'a> Curves<'a> {
     }
 
     /// Returns the number of curves that lie on others, unless both have a text.
-    fn copies(&self) -> usize {
+    fn copy_count(&self) -> usize {
         let pairs = self.known.windows(2).filter(|pair| pair[0].0 == pair[1].0);
         pairs.filter(|pair| self.is_mistake([pair[0].1, pair[1].1])).count()
     }
 
     /// Returns PB121 for milled segments that lie on each other, unless both have a text: then the user cuts the same curve twice on purpose.
-    pub(super) fn milled_twice(&self) -> Vec<Diagnostic> {
+    pub(super) fn milled_twice_problems(&self) -> Vec<Diagnostic> {
         let pairs = self.known.windows(2).filter(|pair| pair[0].0 == pair[1].0);
         let mut twice: Vec<[usize; 2]> =
             pairs.map(|pair| [pair[1].1, pair[0].1]).filter(|pair| self.is_mistake(*pair)).collect();
@@ -502,8 +503,8 @@ impl<'a> Curves<'a> {
     }
 
     /// Returns one PB121 for all milled segments that lie on others, for a path along which other errors prevent the walk.
-    pub(super) fn all_twice(&self) -> Option<Diagnostic> {
-        let found = self.milled_twice();
+    pub(super) fn milled_twice_summary(&self) -> Option<Diagnostic> {
+        let found = self.milled_twice_problems();
         let count = found.len();
         let first = found.into_iter().next()?;
         if count == 1 {
@@ -539,7 +540,7 @@ impl<'a> Curves<'a> {
 }
 
 /// Returns PB121 for paths that are embedded twice with the same values by segments on top of each other. The walk may run back along the second one.
-pub(super) fn embedded_twice(path: &Path, items: &[Item]) -> Vec<Diagnostic> {
+pub(super) fn embedded_twice_problems(path: &Path, items: &[Item]) -> Vec<Diagnostic> {
     let mut known = BTreeSet::new();
     let is_repeated = |item: &Item| {
         let Item::Subpath(placed) = item else { return None };

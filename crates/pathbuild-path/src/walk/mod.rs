@@ -16,16 +16,16 @@ use crate::element::{Origin, diagnostic_point};
 use crate::geometry::{Curve, Xy};
 use crate::path::{Path, SegmentKind};
 use crate::raw::WalkCertainty;
-use crate::walk::failure::{Curves, embedded_twice};
+use crate::walk::failure::{Curves, embedded_twice_problems};
 use crate::walk::order::{Ends, Junctions, Turns, comes_before};
 
 /// Orders the segments of a path. Where no segment continues, the nearest end within `join_tolerance` mm is joined, with a warning.
 pub fn walk(path: &Path, join_tolerance: f64) -> WalkedPath {
-    walk_watched(path, join_tolerance, &|| {})
+    walk_with_checkpoints(path, join_tolerance, &|| {})
 }
 
 /// Like [`walk`], but calls `checkpoint` regularly, which may unwind if the result is no longer needed.
-pub fn walk_watched(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> WalkedPath {
+pub fn walk_with_checkpoints(path: &Path, join_tolerance: f64, checkpoint: &dyn Fn()) -> WalkedPath {
     let mut walk = Walker::new(path, join_tolerance, checkpoint);
     let result = walk.run();
     let mut walked = walk.finish(result);
@@ -125,10 +125,10 @@ impl<'a> Walker<'a> {
         walked.diagnostics.append(&mut joined);
         if is_complete && !walked.items.is_empty() {
             walked.diagnostics.extend(idle);
-            walked.diagnostics.extend(Curves::new(path, 0..path.segments.len()).milled_twice());
-            walked.diagnostics.extend(embedded_twice(path, &walked.items));
+            walked.diagnostics.extend(Curves::new(path, 0..path.segments.len()).milled_twice_problems());
+            walked.diagnostics.extend(embedded_twice_problems(path, &walked.items));
         } else if is_silent {
-            walked.diagnostics.extend(Curves::new(path, 0..path.segments.len()).all_twice());
+            walked.diagnostics.extend(Curves::new(path, 0..path.segments.len()).milled_twice_summary());
         }
         walked
     }
@@ -143,7 +143,7 @@ impl<'a> Walker<'a> {
             return Err(None);
         }
         if self.path.segments.is_empty() {
-            return Err(self.unless_unclear(Self::empty_path_problem));
+            return Err(self.failure_unless_uncertain(Self::empty_path_problem));
         }
         while self.left > 0 {
             if self.left.is_multiple_of(SEGMENTS_PER_CHECKPOINT) {
@@ -153,13 +153,13 @@ impl<'a> Walker<'a> {
                 self.traverse(segment);
             } else if let Some(marker) = self.turn_marker() {
                 self.retrace_until(|walk| walk.next().is_some())
-                    .map_err(|()| Some(self.turn_found_nothing(marker).into()))?;
+                    .map_err(|()| Some(self.turn_found_nothing_problem(marker).into()))?;
             } else if self.is_at_end() || self.last.is_some() && self.joins_end() {
                 return Err(self
-                    .unless_unclear(Self::unreached_problem)
+                    .failure_unless_uncertain(Self::unreached_problem)
                     .filter(|_| !self.has_several_ends()));
             } else {
-                let problem = self.unless_unclear(Self::nothing_continues);
+                let problem = self.failure_unless_uncertain(Self::nothing_continues_problem);
                 match self.point_beyond_gap(problem.as_deref()) {
                     Some(point) => {
                         self.gaps.extend(problem.map(|problem| *problem));
@@ -178,7 +178,7 @@ impl<'a> Walker<'a> {
             return Ok(());
         }
         if self.turn_marker().is_none() || self.retrace_until(|walk| walk.is_at_end()).is_err() {
-            let problem = self.unless_unclear(|walk| walk.end_not_reached(stopped_at));
+            let problem = self.failure_unless_uncertain(|walk| walk.end_not_reached_problem(stopped_at));
             return Err(problem.filter(|_| !self.has_several_ends()));
         }
         Ok(())
@@ -200,7 +200,7 @@ impl<'a> Walker<'a> {
 
     /// Returns a failure, unless there is a circle without a meaning at the current point, where the walk may turn or end, or the walk passed a segment
     /// that an unread N may have put first.
-    fn unless_unclear(&self, problem: impl FnOnce(&Self) -> Diagnostic) -> Failure {
+    fn failure_unless_uncertain(&self, problem: impl FnOnce(&Self) -> Diagnostic) -> Failure {
         let is_unclear = self.path.uncertainty.as_ref().is_some_and(|uncertainty| {
             let mut circles = uncertainty.unclear_circles.iter();
             circles.any(|circle| coincide(*circle, self.at) || self.path.segments.is_empty())
@@ -246,15 +246,15 @@ impl<'a> Walker<'a> {
         // An arc keeps its centre and radius: the gap before it becomes a short line. To reach a hole, circle or subpath, the tool sweeps.
         if !coincide(passage.start, self.at) {
             if self.is_milled_arc(segment) {
-                self.go(segment, passage.lead_in(self.at));
+                self.follow_forwards(segment, passage.lead_in(self.at));
             } else {
                 self.chains.add_sweep(segment, self.at, passage.start);
             }
         }
-        self.go(segment, passage);
+        self.follow_forwards(segment, passage);
     }
 
-    fn go(&mut self, segment: usize, passage: Passage) {
+    fn follow_forwards(&mut self, segment: usize, passage: Passage) {
         if !self.path.turns.is_empty() {
             self.way_back.push((segment, passage.clone()));
         }

@@ -1,7 +1,7 @@
 //! Tests permitted values that are suspicious to a machinist: PB116 and PB211.
 
 use pathbuild_diagnostic::Lang;
-use pathbuild_path::{Bindings, DoubtThresholds, Language, PathTool, PathTools, examine};
+use pathbuild_path::{Bindings, DoubtThresholds, Language, PathTool, PathTools, bind_leniently};
 
 use crate::support::{codes, compile, compile_raw, language, path, raw, read_as};
 
@@ -673,7 +673,7 @@ fn a_letter_without_effect_for_two_reasons_is_one_mistake() {
     let language = Language { doubts: MACHINE, ..language() };
     for letter in ["B1", "C1", "F-1"] {
         let raw = raw(&path(&format!("T5 O2 Mx {letter}"), "subpath 0,0 40,0 \">2050.1P\"\nend 40,0"));
-        let problems = examine(&raw, &Bindings::check_values(&[]), &language).problems;
+        let problems = bind_leniently(&raw, &Bindings::check_values(&[]), &language).problems;
         assert_eq!(raw.findings_except(&problems).len() + problems.len(), 1, "{letter}");
     }
 }

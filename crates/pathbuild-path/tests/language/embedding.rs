@@ -419,7 +419,13 @@ fn what_is_not_found_names_what_is_near() {
         let known = known.iter().map(|name| PathName::new(name)).collect();
         let name = PathName::new("1111.1P");
         let problem = judged(&outer, &[], |judge, call| {
-            judge.not_found(call, &name, ["."].into_iter().collect(), ["a.dxf"].into_iter().collect(), known)
+            judge.not_found_problem(
+                call,
+                &name,
+                ["."].into_iter().collect(),
+                ["a.dxf"].into_iter().collect(),
+                known,
+            )
         });
         assert_eq!(problem.code().to_string(), "PB503");
         problem.notes.iter().map(|note| note.text(Lang::En)).collect::<Vec<_>>()

@@ -52,8 +52,8 @@ fn names_of_other_programs_are_known() {
 /// A line type is suggested for an unknown name that begins like it, from three letters on.
 #[test]
 fn abbreviations_are_recognised() {
-    assert_eq!(LineType::like("PHA"), Some(LineType::Phantom));
-    assert_eq!(LineType::like("PH"), None);
+    assert_eq!(LineType::guess("PHA"), Some(LineType::Phantom));
+    assert_eq!(LineType::guess("PH"), None);
 }
 
 #[test]
@@ -173,6 +173,6 @@ fn unknown_names_suggest_a_line_type() {
         ("ZIGZAG", None),
     ];
     for (name, meant) in likely {
-        assert_eq!(LineType::like(name), meant, "{name}");
+        assert_eq!(LineType::guess(name), meant, "{name}");
     }
 }

@@ -3,8 +3,8 @@
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, Curve, DoubtThresholds, ExaminedPath, Item, Language, LineTypeAliases, Path, PathPattern,
-    RawFile, RawPath, WalkedPath, Xy, examine, raw_file, walk,
+    Bindings, Curve, DoubtThresholds, Item, Language, LineTypeAliases, PartiallyBoundPath, Path, PathPattern,
+    RawFile, RawPath, WalkedPath, Xy, bind_leniently, raw_file, walk,
 };
 use pathbuild_testkit::sheet;
 
@@ -83,7 +83,7 @@ pub(crate) fn compile(drawing: &str) -> Compiled {
 /// Compiles a path stage by stage. Each stage suppresses findings that follow from earlier ones.
 pub(crate) fn compile_raw(raw: &RawPath, bindings: &Bindings, language: &Language) -> Compiled {
     let mut compiled = Compiled { path: None, walked: WalkedPath::default(), found: raw.diagnostics.clone() };
-    let ExaminedPath { path, problems } = examine(raw, bindings, language);
+    let PartiallyBoundPath { path, problems } = bind_leniently(raw, bindings, language);
     compiled.found.extend(problems);
     if let Some(path) = &path {
         compiled.walked = walk(path, language.join_tolerance);

@@ -11,7 +11,7 @@ use pathbuild_path::approx::at_least;
 
 use super::control_text::ControlTextKind;
 use super::definition::{Abilities, Definition};
-use crate::arcs::{ArcRounding, MAX_CHORDS, chords, pieces_of};
+use crate::arcs::{ArcRounding, MAX_CHORDS, arc_piece_count, chords};
 use crate::job::{Entry, Hole, HoleKind, Job, JobStep, Operation, Units};
 
 type CallResult = Result<(), Box<Diagnostic>>;
@@ -142,16 +142,18 @@ impl<'a> Builder<'a> {
         match step {
             JobStep::Move(movement) => return self.move_along(movement),
             JobStep::Hole(hole) => return self.hole(hole),
-            JobStep::SpindleOff { .. } => return Err(Box::new(self.refusal(&posts::JOB_SPINDLE_OFF))),
-            JobStep::Comment(text) => self.add_aside(CallContent::Comment(text)),
-            JobStep::Dwell { seconds } => self.add_aside(CallContent::Dwell(*seconds)),
-            JobStep::Stop => self.add_aside(CallContent::Stop),
+            JobStep::SpindleOff { .. } => {
+                return Err(Box::new(self.operation_error(&posts::JOB_SPINDLE_OFF)));
+            }
+            JobStep::Comment(text) => self.add_stationary_call(CallContent::Comment(text)),
+            JobStep::Dwell { seconds } => self.add_stationary_call(CallContent::Dwell(*seconds)),
+            JobStep::Stop => self.add_stationary_call(CallContent::Stop),
         }
         Ok(())
     }
 
     /// Returns an error of the current operation.
-    fn refusal(&self, message: &'static Message) -> Diagnostic {
+    fn operation_error(&self, message: &'static Message) -> Diagnostic {
         Diagnostic::new(message).quoting("operation", &*self.current_operation().name)
     }
 
@@ -164,13 +166,13 @@ impl<'a> Builder<'a> {
             }
             (None, Pace::Feed(_)) => self.feed(self.resolve(movement.to), movement.pace.stated_feed()),
             (None, Pace::Probe { .. }) => {
-                Err(Box::new(self.refusal(&posts::NO_TEXT_FOR).quoting("text", "probe")))
+                Err(Box::new(self.operation_error(&posts::NO_TEXT_FOR).quoting("text", "probe")))
             }
         }
     }
 
     /// Adds a call that neither moves the tool nor ends a contour. While rapids are pending, the call is held back with them.
-    fn add_aside(&mut self, content: CallContent<'a>) {
+    fn add_stationary_call(&mut self, content: CallContent<'a>) {
         if self.ways.is_empty() {
             self.push_call(content);
         } else {
@@ -200,14 +202,14 @@ impl<'a> Builder<'a> {
             for step in hole.moves()? {
                 match step {
                     JobStep::Move(movement) => self.move_along(&movement)?,
-                    JobStep::Dwell { seconds } => self.add_aside(CallContent::Dwell(seconds)),
+                    JobStep::Dwell { seconds } => self.add_stationary_call(CallContent::Dwell(seconds)),
                     _ => {}
                 }
             }
             return Ok(());
         }
         self.ways.push([hole.at[0], hole.at[1], hole.level]);
-        let clearance = self.height().max(hole.exit);
+        let clearance = self.travel_height().max(hole.exit);
         self.close_contour()?;
         self.push_call(CallContent::Hole { hole: *hole, clearance });
         self.at = [hole.at[0], hole.at[1], hole.exit];
@@ -243,7 +245,8 @@ impl<'a> Builder<'a> {
     }
 
     fn missing_z_error(&self, to: Point, kind: ControlTextKind) -> Box<Diagnostic> {
-        let diagnostic = self.refusal(&posts::NO_Z_IN_TEXT).with("from", self.at[2]).with("to", to[2]);
+        let diagnostic =
+            self.operation_error(&posts::NO_Z_IN_TEXT).with("from", self.at[2]).with("to", to[2]);
         Box::new(diagnostic.quoting("text", kind.name()))
     }
 
@@ -260,7 +263,7 @@ impl<'a> Builder<'a> {
         let is_writable =
             self.abilities.arc && course.arc().plane == Plane::Xy && (is_level || self.abilities.arc_z);
         if is_writable {
-            for piece in movement.split(pieces_of(course, self.abilities.arc_sweep)) {
+            for piece in movement.split(arc_piece_count(course, self.abilities.arc_sweep)) {
                 let Some(movement) = self.rounded_arc(&piece)? else {
                     self.line(piece.to.at, piece.pace.stated_feed())?;
                     continue;
@@ -272,7 +275,7 @@ impl<'a> Builder<'a> {
             return Ok(());
         }
         if self.abilities.arc && !is_level && !self.abilities.line_z {
-            let diagnostic = self.refusal(&posts::NO_Z_IN_ARC);
+            let diagnostic = self.operation_error(&posts::NO_Z_IN_ARC);
             return Err(Box::new(diagnostic.with("from", movement.from.z()).with("to", movement.to.z())));
         }
         let Some(count) = chords(course, self.abilities.arc_tolerance) else {
@@ -307,10 +310,10 @@ impl<'a> Builder<'a> {
         let surface = self.current_operation().surface;
         let is_within = self.is_open && self.ways.iter().all(|way| !at_least(way[2], surface));
         if is_within {
-            self.write_asides();
+            self.write_stationary_calls();
             return self.add_rapids_to_contour(self.ways.len());
         }
-        let (to, working, clearance) = (self.pending_end(), self.pending_end()[2], self.height());
+        let (to, working, clearance) = (self.pending_end(), self.pending_end()[2], self.travel_height());
         self.close_contour()?;
         let (to, feed) = plunge.unwrap_or((to, None));
         self.start_contour(to, clearance, working, feed);
@@ -344,7 +347,7 @@ impl<'a> Builder<'a> {
 
     /// Returns the height in mm at which the tool travels to the end of the pending rapids: their highest point or, if they do not lead there in a
     /// straight line and it is higher, the clearance plane.
-    fn height(&self) -> f64 {
+    fn travel_height(&self) -> f64 {
         let (from, to) = (self.at, self.pending_end());
         let is_straight = |way: &Point| {
             let [along, across] = [[to[0] - from[0], to[1] - from[1]], [way[0] - from[0], way[1] - from[1]]];
@@ -373,22 +376,22 @@ impl<'a> Builder<'a> {
         let end = self.pending_end();
         if self.is_open && !self.abilities.rapid {
             self.add_rapids_to_contour(self.count_sideways_rapids())?;
-            let height = self.height();
+            let height = self.travel_height();
             self.end_contour(if height.is_finite() { height } else { self.current_operation().clearance });
         } else if !self.ways.is_empty() {
-            self.raise_hole();
+            self.raise_safety_height_of_hole();
         }
         self.finish_contour();
         self.at = end;
         self.ways.clear();
-        self.write_asides();
+        self.write_stationary_calls();
         Ok(())
     }
 
     /// Raises the safety height of the last hole to the height of the following moves, because the text of a hole ends at its safety
     /// height.
-    fn raise_hole(&mut self) {
-        let height = self.height();
+    fn raise_safety_height_of_hole(&mut self) {
+        let height = self.travel_height();
         let is_aside = |what: &CallContent<'_>| {
             matches!(what, CallContent::Comment(_) | CallContent::Dwell(_) | CallContent::Stop)
         };
@@ -398,7 +401,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn write_asides(&mut self) {
+    fn write_stationary_calls(&mut self) {
         for aside in std::mem::take(&mut self.asides) {
             self.push_call(aside);
         }

@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
 
 use super::control_text::{ControlText, ControlTextKind, locate};
-use super::expand::next_variable;
+use super::expand::split_at_next_variable;
 use super::variables::{Variable, is_parameter, is_private};
 use crate::Units;
 use crate::arcs::MAX_CHORD_DISTANCE;
@@ -46,7 +46,7 @@ impl Definition {
                         .with("reason", pathbuild_diagnostic::Value::foreign(error.message())),
                     error.span().unwrap_or(0..0),
                 );
-                return Err(reader.findings.warnings().unwrap_or_else(|errors| errors));
+                return Err(reader.findings.into_result().unwrap_or_else(|errors| errors));
             }
         };
         let definition = reader.definition(table.get_ref());
@@ -56,7 +56,7 @@ impl Definition {
                 findings.add(doubt);
             }
         }
-        findings.warnings().map(|warnings| (definition, warnings))
+        findings.into_result().map(|warnings| (definition, warnings))
     }
 
     pub(crate) fn extension(&self) -> &str {
@@ -235,8 +235,8 @@ impl ControlTextReader<'_> {
 
     fn unknown_key(&mut self, key: &Spanned<Cow<'_, str>>, prefix: &str, known: &[&'static str]) {
         let nearest = nearest(key.get_ref(), known.iter().copied());
-        let diagnostic =
-            Diagnostic::new(&posts::POST_UNKNOWN_KEY).or_nearest(&posts::POST_UNKNOWN_KEY_NEAREST, nearest);
+        let diagnostic = Diagnostic::new(&posts::POST_UNKNOWN_KEY)
+            .suggest_nearest(&posts::POST_UNKNOWN_KEY_NEAREST, nearest);
         let diagnostic = diagnostic.with("known", known.iter().collect::<pathbuild_diagnostic::Value>());
         self.report(diagnostic.quoting("key", format!("{prefix}{}", key.get_ref())), key.span());
     }
@@ -386,7 +386,7 @@ fn mistakes_in_text(kind: ControlTextKind, text: &ControlText, file: &Utf8Path) 
     let mut statements = Statements::default();
     let mut rest = text.text.as_str();
     // An invalid text ends the loop silently: it is reported when it is run.
-    while let Ok(Some((before, name, after))) = next_variable(rest)
+    while let Ok(Some((before, name, after))) = split_at_next_variable(rest)
         && diagnostics.len() < MAX_FINDINGS
     {
         let at = text.text.len() - rest.len() + before.len();

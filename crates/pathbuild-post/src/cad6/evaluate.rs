@@ -35,14 +35,14 @@ pub(super) struct ResultLine {
 }
 
 #[derive(Debug)]
-pub(super) struct Outcome {
+pub(super) struct EvaluatedText {
     pub(super) lines: Vec<ResultLine>,
     /// Warnings about terms, each with its offset in the expanded text.
     pub(super) doubts: Vec<(usize, &'static Message)>,
 }
 
 /// Evaluates the statements of an expanded text.
-pub(super) fn run(text: &Expanded, environment: Environment<'_>) -> Evaluated<Outcome> {
+pub(super) fn run(text: &Expanded, environment: Environment<'_>) -> Evaluated<EvaluatedText> {
     let mut evaluator = Evaluator {
         text: &text.text,
         expanded: text,
@@ -53,7 +53,7 @@ pub(super) fn run(text: &Expanded, environment: Environment<'_>) -> Evaluated<Ou
         environment,
     };
     evaluator.text(false)?;
-    Ok(Outcome { lines: evaluator.lines, doubts: evaluator.doubts })
+    Ok(EvaluatedText { lines: evaluator.lines, doubts: evaluator.doubts })
 }
 
 /// Evaluator of an expanded text, with the position reached and the lines produced so far.

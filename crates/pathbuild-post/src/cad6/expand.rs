@@ -42,7 +42,7 @@ impl Expanded {
         let mut expanded = Self::default();
         let mut rest = text;
         while let Some((before, name, after)) =
-            next_variable(rest).map_err(|fault| fault.shifted(text.len() - rest.len()))?
+            split_at_next_variable(rest).map_err(|fault| fault.shifted(text.len() - rest.len()))?
         {
             let start = text.len() - rest.len() + before.len();
             let span = start..text.len() - after.len();
@@ -81,7 +81,7 @@ impl Expanded {
             return Ok(());
         };
         let mut rest = value;
-        while let Some((before, inner, after)) = next_variable(rest)? {
+        while let Some((before, inner, after)) = split_at_next_variable(rest)? {
             self.push(before)?;
             self.variable(inner, variables, depth + 1)?;
             rest = after;
@@ -114,7 +114,7 @@ impl Expanded {
 }
 
 /// Splits a text at its next variable into the text before it, its name and the rest. Escape sequences are skipped.
-pub(super) fn next_variable(text: &str) -> Evaluated<Option<(&str, &str, &str)>> {
+pub(super) fn split_at_next_variable(text: &str) -> Evaluated<Option<(&str, &str, &str)>> {
     let mut at = 0;
     while let Some(found) = text[at..].find(['~', '\\']) {
         at += found;

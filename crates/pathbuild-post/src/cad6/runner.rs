@@ -5,11 +5,11 @@ use std::ops::Range;
 use camino::Utf8Path;
 use pathbuild_diagnostic::messages::posts;
 use pathbuild_diagnostic::{Diagnostic, Lang, nearest};
-use pathbuild_gcode::native::too_large;
+use pathbuild_gcode::native::output_too_large_error;
 
 use super::control_text::{ControlText, ControlTextKind};
 use super::definition::Definition;
-use super::evaluate::{Environment, Outcome, ResultLine, run};
+use super::evaluate::{Environment, EvaluatedText, ResultLine, run};
 use super::expand::Expanded;
 use super::variables::{VARIABLES, Variable, Variables, byte_of};
 use crate::PostFiles;
@@ -98,7 +98,7 @@ impl<'a> Runner<'a> {
         }
         self.push(text, kind)?;
         self.text.extend_from_slice(self.definition.settings.end_of_line.as_bytes());
-        if self.text.len() > self.most_bytes { Err(too_large(self.most_bytes)) } else { Ok(()) }
+        if self.text.len() > self.most_bytes { Err(output_too_large_error(self.most_bytes)) } else { Ok(()) }
     }
 
     fn write_line_number(&mut self) -> RunResult {
@@ -147,18 +147,18 @@ impl<'a> Runner<'a> {
             decimals: self.definition.settings.decimals,
             files: self.files,
         };
-        let Outcome { lines, doubts } = run(&expanded, environment).map_err(|mut fault| {
+        let EvaluatedText { lines, doubts } = run(&expanded, environment).map_err(|mut fault| {
             fault.span = range_in_control_text(&expanded, &fault.span, text.text.len());
             self.report(*fault, kind, text)
         })?;
         for (at, doubt) in doubts {
             let at = expanded.origin(at);
-            self.doubt(locate(Diagnostic::new(doubt), kind, text, at..at + 1, self.file));
+            self.warn(locate(Diagnostic::new(doubt), kind, text, at..at + 1, self.file));
         }
         Ok(with_origins(lines, &expanded, text))
     }
 
-    fn doubt(&mut self, doubt: Diagnostic) {
+    fn warn(&mut self, doubt: Diagnostic) {
         if self.warnings.len() < MAX_WARNINGS && !self.warnings.contains(&doubt) {
             self.warnings.push(doubt);
         }
@@ -171,7 +171,8 @@ impl<'a> Runner<'a> {
         {
             let name = name.render(Lang::En);
             let others = VARIABLES.iter().map(|known| known.name).filter(|known| *known != name);
-            diagnostic = diagnostic.or_nearest(&posts::VARIABLE_UNDEFINED_NEAREST, nearest(&name, others));
+            diagnostic =
+                diagnostic.suggest_nearest(&posts::VARIABLE_UNDEFINED_NEAREST, nearest(&name, others));
             if text.text.contains(&format!("{{={name}")) {
                 diagnostic.message = &posts::VARIABLE_UNDEFINED_YET;
             } else if let Some(variable) = Variable::by_name(self.variables.own_name(&name)) {

@@ -10,7 +10,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use super::machine::{CODES_WITH_SECTION, Form, Register};
 use super::macros::{Macro, MacroArguments, State, Value};
-use super::options::{Options, Refusal};
+use super::options::{OptionError, Options};
 use super::section::Section;
 use super::template::{Fault, Template, TemplateError};
 use crate::arcs::MAX_CHORD_DISTANCE;
@@ -86,7 +86,7 @@ impl Definition {
     }
 
     /// Whether the definition never moves in Z but switches a beam on where a cut starts and off where it ends.
-    pub(crate) fn is_flat(&self) -> bool {
+    pub(crate) fn is_for_beam(&self) -> bool {
         // A macro of another kind may expand to anything, including a move in Z.
         let is_without_z = |what: &Macro| match what {
             Macro::Register(register, _) | Macro::Value(Value::MoveAxis(register)) => {
@@ -95,11 +95,11 @@ impl Definition {
             Macro::Code { .. } | Macro::Speed | Macro::Value(_) => true,
             _ => false,
         };
-        let is_flat = |section: Section| {
+        let is_for_beam = |section: Section| {
             let text = self.section(section);
             text.macros().all(|(what, _)| is_without_z(what)) && !text.literal().contains(['Z', 'z'])
         };
-        [Section::Rapid, Section::FeedMove, Section::ArcCw, Section::ArcCcw].into_iter().all(is_flat)
+        [Section::Rapid, Section::FeedMove, Section::ArcCw, Section::ArcCcw].into_iter().all(is_for_beam)
             && [Section::StartCut, Section::EndCut]
                 .into_iter()
                 .all(|section| !self.section(section).is_blank())
@@ -217,8 +217,8 @@ impl<'a> CbppReader<'a> {
         let name = element.tag_name().name();
         let (text, start) = text_of(element);
         let line = self.lines.line(start);
-        self.notice_repetition(name, line);
-        self.notice_nested(element);
+        self.report_repetition(name, line);
+        self.report_nested(element);
         if let Some(&section) = Section::ALL.iter().find(|section| section.name() == name) {
             let template = self.template(section, &text, line);
             self.check_comment(section, template.as_ref(), line);
@@ -245,7 +245,7 @@ impl<'a> CbppReader<'a> {
         }
     }
 
-    fn notice_repetition(&mut self, name: &str, line: u32) {
+    fn report_repetition(&mut self, name: &str, line: u32) {
         // `AxisOfSpin` and `AxisOfRotation` are two names of the same setting.
         let setting = if name == "AxisOfSpin" { "AxisOfRotation" } else { name };
         if !self.seen.insert(setting.to_owned()) {
@@ -254,7 +254,7 @@ impl<'a> CbppReader<'a> {
     }
 
     /// Reports the elements within an element of the definition. They and their texts are ignored.
-    fn notice_nested(&mut self, element: Node<'_, '_>) {
+    fn report_nested(&mut self, element: Node<'_, '_>) {
         for nested in element.children().filter(Node::is_element) {
             let line = self.lines.line(nested.range().start);
             let name = nested.tag_name().name();
@@ -266,7 +266,7 @@ impl<'a> CbppReader<'a> {
     fn template(&mut self, section: Section, text: &str, line: u32) -> Option<Template> {
         match Template::parse(section, text, line) {
             Ok(template) => {
-                self.notice_bare_macros(&template);
+                self.report_bare_macros(&template);
                 Some(template)
             }
             Err(errors) => {
@@ -279,7 +279,7 @@ impl<'a> CbppReader<'a> {
     }
 
     /// Warns about macros without a dollar sign, such as `{units}`, which would be written literally.
-    fn notice_bare_macros(&mut self, template: &Template) {
+    fn report_bare_macros(&mut self, template: &Template) {
         if matches!(template.section, Section::Comment | Section::EndComment) {
             return;
         }
@@ -323,10 +323,10 @@ impl<'a> CbppReader<'a> {
         self.definition.stated.insert(name.into(), (text.trim().into(), line));
         match self.definition.options.set(name, text) {
             Ok(()) => {}
-            Err(Refusal::Unknown) => {
+            Err(OptionError::Unknown) => {
                 self.report(Diagnostic::new(&posts::POST_UNKNOWN_ELEMENT).quoting("element", name), line);
             }
-            Err(Refusal::Expected(expected)) => {
+            Err(OptionError::Expected(expected)) => {
                 let diagnostic = Diagnostic::new(&posts::POST_OPTION).quoting("option", name);
                 self.report(diagnostic.quoting("value", text.trim()).with("expected", expected), line);
             }
@@ -338,7 +338,7 @@ impl<'a> CbppReader<'a> {
     }
 
     fn finish(self) -> Result<(Definition, Vec<Diagnostic>), Vec<Diagnostic>> {
-        self.findings.warnings().map(|warnings| (self.definition, warnings))
+        self.findings.into_result().map(|warnings| (self.definition, warnings))
     }
 }
 
@@ -469,7 +469,7 @@ impl<'a> Plan<'a> {
         let bare = name.split('(').next().unwrap_or(name);
         let nearest = nearest(bare, users).or_else(|| Macro::nearest(bare)).map(macro_in_braces);
         let diagnostic =
-            Diagnostic::new(&posts::UNKNOWN_MACRO).or_nearest(&posts::UNKNOWN_MACRO_NEAREST, nearest);
+            Diagnostic::new(&posts::UNKNOWN_MACRO).suggest_nearest(&posts::UNKNOWN_MACRO_NEAREST, nearest);
         self.locate(diagnostic.quoting("macro", macro_in_braces(name)), section, line)
     }
 

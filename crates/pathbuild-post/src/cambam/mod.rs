@@ -73,7 +73,7 @@ pub(super) fn translate(definition: &Definition, text: &[u8]) -> TranslatedText 
             own_words.iter().find(|(_, word)| code.contains(word.as_str())).map(|(number, _)| *number);
         let mut words = words(code, &marks);
         if code.len() < line.len() {
-            words.other_number = definition.options.numbering.other_number();
+            words.unusual_number_prefix = definition.options.numbering.unusual_number_prefix();
         }
         translation.line(code, &words, motion, false);
     }
@@ -110,7 +110,7 @@ pub(super) fn post_build(
     let default_output = || format!("{}.{}", job.name, definition.options.extension);
     let output = options.output.as_deref().map_or_else(default_output, str::to_owned);
     let mut words = vec![command.to_owned()];
-    for argument in split(&definition.options.post_build_arguments) {
+    for argument in split_command_line(&definition.options.post_build_arguments) {
         // Macros are replaced after splitting, so that a path with spaces remains one argument.
         let argument = argument.replace("{$outfile}", &output).replace("{$cbfile.name}", &job.name);
         if let Some(start) = argument.find("{$") {
@@ -127,7 +127,7 @@ pub(super) fn post_build(
 }
 
 /// Splits a command line at spaces. Double quotes group an argument. Backslashes are literal, as in Windows paths.
-fn split(text: &str) -> Vec<String> {
+fn split_command_line(text: &str) -> Vec<String> {
     let mut arguments: Vec<String> = Vec::new();
     let mut is_quoted = false;
     let mut is_inside = false;
@@ -149,14 +149,14 @@ fn split(text: &str) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::split;
+    use super::split_command_line;
 
     #[test]
     fn quotes_hold_an_argument_together() {
         assert_eq!(
-            split(r#"TOUCH "C:\my files\x.nc"  -a"" "" b"#),
+            split_command_line(r#"TOUCH "C:\my files\x.nc"  -a"" "" b"#),
             ["TOUCH", r"C:\my files\x.nc", "-a", "", "b"]
         );
-        assert!(split("  ").is_empty());
+        assert!(split_command_line("  ").is_empty());
     }
 }

@@ -13,7 +13,7 @@ use super::machine::{ArcValues, MoveValues, Register};
 use super::macros::{Argument, Macro, Value};
 use super::section::Section;
 use super::writer::{ROTARY, WriteResult, Writer};
-use crate::arcs::{ArcRounding, MAX_CHORDS, chords, pieces_of};
+use crate::arcs::{ArcRounding, MAX_CHORDS, arc_piece_count, chords};
 use crate::job::{Entry, Hole, HoleKind, JobStep};
 
 impl Writer<'_> {
@@ -27,7 +27,7 @@ impl Writer<'_> {
         let mut rest = steps.as_slice();
         while let Some((step, after)) = rest.split_first() {
             rest = match step {
-                JobStep::Hole(hole) if self.plan.options.cycles && can_be_canned(hole) => {
+                JobStep::Hole(hole) if self.plan.options.cycles && fits_canned_cycle(hole) => {
                     self.cycles(rest)?
                 }
                 _ => {
@@ -283,7 +283,7 @@ impl Writer<'_> {
         }
         if self.is_written_by_radius(course) {
             return movement
-                .split(pieces_of(course, MAX_ANGLE_BY_RADIUS))
+                .split(arc_piece_count(course, MAX_ANGLE_BY_RADIUS))
                 .try_for_each(|piece| self.circle(&piece));
         }
         let fitted =
@@ -430,7 +430,7 @@ impl<'a> Writer<'a> {
 }
 
 /// Whether a hole can be written as a canned cycle, which retracts at least to the height where it started.
-fn can_be_canned(hole: &Hole) -> bool {
+fn fits_canned_cycle(hole: &Hole) -> bool {
     at_least(hole.exit, hole.level)
 }
 
@@ -445,7 +445,9 @@ fn group_length(steps: &[JobStep]) -> usize {
     };
     for (index, step) in steps.iter().enumerate() {
         match step {
-            JobStep::Hole(hole) if can_be_canned(hole) && last.is_none_or(|last| continues(last, hole)) => {
+            JobStep::Hole(hole)
+                if fits_canned_cycle(hole) && last.is_none_or(|last| continues(last, hole)) =>
+            {
                 last = Some(hole);
                 length = index + 1;
             }

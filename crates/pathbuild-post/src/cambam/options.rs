@@ -51,7 +51,7 @@ pub(super) struct Numbering {
 
 impl Numbering {
     /// Returns what line numbers begin with if it is not N: their prefix or, without a prefix, the first number. `None` if they begin with N.
-    pub(super) fn other_number(&self) -> Option<String> {
+    pub(super) fn unusual_number_prefix(&self) -> Option<String> {
         match &*self.prefix {
             "N" | "n" => None,
             "" => Some(self.format.format(self.start.into())),
@@ -72,7 +72,7 @@ pub(super) struct Rotary {
 
 /// The reason why an option could not be set.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Refusal {
+pub(super) enum OptionError {
     /// No element has this name.
     Unknown,
     /// The value is not permitted. The text describes the permitted values.
@@ -188,8 +188,8 @@ impl ElementOption {
     pub(super) fn expected(&self) -> Option<&'static Text> {
         // No element that restricts its values permits this value.
         match (self.set)(&mut Options::default(), "\u{1}") {
-            Err(Refusal::Expected(expected)) => Some(expected),
-            Ok(()) | Err(Refusal::Unknown) => None,
+            Err(OptionError::Expected(expected)) => Some(expected),
+            Ok(()) | Err(OptionError::Unknown) => None,
         }
     }
 }
@@ -206,13 +206,13 @@ impl Options {
     }
 
     /// Sets the option of an element. The value may be padded with blanks.
-    pub(super) fn set(&mut self, element: &str, text: &str) -> Result<(), Refusal> {
-        let option = OPTIONS.iter().find(|option| option.element == element).ok_or(Refusal::Unknown)?;
+    pub(super) fn set(&mut self, element: &str, text: &str) -> Result<(), OptionError> {
+        let option = OPTIONS.iter().find(|option| option.element == element).ok_or(OptionError::Unknown)?;
         (option.set)(self, text)
     }
 }
 
-type OptionResult<T> = Result<T, Refusal>;
+type OptionResult<T> = Result<T, OptionError>;
 
 fn put<T>(option: &mut T, value: OptionResult<T>) -> OptionResult<()> {
     *option = value?;
@@ -223,7 +223,7 @@ fn put<T>(option: &mut T, value: OptionResult<T>) -> OptionResult<()> {
 fn choice<T: Copy>(value: &str, expected: &'static Text, choices: &[(&str, T)]) -> OptionResult<T> {
     let plain = |text: &str| text.replace(' ', "").to_ascii_lowercase();
     let found = choices.iter().find(|(name, _)| plain(name) == plain(value.trim()));
-    found.map(|(_, choice)| *choice).ok_or(Refusal::Expected(expected))
+    found.map(|(_, choice)| *choice).ok_or(OptionError::Expected(expected))
 }
 
 fn text(value: &str) -> Box<str> {
@@ -235,7 +235,7 @@ fn text(value: &str) -> Box<str> {
 fn line_prefix(value: &str) -> OptionResult<Box<str>> {
     let prefix = text(value);
     let is_known = matches!(&*prefix, "N" | "n" | ":" | "");
-    if is_known { Ok(prefix) } else { Err(Refusal::Expected(&LINE_PREFIXES)) }
+    if is_known { Ok(prefix) } else { Err(OptionError::Expected(&LINE_PREFIXES)) }
 }
 
 const LINE_PREFIXES: Text = Text { en: "N, a colon or nothing", de: "N, ein Doppelpunkt oder nichts" };
@@ -274,7 +274,7 @@ fn centre_mode(value: &str) -> OptionResult<bool> {
 
 fn pattern(value: &str) -> OptionResult<NumberFormat> {
     value.trim().parse().map_err(|()| {
-        Refusal::Expected(&Text {
+        OptionError::Expected(&Text {
             en: "a pattern of 0, # and at most one point",
             de: "ein Muster aus 0, # und höchstens einem Punkt",
         })
@@ -282,19 +282,22 @@ fn pattern(value: &str) -> OptionResult<NumberFormat> {
 }
 
 fn count(value: &str) -> OptionResult<u32> {
-    value.trim().parse().map_err(|_| Refusal::Expected(&Text { en: "a whole number", de: "eine ganze Zahl" }))
+    value
+        .trim()
+        .parse()
+        .map_err(|_| OptionError::Expected(&Text { en: "a whole number", de: "eine ganze Zahl" }))
 }
 
 fn length(value: &str) -> OptionResult<f64> {
     let number = value.trim().parse().ok().filter(|length: &f64| length.is_finite() && *length >= 0.0);
-    number.ok_or(Refusal::Expected(&Text { en: "a number of at least 0", de: "eine Zahl ab 0" }))
+    number.ok_or(OptionError::Expected(&Text { en: "a number of at least 0", de: "eine Zahl ab 0" }))
 }
 
 fn positive(value: &str) -> OptionResult<f64> {
     length(value)
         .ok()
         .filter(|length| *length > 0.0)
-        .ok_or(Refusal::Expected(&Text { en: "a number above 0", de: "eine Zahl über 0" }))
+        .ok_or(OptionError::Expected(&Text { en: "a number above 0", de: "eine Zahl über 0" }))
 }
 
 /// Parses a line end. `\r` and `\n` may be escape sequences or the characters themselves. Symbols such as ` *` or `;` may precede them,
@@ -305,7 +308,7 @@ fn end_of_line(text: &str) -> OptionResult<Box<str>> {
     let end = &value[sign.len()..];
     let is_sign = sign.len() <= 8 && sign.chars().all(|c| c.is_ascii_punctuation() || c == ' ');
     if !is_sign || end.is_empty() || end.len() > 2 {
-        return Err(Refusal::Expected(&Text {
+        return Err(OptionError::Expected(&Text {
             en: "\\r and \\n, optionally with other characters in front",
             de: "\\r und \\n, davor auch andere Zeichen",
         }));
@@ -316,6 +319,8 @@ fn end_of_line(text: &str) -> OptionResult<Box<str>> {
 }
 
 fn extension(value: &str) -> OptionResult<Box<str>> {
-    crate::extension(value.trim())
-        .ok_or(Refusal::Expected(&Text { en: "a file name's extension", de: "die Endung eines Dateinamens" }))
+    crate::extension(value.trim()).ok_or(OptionError::Expected(&Text {
+        en: "a file name's extension",
+        de: "die Endung eines Dateinamens",
+    }))
 }

@@ -2,7 +2,7 @@
 
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_diagnostic::messages::posts;
-use pathbuild_gcode::native::too_large;
+use pathbuild_gcode::native::output_too_large_error;
 
 use super::definition::{Plan, macro_in_braces};
 use super::machine::{Code, Machine, MoveValues, Register};
@@ -285,7 +285,7 @@ impl<'a> Writer<'a> {
         let most = self.plan.options.most_bytes;
         // The exact length is not known yet, because blanks of the current line may still be removed.
         if self.lines.length().max(self.line.text.len() + text.len()) > most {
-            return Err(too_large(most));
+            return Err(output_too_large_error(most));
         }
         let mut parts = text.split('\n');
         self.push(parts.next().unwrap_or(""));
@@ -348,9 +348,10 @@ impl<'a> Writer<'a> {
         let found = words(&text[..code], &self.marks);
         self.check_replaced(&found, &text);
         self.machine.read(&found, line.code, self.number_format());
-        let other_number = self.lines.is_numbered(&text).then(|| self.lines.options.numbering.other_number());
+        let unusual_number_prefix =
+            self.lines.is_numbered(&text).then(|| self.lines.options.numbering.unusual_number_prefix());
         let program_words = LineWords {
-            other_number: other_number.flatten().or(found.other_number),
+            unusual_number_prefix: unusual_number_prefix.flatten().or(found.unusual_number_prefix),
             words: found.words.iter().map(|word| self.program_word(*word, &line)).collect(),
             ..found
         };

@@ -8,7 +8,7 @@ use pathbuild_gcode::verify::{Ends, Tolerance, compare};
 use pathbuild_motion::{Coolant, Turning};
 use pathbuild_post::{
     BUILT_IN, Entry, Hole, HoleKind, Job, JobStep, Language, PostDefinition, PostOptions, Remark, ToolTable,
-    altered_words, load, native_remark,
+    altered_word_warnings, load, native_remark,
 };
 use pathbuild_toolpath::{
     Comment, Count, ElementKind, Height, MoveClass, Names, PlannedMove, Program, ProgramStep, Xy,
@@ -349,7 +349,7 @@ fn each_tool_has_one_length_with_its_own_number() {
 fn words_that_posts_replace_are_told_once() {
     let told = |text: &str| {
         let steps = interpret(text.as_bytes(), Dialect::LinuxCnc, &Options::default()).steps;
-        texts(&altered_words(&steps)).join("\n")
+        texts(&altered_word_warnings(&steps)).join("\n")
     };
     assert_eq!(told("G21 G90\nM0\nM7\nM9\nM8\nG38.2 Z-1 F9"), "");
     let found = told("G21 G90\nM1\nM1\nM60\nM7\nM8\nG38.3 Z-1 F9");

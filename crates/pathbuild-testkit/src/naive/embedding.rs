@@ -2,7 +2,7 @@
 
 use pathbuild_path::approx::coincide;
 use pathbuild_path::{
-    AllowedValues, Bindings, Definition, ExaminedPath, Letter, Path, PathName, PathRole, PathSignature,
+    AllowedValues, Bindings, Definition, Letter, PartiallyBoundPath, Path, PathName, PathRole, PathSignature,
     ProxyLine, Segment, SegmentKind, Subpath, SubpathName, parse_number, walk,
 };
 use regex::Regex;
@@ -59,7 +59,7 @@ impl<'m> Visit<'m> {
         let drawing = &self.model.drawings[instance.0];
         self.found.extend(drawing.faults());
         let raw = self.model.raw(instance);
-        let ExaminedPath { path, problems } = self.model.bind_known(instance);
+        let PartiallyBoundPath { path, problems } = self.model.bind_known(instance);
         let mut is_wrong =
             self.report(instance, &raw.findings_except(&problems)) | drawing.has_unclear_clamps;
         is_wrong |= self.report(instance, &problems);

@@ -14,7 +14,7 @@ use std::sync::{Arc, LazyLock};
 use pathbuild_diagnostic::{Diagnostic, ElementId, Lang};
 use pathbuild_dxf::{Options, Units};
 use pathbuild_path::{
-    Bindings, ExaminedPath, KeepOut, KeepOuts, Language, LayerPattern, LineTypeAliases, Path, PathName,
+    Bindings, KeepOut, KeepOuts, Language, LayerPattern, LineTypeAliases, PartiallyBoundPath, Path, PathName,
     PathPattern, ProxyLine, RawFile, RawPath, keep_outs, proxy_lines, raw_file, stray_findings,
 };
 use regex::Regex;
@@ -145,8 +145,8 @@ impl Model {
     }
 
     /// Returns the path as far as it is known, with the errors in its values.
-    fn bind_known(&self, instance: &Instance) -> ExaminedPath {
-        pathbuild_path::examine(self.raw(instance), &instance.2, &self.language)
+    fn bind_known(&self, instance: &Instance) -> PartiallyBoundPath {
+        pathbuild_path::bind_leniently(self.raw(instance), &instance.2, &self.language)
     }
 }
 

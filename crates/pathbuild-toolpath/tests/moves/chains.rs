@@ -1,6 +1,6 @@
 //! Tests milling chains, pass by pass. ("Chains, ordinary milling")
 
-use pathbuild_toolpath::{PlannedMove, ProgramStep, memory};
+use pathbuild_toolpath::{PlannedMove, ProgramStep, estimated_bytes};
 
 use crate::support::{COMPATIBLE, estimate, moves, moves_and_comments, path, program, program_with, shown};
 
@@ -200,5 +200,8 @@ fn moves_are_estimated_line_by_line() {
 /// A move and a comment take 208 bytes, as stated in docs/reliability.md.
 #[test]
 fn memory_is_estimated_with_a_comment_for_each_move() {
-    assert_eq!([memory(1), memory(1000), memory(u64::MAX)], [208, 208_000, u64::MAX]);
+    assert_eq!(
+        [estimated_bytes(1), estimated_bytes(1000), estimated_bytes(u64::MAX)],
+        [208, 208_000, u64::MAX]
+    );
 }

@@ -3,7 +3,7 @@
 use crate::scene::{Corner, Point, Shape};
 
 /// Returns the inner corners of rings at which an unreached stretch of the outline begins or ends. `radius` is that of the cutter, in mm.
-pub(super) fn unreached(rings: &[Vec<Shape>], stretches: &[Shape], radius: f64) -> Vec<Corner> {
+pub(super) fn unreached_corners(rings: &[Vec<Shape>], stretches: &[Shape], radius: f64) -> Vec<Corner> {
     let of_ring = |ring: &Vec<Shape>| {
         let next = ring.iter().cycle().skip(1);
         let corners = ring.iter().zip(next).filter_map(|(shape, next)| {

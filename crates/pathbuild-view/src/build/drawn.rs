@@ -13,7 +13,7 @@ use pathbuild_path::{
 
 use super::corners;
 use crate::scene::{
-    ArcShape, Element, ElementKind, EmbeddedPath, FinishedPart, KeepOut, Label, LeftMaterial, OtherShape,
+    ArcShape, Element, ElementKind, EmbeddedPath, FinishedPart, KeepOut, Label, LeftoverMaterial, OtherShape,
     Parameter, Point, ScenePath, Shape,
 };
 
@@ -227,13 +227,13 @@ pub fn finished_part(part: &PlacedPart<'_>) -> FinishedPart {
     lost_bars.extend(outline(&part.bars_lost_to_neighbours));
     let rings: Vec<Vec<Shape>> = drawn.rings.iter().map(|ring| shapes(&ring.curves)).collect();
     FinishedPart {
-        corners: corners::unreached(&rings, &shapes(unreached), radius),
+        corners: corners::unreached_corners(&rings, &shapes(unreached), radius),
         rings,
         top,
         tolerance,
         left: left
             .iter()
-            .map(|left| LeftMaterial { outline: shapes(&left.outline), reach: left.reach })
+            .map(|left| LeftoverMaterial { outline: shapes(&left.outline), reach: left.reach })
             .collect(),
         nests: (0..drawn.rings.len()).map(|ring| drawn.nest(ring)).collect(),
         gouges: outline(&part.gouges),

@@ -7,7 +7,7 @@ mod program;
 use std::collections::HashMap;
 
 use pathbuild_diagnostic::messages::part;
-use pathbuild_diagnostic::{Code, Diagnostic, Message, Value, shown};
+use pathbuild_diagnostic::{Code, Diagnostic, Message, Value, escaping};
 use pathbuild_motion::Axes;
 
 use crate::scene::{BilingualText, Finding, Label, Point, Scene, SceneMove, ScenePath, Shape};
@@ -82,7 +82,7 @@ impl Places<'_> {
             _ => return None,
         };
         let Value::Point(at) = diagnostic.argument(name)? else { return None };
-        let zero = if IN_PROGRAM.contains(&diagnostic.message) {
+        let zero = if MESSAGES_IN_PROGRAM_COORDINATES.contains(&diagnostic.message) {
             let name = diagnostic.path.as_deref();
             self.paths.iter().find(|path| Some(&*path.name) == name)?.zero
         } else {
@@ -107,7 +107,7 @@ impl Places<'_> {
 }
 
 /// Messages about parts whose points have the coordinates of the program, not those of the drawing.
-pub const IN_PROGRAM: [&Message; 8] = [
+pub const MESSAGES_IN_PROGRAM_COORDINATES: [&Message; 8] = [
     &part::GOUGED_NEIGHBOUR,
     &part::GOUGED_BY_PATH_WITHOUT_PART,
     &part::SEVERED_NEIGHBOUR,
@@ -161,7 +161,7 @@ fn finding(number: usize, diagnostic: &Diagnostic, file: &str) -> Finding {
         message: BilingualText::of(|lang| diagnostic.text(lang)),
         help: BilingualText::of(|lang| diagnostic.help(lang).unwrap_or_default()),
         notes: diagnostic.notes.iter().map(|note| BilingualText::of(|lang| note.text(lang))).collect(),
-        file: diagnostic.file.as_ref().map(|file| shown::line(file.as_str()).into_owned()),
+        file: diagnostic.file.as_ref().map(|file| escaping::line(file.as_str()).into_owned()),
         path: diagnostic.path.as_deref().map(str::to_owned),
         line: diagnostic.place.line,
         at: own.or(outermost).map(|point| [point.x.0, point.y.0]),

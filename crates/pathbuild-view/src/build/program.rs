@@ -205,7 +205,7 @@ fn plain_lines(text: &[u8]) -> String {
 pub fn gcode_path(source: &GcodeSource<'_>) -> ScenePath {
     let mut counting = LengthFilter::default();
     let scene_move = |step: &Step| {
-        let is_counted = counting.counts(step);
+        let is_counted = counting.includes_length(step);
         let (line, way) = step.as_move()?;
         let movement = SceneMove::new(way, Some(line));
         Some(SceneMove { length: if is_counted { movement.length } else { 0.0 }, ..movement })

@@ -125,7 +125,7 @@ impl Divider {
                 way.shape,
                 MoveShape::Line | MoveShape::Arc(pathbuild_motion::Arc { plane: Plane::Xy, .. })
             );
-        let cuts = if is_divisible { self.cuts(way) } else { Vec::new() };
+        let cuts = if is_divisible { self.division_points(way) } else { Vec::new() };
         self.is_exhausted |=
             self.searched > MAX_SEARCHED || self.additional + cuts.len() > MAX_ADDITIONAL_PIECES;
         if cuts.is_empty() || self.is_exhausted {
@@ -143,8 +143,8 @@ impl Divider {
         ways.map(|way| SceneMove { way, length: way.length(), ..movement.clone() }).collect()
     }
 
-    /// Returns the points strictly within a move, each with the share of the move that precedes it, in the order of the move.
-    fn cuts(&mut self, way: &Move) -> Vec<(f64, Point)> {
+    /// Returns the points strictly within a move, each with the fraction of the move that precedes it, in the order of the move.
+    fn division_points(&mut self, way: &Move) -> Vec<(f64, Point)> {
         let mut cuts: Vec<(f64, Point)> = Vec::new();
         let near = self.near(way);
         for number in near {
@@ -155,7 +155,7 @@ impl Divider {
             };
             let remaining = MAX_ADDITIONAL_PIECES.saturating_sub(self.additional + cuts.len());
             cuts.extend(
-                shares_nearest_to(way, point)
+                fractions_nearest_to(way, point)
                     .take(remaining + 1)
                     .filter(is_on_way)
                     .map(|share| (share, point)),
@@ -206,8 +206,8 @@ impl Divider {
     }
 }
 
-/// Returns the shares of a move, strictly between its ends, at which it passes the point of its line or circle that is nearest to a point.
-fn shares_nearest_to(way: &Move, point: Point) -> impl Iterator<Item = f64> + use<> {
+/// Returns the fractions of a move, strictly between its ends, at which it passes the point of its line or circle that is nearest to a point.
+fn fractions_nearest_to(way: &Move, point: Point) -> impl Iterator<Item = f64> + use<> {
     let (first, period, length) = if let (Some(course), MoveShape::Arc(arc)) = (way.course(), way.shape) {
         let ahead = arc.angle_ahead(&way.from.at, &[point[0], point[1], 0.0]);
         let sweep = course.sweep();

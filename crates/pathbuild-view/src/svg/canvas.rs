@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use pathbuild_diagnostic::shown;
+use pathbuild_diagnostic::escaping;
 
 use crate::scene::{Point, Scene};
 
@@ -157,7 +157,7 @@ impl Canvas {
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     let mut before = ' ';
-    for character in shown::line(text).chars() {
+    for character in escaping::line(text).chars() {
         match character {
             '#' if before == '#' => escaped.push_str("&#35;"),
             '&' => escaped.push_str("&amp;"),

@@ -70,7 +70,7 @@ pub fn changes_svg(compared: &ComparedMoves, picture: Picture, lang: Lang) -> St
     if picture == Picture::Changes {
         for (index, group) in groups.iter().enumerate() {
             let style = changes_picture.has_line(group).then(|| Style::of(group.kind, &groups));
-            entry(&mut canvas, group, style, frame.bottom() + index as f64 * LINE_HEIGHT, lang);
+            draw_entry(&mut canvas, group, style, frame.bottom() + index as f64 * LINE_HEIGHT, lang);
         }
     }
     canvas.finish()
@@ -194,7 +194,7 @@ impl Style {
 }
 
 /// Draws an entry of the legend.
-fn entry(canvas: &mut Canvas, group: &Group, style: Option<Style>, top: f64, lang: Lang) {
+fn draw_entry(canvas: &mut Canvas, group: &Group, style: Option<Style>, top: f64, lang: Lang) {
     let middle = top + LINE_HEIGHT / 2.0;
     if let Some(Style { color, dashes, width }) = style {
         let style = format!("stroke=\"{color}\" stroke-width=\"{}\"{dashes}", svg_number(width));

@@ -76,7 +76,7 @@ impl<'a> Legend<'a> {
         }
         self.draw_scale_bar(canvas, self.top + 3.0 * LINE_HEIGHT);
         if let Some(stock) = self.stock {
-            stock.legend(canvas, self.shown, line(4.0), Frame::WIDTH);
+            stock.draw_legend(canvas, self.shown, line(4.0), Frame::WIDTH);
         } else {
             let [left, y] = line(4.0);
             draw_depths(canvas, self.depths, [left, y]);

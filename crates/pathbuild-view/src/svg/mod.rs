@@ -36,7 +36,7 @@ pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
     canvas.open("id=\"drawing\"");
     let mut room = OccupiedSpace::new(frame.area());
     let hidden = match &stock {
-        None => drawing(&mut canvas, scene, &frame, &depths, shown, &mut room),
+        None => draw_scene(&mut canvas, scene, &frame, &depths, shown, &mut room),
         Some(stock) => {
             stock.draw(&mut canvas, &frame, "stock");
             Vec::new()
@@ -50,7 +50,7 @@ pub fn svg(scene: &Scene, shown: VisibleParts) -> String {
 }
 
 /// Draws the drawing and the moves of a scene. Returns the numbers of the cutting order for which there is no room.
-fn drawing(
+fn draw_scene(
     canvas: &mut Canvas,
     scene: &Scene,
     frame: &Frame,

@@ -177,7 +177,8 @@ fn draw_rapids(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, sho
 
 /// Draws a small triangle at three fifths of a move, pointing in its direction. A short move gets none.
 fn draw_arrow(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, color: &str) {
-    let (before, at) = (place.to_page(along(movement, 0.59)), place.to_page(along(movement, 0.61)));
+    let (before, at) =
+        (place.to_page(point_at_fraction(movement, 0.59)), place.to_page(point_at_fraction(movement, 0.61)));
     let [dx, dy] = [at[0] - before[0], at[1] - before[1]];
     let length = libm::hypot(dx, dy);
     if length * 50.0 < MIN_ARROW_LENGTH {
@@ -192,7 +193,7 @@ fn draw_arrow(canvas: &mut Canvas, movement: &SceneMove, place: &PageTransform, 
 }
 
 /// Returns the point at a fraction (0 to 1) of a move's length.
-pub(super) fn along(movement: &SceneMove, share: f64) -> Point {
+pub(super) fn point_at_fraction(movement: &SceneMove, share: f64) -> Point {
     let [x, y, _] = movement.way.point(share);
     [x, y]
 }

@@ -169,12 +169,12 @@ impl<'s> MilledStock<'s> {
     /// Draws the stock with its defects, and the outlines of the parts. `id` makes the ids of clip paths unique.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, id: &str) {
         let place = frame.of_drawing();
-        self.blanks(canvas, &place, id);
+        self.draw_blanks(canvas, &place, id);
         canvas.open(&format!(
             "clip-path=\"url(#{id})\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\""
         ));
         let middle = self.strokes.partition_point(|stroke| stroke.kind < StrokeKind::ThroughEdge);
-        self.strokes(canvas, &place, &self.strokes[..middle]);
+        self.draw_strokes(canvas, &place, &self.strokes[..middle]);
         self.each_part(|part, path, number| {
             draw_leftovers(canvas, part, &frame.of_path(path), &format!("{id}-outside-{number}"));
         });
@@ -183,7 +183,7 @@ impl<'s> MilledStock<'s> {
                 draw_corners(canvas, part, &frame.of_path(path), &format!("{id}-corners-{number}"));
             });
         }
-        self.strokes(canvas, &place, &self.strokes[middle..]);
+        self.draw_strokes(canvas, &place, &self.strokes[middle..]);
         self.each_part(|part, path, number| {
             draw_defects(canvas, part, &frame.of_path(path), &format!("{id}-inside-{number}"));
         });
@@ -197,20 +197,20 @@ impl<'s> MilledStock<'s> {
         canvas.open(&format!("fill=\"none\" stroke=\"{OUTLINE_COLOUR}\" stroke-width=\"1.2\""));
         self.each_part(|part, path, _| {
             for ring in &part.rings {
-                canvas.path(&symbols::outline(ring, &frame.of_path(path)), "");
+                canvas.path(&symbols::outline_path_data(ring, &frame.of_path(path)), "");
             }
         });
         canvas.close();
     }
 
-    fn blanks(&self, canvas: &mut Canvas, place: &PageTransform, id: &str) {
+    fn draw_blanks(&self, canvas: &mut Canvas, place: &PageTransform, id: &str) {
         let all: String = self.blanks.iter().map(|(corners, _)| rectangle(place, *corners)).collect();
         canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{all}\"/></clipPath>"));
         canvas.path(&all, &format!("fill=\"{UNTOUCHED_COLOUR}\""));
     }
 
     /// Draws strokes, combining consecutive ones that look alike to a single path, up to [`MAX_COMBINED_STROKES`].
-    fn strokes(&self, canvas: &mut Canvas, place: &PageTransform, strokes: &[Stroke]) {
+    fn draw_strokes(&self, canvas: &mut Canvas, place: &PageTransform, strokes: &[Stroke]) {
         let look = |stroke: &Stroke| (stroke.kind, stroke.z, stroke.is_marked, stroke.diameter);
         let alike = strokes.chunk_by(|stroke, next| look(stroke) == look(next));
         for combined in alike.flat_map(|alike| alike.chunks(MAX_COMBINED_STROKES)) {
@@ -250,7 +250,7 @@ impl<'s> MilledStock<'s> {
     }
 
     /// Draws the meaning of the colours, from `at` to `right` and continuing on further lines.
-    pub(super) fn legend(&self, canvas: &mut Canvas, shown: VisibleParts, at: Point, right: f64) {
+    pub(super) fn draw_legend(&self, canvas: &mut Canvas, shown: VisibleParts, at: Point, right: f64) {
         for LegendEntry { at: [x, y], color, name } in self.legend_entries(shown, at, right) {
             let mut left = x;
             if !color.is_empty() {
@@ -413,7 +413,7 @@ pub fn has_stock(scene: &Scene) -> bool {
 pub(super) fn draw_uncut_parts(canvas: &mut Canvas, scene: &Scene, place: &PageTransform) {
     let style = format!("fill=\"{LEFTOVER_COLOUR}\" fill-opacity=\"0.35\"");
     for ring in &scene.uncut {
-        canvas.path(&symbols::outline(ring, place), &style);
+        canvas.path(&symbols::outline_path_data(ring, place), &style);
     }
 }
 

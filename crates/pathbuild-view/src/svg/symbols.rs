@@ -5,7 +5,7 @@ use super::canvas::{
     TEXT_COLOUR, WARNING_COLOUR, svg_number,
 };
 use super::frame::{Frame, OccupiedSpace, PageTransform, Rectangle, VisibleParts, text_width};
-use super::moves::{along, arc_pieces};
+use super::moves::{arc_pieces, point_at_fraction};
 use crate::extent::with_margin;
 use crate::scene::{
     ArcShape, Element, ElementKind, Label, MoveKind, OtherShape, Point, Scene, SceneMove, ScenePath, Shape,
@@ -27,7 +27,7 @@ pub(super) fn draw_below_moves(canvas: &mut Canvas, scene: &Scene, frame: &Frame
     canvas.open(&format!("id=\"other-layers\" fill=\"none\" stroke=\"{OTHER_COLOUR}\" stroke-width=\"0.7\""));
     for other in &scene.other_layers {
         match other {
-            OtherShape::Shape { shape: piece, .. } => canvas.path(&shape(piece, &place), ""),
+            OtherShape::Shape { shape: piece, .. } => canvas.path(&shape_path_data(piece, &place), ""),
             OtherShape::Text { text, at, height, rotation, .. } => {
                 let (size, mut at) = (height * place.scale(), place.to_page(*at));
                 if *rotation == 0.0 {
@@ -68,7 +68,7 @@ fn draw_keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, roo
     canvas.open(&format!("id=\"keep-outs\" fill=\"none\" stroke=\"{ERROR_COLOUR}\" stroke-width=\"1.2\""));
     let style = format!("stroke-dasharray=\"8 2 2 2\" fill=\"{ERROR_COLOUR}\" fill-opacity=\"0.14\"");
     for clamp in &scene.keep_outs {
-        canvas.path(&outline(&clamp.outline, place), &style);
+        canvas.path(&outline_path_data(&clamp.outline, place), &style);
     }
     let style = format!("stroke=\"none\" fill=\"{ERROR_COLOUR}\"");
     for clamp in &scene.keep_outs {
@@ -82,10 +82,10 @@ fn draw_keep_outs(canvas: &mut Canvas, scene: &Scene, place: &PageTransform, roo
 }
 
 /// Returns the adjacent shapes of an outline as one piece of SVG path data.
-pub(super) fn outline(shapes: &[Shape], place: &PageTransform) -> String {
+pub(super) fn outline_path_data(shapes: &[Shape], place: &PageTransform) -> String {
     let mut data = String::new();
     for piece in shapes {
-        let next = shape(piece, place);
+        let next = shape_path_data(piece, place);
         let begin = if data.is_empty() { 0 } else { next.find(['L', 'A']).unwrap_or(0) };
         data.push_str(&next[begin..]);
     }
@@ -121,7 +121,7 @@ pub(super) fn draw_above_moves(
         "id=\"bars\" fill=\"none\" stroke=\"{BAR_COLOUR}\" stroke-width=\"4\" stroke-opacity=\"0.75\""
     ));
     for bar in &path.bars {
-        canvas.path(&shape(&bar.shape, place), "");
+        canvas.path(&shape_path_data(&bar.shape, place), "");
     }
     canvas.close();
     draw_ends(canvas, path, place, shown, room);
@@ -149,7 +149,7 @@ fn draw_elements(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform) {
             }
             _ => continue,
         };
-        canvas.path(&shape(&element.shape, place), style);
+        canvas.path(&shape_path_data(&element.shape, place), style);
     }
     canvas.close();
 }
@@ -260,7 +260,7 @@ fn draw_probes(canvas: &mut Canvas, path: &ScenePath, place: &PageTransform, roo
 }
 
 /// Returns a shape as SVG path data.
-pub(super) fn shape(shape: &Shape, place: &PageTransform) -> String {
+pub(super) fn shape_path_data(shape: &Shape, place: &PageTransform) -> String {
     let point = |at: Point| {
         let [x, y] = place.to_page(at);
         format!("{} {}", svg_number(x), svg_number(y))
@@ -335,7 +335,7 @@ pub(super) fn draw_order_numbers(
     let mut remaining = Vec::new();
     let mut placed: Vec<(u32, Point)> = Vec::new();
     for (order, element) in numbered {
-        match find_number(room, order, &places(&element.shape, place, kerf)) {
+        match occupy_number_position(room, order, &places(&element.shape, place, kerf)) {
             Some(at) => placed.push((order, at)),
             None => remaining.push((order, element)),
         }
@@ -348,7 +348,7 @@ pub(super) fn draw_order_numbers(
         // Check only the outer part of a leader line: near the element, it may touch another number.
         let outer = |at: &Point| [[0, 1].map(|axis| anchor[axis] + (at[axis] - anchor[axis]) / 3.0), *at];
         let around: Vec<Point> = around.filter(|at| !room.is_crossed_by(outer(at))).collect();
-        match find_number(room, order, &around) {
+        match occupy_number_position(room, order, &around) {
             Some(at) => {
                 canvas.line(at, anchor, &format!("stroke=\"{INK_COLOUR}\" stroke-width=\"0.6\""));
                 placed.push((order, at));
@@ -365,7 +365,7 @@ pub(super) fn draw_order_numbers(
 }
 
 /// Finds the first free position for a number, occupies it, and returns it.
-fn find_number(room: &mut OccupiedSpace, order: u32, places: &[Point]) -> Option<Point> {
+fn occupy_number_position(room: &mut OccupiedSpace, order: u32, places: &[Point]) -> Option<Point> {
     let half = [number_width(order) / 2.0 + 1.0, NUMBER_RADIUS + 1.0];
     let corner = |[x, y]: &Point, sign: f64| [x + sign * half[0], y + sign * half[1]];
     let taken: Vec<Rectangle> = places.iter().map(|at| [corner(at, -1.0), corner(at, 1.0)]).collect();
@@ -473,7 +473,9 @@ fn lines<'a>(
     };
     path.moves.iter().filter(is_drawn).flat_map(move |movement| {
         let pieces = if matches!(movement.way.shape, MoveShape::Line) { 1 } else { ARC_PIECES };
-        let at = move |piece: u32| place.to_page(along(movement, f64::from(piece) / f64::from(pieces)));
+        let at = move |piece: u32| {
+            place.to_page(point_at_fraction(movement, f64::from(piece) / f64::from(pieces)))
+        };
         (0..pieces).map(move |piece| [at(piece), at(piece + 1)])
     })
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use pathbuild_diagnostic::shown;
+use pathbuild_diagnostic::escaping;
 use serde_json::{Map, Value as Json, json};
 
 use super::origin::{Key, ShownSetting};
@@ -12,7 +12,7 @@ use super::settings::{Settings, TABLES, TableEntry};
 /// Formats the settings as TOML, optionally with their sources as comments.
 pub fn show(settings: &Settings, with_origin: bool) -> String {
     let mut text = match &settings.file {
-        Some(file) => format!("# {}\n", shown::line(file.as_str())),
+        Some(file) => format!("# {}\n", escaping::line(file.as_str())),
         None => "# no pathbuild.toml\n".to_owned(),
     };
     for table in without_header() {

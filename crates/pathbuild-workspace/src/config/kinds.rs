@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::messages::configuration as messages;
-use pathbuild_diagnostic::{Value, nearest, shown};
+use pathbuild_diagnostic::{Value, escaping, nearest};
 use pathbuild_path::{has_thousands, regex_reason};
 use regex::RegexBuilder;
 use serde_json::{Value as Json, json};
@@ -345,7 +345,7 @@ pub(in crate::config) fn texts<'v, 't>(
 /// Whether a string can be written in single quotes, in which TOML escapes nothing. `##` is excluded because CI runners may take it for a command, so
 /// it may have to be escaped.
 pub(in crate::config) fn is_literal(text: &str) -> bool {
-    !text.contains('\'') && !text.contains("##") && !text.contains(shown::is_active)
+    !text.contains('\'') && !text.contains("##") && !text.contains(escaping::is_active)
 }
 
 /// Formats a string as TOML, in single quotes if that avoids escapes. Otherwise uses JSON escapes, which TOML accepts too, and TOML's own escapes
@@ -356,13 +356,13 @@ pub(in crate::config) fn quoted(text: &str) -> String {
     }
     let mut quoted = String::with_capacity(text.len() + 2);
     for character in json!(text).to_string().chars() {
-        if character > '\u{ffff}' && shown::is_active(character) {
+        if character > '\u{ffff}' && escaping::is_active(character) {
             _ = write!(quoted, "\\U{:08x}", u32::from(character));
         } else {
             quoted.push(character);
         }
     }
-    shown::json(&quoted).into_owned()
+    escaping::json(&quoted).into_owned()
 }
 
 /// Formats strings as a TOML list.

@@ -69,12 +69,12 @@ pub struct PathDiff {
     /// Path of the drawing that defines the path on the old and on the new side, relative to the root; `None` if the side lacks the path.
     pub files: [Option<Utf8PathBuf>; 2],
     /// The kind of difference.
-    pub outcome: Outcome,
+    pub outcome: PathChangeKind,
 }
 
 /// The kind of difference of a path between the sides.
 #[derive(Debug)]
-pub enum Outcome {
+pub enum PathChangeKind {
     /// The path exists on the new side only, without errors.
     Added,
     /// The path exists on the old side only.
@@ -91,7 +91,7 @@ pub enum Outcome {
     Changed(Box<ProgramDiff>),
 }
 
-impl Outcome {
+impl PathChangeKind {
     /// Returns the outcome if the old or the new side has errors; `None` if neither has.
     pub fn of_errors(has_errors: [bool; 2]) -> Option<Self> {
         match has_errors {
@@ -230,7 +230,7 @@ impl Tree<'_, '_> {
     /// Finds the paths of this side, and hashes the moves of their programs.
     fn paths(&mut self) -> SidePaths {
         let selection = self.session.select(self.inputs);
-        let files = selection.whole(self.session);
+        let files = selection.whole_drawings(self.session);
         let mut problems = selection.problems;
         let root = self.session.absolute(self.root);
         let mut unreadable = BTreeMap::new();
@@ -318,28 +318,30 @@ impl PathPair {
             (Some(old_path), Some(new_path)) => {
                 let paths = [old_path, new_path];
                 let is_same = is_written_alike && old_path.moves == new_path.moves;
-                let changed = Outcome::of_errors(paths.map(|path| path.moves.is_none())).or_else(|| {
-                    if is_same {
-                        problems[1].extend_from_slice(&new_path.raised);
-                        Outcome::of_errors(paths.map(|path| !path.raised.is_empty()))
-                    } else {
-                        compare_programs(sides, paths, pictures, problems)
-                    }
-                });
+                let changed =
+                    PathChangeKind::of_errors(paths.map(|path| path.moves.is_none())).or_else(|| {
+                        if is_same {
+                            problems[1].extend_from_slice(&new_path.raised);
+                            PathChangeKind::of_errors(paths.map(|path| !path.raised.is_empty()))
+                        } else {
+                            compare_programs(sides, paths, pictures, problems)
+                        }
+                    });
                 match changed {
                     Some(outcome) => outcome,
                     None if old_path.place == new_path.place => return None,
-                    None => Outcome::OtherDrawing,
+                    None => PathChangeKind::OtherDrawing,
                 }
             }
-            (None, Some(path)) if path.moves.is_none() => Outcome::Broken,
+            (None, Some(path)) if path.moves.is_none() => PathChangeKind::Broken,
             (None, Some(path)) => {
                 let refusals = sides[1].refusals(path);
-                let outcome = if refusals.is_empty() { Outcome::Added } else { Outcome::Broken };
+                let outcome =
+                    if refusals.is_empty() { PathChangeKind::Added } else { PathChangeKind::Broken };
                 problems[1].extend(refusals);
                 outcome
             }
-            (Some(_), None) => Outcome::Removed,
+            (Some(_), None) => PathChangeKind::Removed,
             (None, None) => return None,
         };
         let name = new.as_ref().or(old.as_ref())?.name.to_string();
@@ -355,7 +357,7 @@ fn compare_programs(
     paths: [&HashedPath; 2],
     pictures: Option<Lang>,
     problems: &mut [Vec<Diagnostic>; 2],
-) -> Option<Outcome> {
+) -> Option<PathChangeKind> {
     let programs = [0, 1].map(|side| sides[side].compile(paths[side]));
     let has_errors =
         programs.each_ref().map(|program| !matches!(program, Ok(compiled) if compiled.refusals.is_empty()));
@@ -372,7 +374,7 @@ fn compare_programs(
                 let reasons = reasons.filter(|reasons| !reasons.is_empty() || !changes.groups.is_empty());
                 let is_unwritten =
                     has_errors.contains(&true) && sides.iter().any(|side| side.post_processor.is_some());
-                Outcome::Changed(Box::new(ProgramDiff { is_unwritten, states, reasons, ..changes }))
+                PathChangeKind::Changed(Box::new(ProgramDiff { is_unwritten, states, reasons, ..changes }))
             })
         }
         _ => None,
@@ -380,7 +382,7 @@ fn compare_programs(
     for (problems, program) in problems.iter_mut().zip(programs) {
         problems.extend(program.map_or_else(|errors| errors, |compiled| compiled.refusals));
     }
-    changed.or_else(|| Outcome::of_errors(has_errors))
+    changed.or_else(|| PathChangeKind::of_errors(has_errors))
 }
 
 /// Returns the reasons why the moves of a path changed; `None`, with diagnostics, if the drawings could not be compared.
@@ -449,7 +451,7 @@ impl CompiledSide<'_> {
             None => MachineStates::of_drawing(path.tool),
             Some((post_processor, text)) => {
                 let reading =
-                    ReadingOptions { dialect: post_processor.reader(), ..ReadingOptions::default() };
+                    ReadingOptions { dialect: post_processor.reading_dialect(), ..ReadingOptions::default() };
                 let translate = |text: &[u8], _: Option<&_>| {
                     let (name, translated) = (post_processor.name(), post_processor.translate(text)?);
                     Some(DefinitionTranslation { name, translated })

@@ -4,8 +4,8 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use pathbuild_db::{
-    Database, Db, DrawnPath, Instance, Outcome, SourceFile, Target, closure, drawn_path,
-    effective_parameters, embeds,
+    Database, Db, DrawnPath, Instance, Outcome, SourceFile, Target, closure, direct_embeddings, drawn_path,
+    effective_parameters,
 };
 use pathbuild_diagnostic::{Sentence, Value, drawn_changes as texts};
 use pathbuild_path::{
@@ -262,7 +262,7 @@ impl Child<'_> {
 fn children<'db>(db: &'db Database, instance: Instance<'db>) -> Vec<Child<'db>> {
     let mut children: Vec<Child<'db>> = Vec::new();
     let mut seen = HashSet::new();
-    for embedding in embeds(db, instance) {
+    for embedding in direct_embeddings(db, instance) {
         let (Some(name), Outcome::Found { child, .. }) = (&embedding.name, &embedding.outcome) else {
             continue;
         };

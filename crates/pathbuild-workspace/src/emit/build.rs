@@ -14,9 +14,9 @@ use pathbuild_gcode::verify::{
 };
 use pathbuild_path::Letter;
 use pathbuild_post::Job as PostJob;
-use pathbuild_toolpath::{Correction, Program, ProgramStep, UnprobedPoint, memory};
+use pathbuild_toolpath::{Correction, Program, ProgramStep, UnprobedPoint, estimated_bytes};
 
-use super::joined::{joining_doubts, moves_into_clamps, total};
+use super::joined::{joining_warnings, moves_into_clamps, total};
 use super::options::OutputSettings;
 use super::outcome::ProgramOutcome;
 use super::plan::Job;
@@ -44,9 +44,9 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
     let line = provenance.to_string();
     outcome.provenance = Some(provenance);
     let at = |problem: Diagnostic| problem.in_file(job.drawing(db).path(db)).in_path(&job.path);
-    let unsafe_moves = unsafe_moves(db, job, &programs, settings, &mut outcome.problems);
+    let blocking_errors = blocking_errors(db, job, &programs, settings, &mut outcome.problems);
     let result = match (settings.post_processor, &*programs) {
-        _ if !unsafe_moves.is_empty() => Err(unsafe_moves),
+        _ if !blocking_errors.is_empty() => Err(blocking_errors),
         (Some(post_processor), programs) => {
             let lang = settings.writing.options.lang;
             write_through_post(job, programs, &line, post_processor, lang, at, &mut outcome)
@@ -69,7 +69,7 @@ pub(super) fn build(db: &Database, job: &Job, settings: &OutputSettings<'_>) -> 
 
 /// Returns the errors that keep programs from being written: those of the first program that has any, or else those of joining the programs. Adds the
 /// warnings of all programs to `problems`.
-fn unsafe_moves(
+fn blocking_errors(
     db: &Database,
     job: &Job,
     programs: &[Arc<Program>],
@@ -81,14 +81,14 @@ fn unsafe_moves(
         .zip(&job.targets)
         .map(|(program, target)| move_problems(db, *target, program, settings.machine.as_ref()));
     let found = of_programs.chain([problems_of_joining(db, job, programs)]);
-    let mut unsafe_moves = Vec::new();
+    let mut blocking_errors = Vec::new();
     for (errors, warnings) in found {
         problems.extend(warnings);
-        if unsafe_moves.is_empty() {
-            unsafe_moves = errors;
+        if blocking_errors.is_empty() {
+            blocking_errors = errors;
         }
     }
-    unsafe_moves
+    blocking_errors
 }
 
 /// Adds the setup sheets to the files of a program.
@@ -160,7 +160,7 @@ fn problems_of_joining(
     if programs.len() < 2 {
         return (Vec::new(), Vec::new());
     }
-    let mut found = joining_doubts(db, job, programs);
+    let mut found = joining_warnings(db, job, programs);
     found.extend(moves_into_clamps(db, job, programs));
     let rapids = rapids_into_joined_material(programs).into_iter();
     found.extend(rapids.map(|(program, problem)| at_element_of_step(db, job.targets[program], problem)));
@@ -170,14 +170,14 @@ fn problems_of_joining(
 
 /// Returns PB005 if splitting moves into pieces (z-split) exceeds a limit. Moves were counted before splitting, so the pieces are counted here.
 /// `steps` is the number of pieces plus the comments between them.
-fn too_many_pieces(steps: u64, program: &Program, writing: &WriteSettings) -> Option<Diagnostic> {
+fn too_many_pieces_error(steps: u64, program: &Program, writing: &WriteSettings) -> Option<Diagnostic> {
     if steps <= program.steps.len() as u64 {
         return None;
     }
     let comments = program.steps.iter().filter(|step| matches!(step, ProgramStep::Comment(_))).count() as u64;
     let moves = steps - comments;
-    // `memory` adds a comment to each move, but `steps` already includes the comments.
-    let size = memory(steps) / 2;
+    // `estimated_bytes` adds a comment to each move, but `steps` already includes the comments.
+    let size = estimated_bytes(steps) / 2;
     if moves > writing.most_moves {
         let problem = Diagnostic::new(&files::TOO_MANY_PIECES).quoting("key", "embedding-moves");
         Some(problem.with("count", moves).with("limit", writing.most_moves))
@@ -211,7 +211,7 @@ fn write_native(
 ) -> Result<Vec<Output>, Vec<Diagnostic>> {
     let correction = settings.writing.options.correction;
     let steps = correction.count(program);
-    if let Some(problem) = too_many_pieces(steps, program, &settings.writing) {
+    if let Some(problem) = too_many_pieces_error(steps, program, &settings.writing) {
         return Err(vec![at(problem)]);
     }
     if correction.lacks_slope(program) {
@@ -232,7 +232,7 @@ fn write_native(
     let output = |(kind, path): &(OutputKind, Utf8PathBuf)| {
         let text = kind.text(program, provenance, &settings.writing).map_err(fault)?;
         let Some(text) = text else { return Ok(None) };
-        too_long_line(&text, path).map_or(Ok(()), |problem| Err(vec![at(problem)]))?;
+        too_long_line_error(&text, path).map_or(Ok(()), |problem| Err(vec![at(problem)]))?;
         kind.read_back(&text, program).map_err(fault)?;
         if *kind == OutputKind::Probing {
             let beyond = probing_beyond_machine(&text, path, settings.machine.as_ref());
@@ -270,7 +270,7 @@ fn unused_probes(program: &Program, correction: Correction) -> impl Iterator<Ite
 }
 
 /// Returns PB005 for a line that is longer than the longest line that pathbuild reads.
-fn too_long_line(text: &str, path: &Utf8Path) -> Option<Diagnostic> {
+fn too_long_line_error(text: &str, path: &Utf8Path) -> Option<Diagnostic> {
     let (number, line) = (1_u64..).zip(text.split('\n')).find(|(_, line)| line.len() > LONGEST_LINE)?;
     let problem = Diagnostic::new(&files::OUTPUT_LINE_TOO_LONG).with("line", number);
     let problem = problem.quoting("name", path.file_name().unwrap_or_default());

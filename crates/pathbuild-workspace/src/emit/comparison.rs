@@ -82,7 +82,7 @@ fn find_titled_path(
 ) -> Result<Option<SelectedPath>, Box<Diagnostic>> {
     let db = session.db();
     let name = PathName::new(path);
-    let is_there = |drawing: &&Utf8Path| db.system().kind(&session.normal(drawing)) == FileKind::File;
+    let is_there = |drawing: &&Utf8Path| db.system().kind(&session.normalize(drawing)) == FileKind::File;
     let is_meant = |file: &str| is_title(title, file, path);
     let file = if let Some(drawing) = named.filter(is_there) {
         Some(session.file(drawing))
@@ -160,7 +160,7 @@ pub(super) fn add_compatible_notes<'p>(
     if problems.is_empty() || workspace.settings.general.compatible.value {
         return;
     }
-    let files = emit(&workspace.in_mode(true)).into_iter().flat_map(|outcome| outcome.files);
+    let files = emit(&workspace.with_compatible_mode(true)).into_iter().flat_map(|outcome| outcome.files);
     let same = files.filter(|(_, state)| matches!(state, State::Current)).map(|(file, _)| file);
     let same: Vec<Utf8PathBuf> = same.collect();
     for problem in problems {

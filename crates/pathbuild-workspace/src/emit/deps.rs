@@ -26,10 +26,10 @@ pub(super) fn write<'p>(
     post_processor: Option<&PostProcessor>,
 ) -> Option<Diagnostic> {
     let db = session.db();
-    let configuration = session.workspace().settings.file.as_ref().map(|file| session.normal(file));
+    let configuration = session.workspace().settings.file.as_ref().map(|file| session.normalize(file));
     let (mut text, mut inputs) = (String::new(), BTreeSet::new());
-    let post = post_processor.and_then(PostProcessor::file).map(|file| session.normal(file));
-    let file = session.normal(file);
+    let post = post_processor.and_then(PostProcessor::file).map(|file| session.normalize(file));
+    let file = session.normalize(file);
     if let Some(reason) = reason_to_keep(session.workspace(), post_processor, &file) {
         return Some(replace_error(&file, reason));
     }
@@ -39,7 +39,7 @@ pub(super) fn write<'p>(
         let sources = job.sources.iter().map(|source| source.path(db).as_path());
         let sources = sources.chain(configuration.as_deref()).chain(post.as_deref());
         let sources: Vec<&Utf8Path> = sources.chain(inserted.map(|file| file.path.as_path())).collect();
-        if let Some(name) = outputs.iter().chain(&sources).find(|name| has_no_spelling(name.as_str())) {
+        if let Some(name) = outputs.iter().chain(&sources).find(|name| is_unescapable(name.as_str())) {
             let problem = Diagnostic::new(&messages::UNNAMEABLE).quoting("name", name.as_str());
             return Some(problem.in_file(&file));
         }
@@ -54,7 +54,7 @@ pub(super) fn write<'p>(
 
 /// Whether the name cannot be written in a makefile, because no escaping keeps `make` from interpreting it: assignments (even `!=`), patterns and
 /// wildcards, order-only prerequisites, home directories, archive members, and line continuations.
-fn has_no_spelling(name: &str) -> bool {
+fn is_unescapable(name: &str) -> bool {
     name.contains(['=', '%', '|', '*', '?', '[']) || name.starts_with('~') || name.ends_with([')', '\\'])
 }
 

@@ -16,9 +16,13 @@ use pathbuild_toolpath::{Program, Total, kind_of_move, tip_move};
 use super::plan::Job;
 
 /// Returns PB211 for each sign that the paths do not belong in one program: different material or thickness, or a repeated path.
-pub(super) fn joining_doubts(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
-    let thickness = differing_thickness(db, job, programs);
-    thickness.into_iter().chain(differing_material(db, job)).chain(repeated_path(db, job)).collect()
+pub(super) fn joining_warnings(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Vec<Diagnostic> {
+    let thickness = differing_thickness_warning(db, job, programs);
+    thickness
+        .into_iter()
+        .chain(differing_material_warning(db, job))
+        .chain(repeated_path_warning(db, job))
+        .collect()
 }
 
 /// Returns PB407 for moves of one path into the clamps of another path's drawing, and for rapid moves from one path to the next into any clamp. There
@@ -60,7 +64,7 @@ pub(super) fn total(programs: &[Arc<Program>], rapid: f64) -> Total {
 }
 
 /// Returns PB211 for the first path with another material than the program's first path.
-fn differing_material(db: &Database, job: &Job) -> Option<Diagnostic> {
+fn differing_material_warning(db: &Database, job: &Job) -> Option<Diagnostic> {
     let material =
         |target: &Target| summary(db, closure(db, *target).root?).signature.as_ref()?.material.clone();
     let first = job.targets.first()?;
@@ -73,7 +77,7 @@ fn differing_material(db: &Database, job: &Job) -> Option<Diagnostic> {
 }
 
 /// Returns PB211 for the first path that the program contains twice.
-fn repeated_path(db: &Database, job: &Job) -> Option<Diagnostic> {
+fn repeated_path_warning(db: &Database, job: &Job) -> Option<Diagnostic> {
     let mut targets = job.targets.iter().enumerate();
     let (_, target) = targets.find(|(number, target)| job.targets[..*number].contains(target))?;
     let problem = Diagnostic::new(&parameters::JOINED_TWICE).in_path(target.name(db));
@@ -81,7 +85,7 @@ fn repeated_path(db: &Database, job: &Job) -> Option<Diagnostic> {
 }
 
 /// Returns PB211 for the first path with another thickness than the program's first path.
-fn differing_thickness(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Diagnostic> {
+fn differing_thickness_warning(db: &Database, job: &Job, programs: &[Arc<Program>]) -> Option<Diagnostic> {
     let first = programs.first()?;
     let mut targets = programs.iter().zip(&job.targets);
     let (other, target) = targets.find(|(other, _)| !near(other.thickness, first.thickness))?;

@@ -42,11 +42,11 @@ use plan::{
 pub use program_scenes::{SceneReport, SheetOutcome, ShownText, sheet_of};
 pub use select::TargetPatterns;
 use select::TargetSelection;
-use settle::{build_and_settle, loss_of_values};
+use settle::{build_and_settle, lost_values_problem};
 pub use sheet::sheet_bytes;
 pub(crate) use stale_programs::program_of_other_path;
 use stale_programs::{EarlierPrograms, StaleOutcome, has_stale_adjusted_program, report_unselected};
-pub use written_programs::{Scope, WrittenPrograms};
+pub use written_programs::{CoveredDrawings, WrittenPrograms};
 
 /// A request to emit programs.
 #[derive(Clone, Debug, Default)]
@@ -97,7 +97,8 @@ impl Request {
         let post = self.post.as_deref();
         let post_processor = PostProcessor::for_run(workspace, post, self.post_arguments.clone());
         let post_processor = post_processor.map_err(Failure::Post)?;
-        if let Some(refusal) = self.missing_post(workspace).filter(|_| post_processor.is_none()) {
+        if let Some(refusal) = self.reason_for_post_processor(workspace).filter(|_| post_processor.is_none())
+        {
             return Err(Failure::Usage(refusal.to_owned()));
         }
         let post_processor = post_processor.as_ref();
@@ -119,7 +120,7 @@ impl Request {
     }
 
     /// Returns the reason why the request needs a post-processor; `None` if it does not need one.
-    fn missing_post<'w>(&self, workspace: &'w Workspace) -> Option<&'w str> {
+    fn reason_for_post_processor<'w>(&self, workspace: &'w Workspace) -> Option<&'w str> {
         if self.join.is_some() {
             return Some(workspace.choose(
                 "--join needs --post (or `post` in pathbuild.toml): native programs have a single path and no tool changes",
@@ -149,15 +150,15 @@ impl Emitter<'_> {
         session: &mut Session<'_>,
         memo: &Memo,
         matches: &ArgumentMatches,
-    ) -> Result<Run, String> {
+    ) -> Result<RunResults, String> {
         let (task, join) = (self.request.task, self.request.join.as_deref());
         let workspace = session.workspace();
         let mut diagnostics = matches.problems.clone();
         let selection = TargetSelection::new(session, memo, matches, join.is_some(), &mut diagnostics)
-            .ok_or_else(|| nothing_to_emit(workspace).to_owned())?;
+            .ok_or_else(|| nothing_to_emit_message(workspace).to_owned())?;
         let lacks_paths = join.is_some() && diagnostics.iter().any(Diagnostic::is_error);
         if task == Task::Print && join.is_none() && selection.targets.len() > 1 {
-            return Err(several_programs(workspace).to_owned());
+            return Err(several_programs_message(workspace).to_owned());
         }
         let sheet = task.sheets(&workspace.settings);
         let builder = JobBuilder { session, post_processor: self.post_processor, join, sheet };
@@ -171,13 +172,13 @@ impl Emitter<'_> {
         diagnostics.extend(plans.iter().flat_map(|plan| plan.value.problems()).cloned());
         let mut remaining = plans.iter().filter_map(|plan| plan.value.remaining_job());
         if task == Task::Print && remaining.any(|job| job.files.len() > 1) {
-            return Err(several_files(workspace).to_owned());
+            return Err(several_files_message(workspace).to_owned());
         }
         build_and_settle(session, jobs_mut(&mut plans), task, self.post_processor);
         for answer in &mut plans {
             complete_inputs(answer, task);
         }
-        Ok(Run { selection, plans, diagnostics })
+        Ok(RunResults { selection, plans, diagnostics })
     }
 
     /// Leaves out jobs whose paths several drawings define, and those whose files would replace programs of other paths.
@@ -204,9 +205,9 @@ impl Emitter<'_> {
         session: &mut Session<'_>,
         memo: &Memo,
         matches: &ArgumentMatches,
-        run: Run,
+        run: RunResults,
     ) -> Emission {
-        let Run { selection, mut plans, mut diagnostics } = run;
+        let RunResults { selection, mut plans, mut diagnostics } = run;
         let (task, workspace) = (self.request.task, session.workspace());
         report_cached(workspace, &selection, &plans);
         // A dependency file that lacks the rules of a path with errors would keep a build system from building the program of this path again.
@@ -215,7 +216,7 @@ impl Emitter<'_> {
         self.add_compatible_notes(workspace, &mut plans);
         let jobs: Vec<&Job> = plans.iter().filter_map(|plan| plan.value.job.as_ref()).collect();
         let StaleOutcome { older, removed, outdated, .. } =
-            self.settle_earlier(session, matches, &selection, &jobs, &mut diagnostics);
+            self.settle_stale_programs(session, matches, &selection, &jobs, &mut diagnostics);
         diagnostics.extend(plans.iter().filter_map(|plan| plan.value.lowered_error(workspace)));
         let outcomes = jobs.iter().filter_map(|job| job.outcome.as_ref()).chain(&older);
         diagnostics.extend(outcomes.flat_map(|outcome| &outcome.problems).cloned());
@@ -248,7 +249,7 @@ impl Emitter<'_> {
     }
 
     /// Settles the stale programs of earlier runs, including those of paths that this run does not select.
-    fn settle_earlier(
+    fn settle_stale_programs(
         &self,
         session: &mut Session<'_>,
         matches: &ArgumentMatches,
@@ -277,21 +278,21 @@ impl Emitter<'_> {
     }
 }
 
-fn nothing_to_emit(workspace: &Workspace) -> &str {
+fn nothing_to_emit_message(workspace: &Workspace) -> &str {
     workspace.choose(
         "nothing to emit: name drawings, paths or directories, or set `library` and `[emit] targets` in pathbuild.toml",
         "nichts zu schreiben: Zeichnungen, Pfade oder Verzeichnisse nennen oder `library` und `[emit] targets` in pathbuild.toml setzen",
     )
 }
 
-fn several_programs(workspace: &Workspace) -> &str {
+fn several_programs_message(workspace: &Workspace) -> &str {
     workspace.choose(
         "`-o -` writes a single program: name a single path",
         "`-o -` schreibt ein einzelnes Programm: nur einen Pfad nennen",
     )
 }
 
-fn several_files(workspace: &Workspace) -> &str {
+fn several_files_message(workspace: &Workspace) -> &str {
     workspace.choose(
         "`-o -` writes a single file: the program of this path has Z-probes and consists of several files",
         "`-o -` schreibt eine einzelne Datei: das Programm dieses Pfads hat Z-Proben und besteht aus mehreren Dateien",
@@ -299,7 +300,7 @@ fn several_files(workspace: &Workspace) -> &str {
 }
 
 /// The results of [`Emitter::perform`], with which [`Emitter::conclude`] goes on.
-struct Run {
+struct RunResults {
     selection: TargetSelection,
     plans: Vec<Answer<Plan>>,
     diagnostics: Vec<Diagnostic>,
@@ -335,8 +336,9 @@ fn report_not_current(workspace: &Workspace, outcomes: &[ProgramOutcome], diagno
         let known = finding.file.as_deref().and_then(|file| by_file.get(file));
         known.is_some_and(|known| workspace.has_error(known.iter().copied()))
     };
-    let refusal = |finding: &Diagnostic| loss_of_values(&*workspace.system, finding.file.as_ref()?);
-    let findings = outcomes.iter().flat_map(ProgramOutcome::not_current).filter(|finding| !is_known(finding));
+    let refusal = |finding: &Diagnostic| lost_values_problem(&*workspace.system, finding.file.as_ref()?);
+    let findings =
+        outcomes.iter().flat_map(ProgramOutcome::not_current_findings).filter(|finding| !is_known(finding));
     let new: Vec<Diagnostic> = findings.map(|finding| refusal(&finding).unwrap_or(finding)).collect();
     diagnostics.extend(new);
 }

@@ -170,7 +170,7 @@ impl Provenances {
         options.extend(post_processor.map(PostProcessor::identity).unwrap_or_default());
         let dialect = match post_processor {
             None => Some(Dialect::Native),
-            Some(post_processor) => post_processor.reader(),
+            Some(post_processor) => post_processor.reading_dialect(),
         };
         Self { options, dialect }
     }

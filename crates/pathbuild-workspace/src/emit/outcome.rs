@@ -88,7 +88,7 @@ impl ProgramOutcome {
     }
 
     /// Returns PB528 for each compared file that is missing or not current.
-    pub(super) fn not_current(&self) -> impl Iterator<Item = Diagnostic> {
+    pub(super) fn not_current_findings(&self) -> impl Iterator<Item = Diagnostic> {
         self.files.iter().filter_map(|(file, state)| {
             let message = match state {
                 State::Missing => &outputs::MISSING_OUTPUT,
@@ -159,7 +159,7 @@ impl Task {
     }
 
     /// Returns the outcome of a file with a state known from an earlier run. This run then neither writes nor compares the file.
-    pub(super) fn known_state(self, state: OutputState) -> State {
+    pub(super) fn state_from_cache(self, state: OutputState) -> State {
         match state {
             OutputState::Current if matches!(self, Self::Write { .. }) => State::Unchanged,
             OutputState::Current => State::Current,

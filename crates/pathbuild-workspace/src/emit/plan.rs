@@ -238,7 +238,7 @@ fn cached_plan_if_sufficient(
             _ => state == OutputState::Current,
         };
         let known = |((_, path), state): ((_, &Utf8PathBuf), _)| {
-            is_enough(path, state).then(|| (path.clone(), task.known_state(state)))
+            is_enough(path, state).then(|| (path.clone(), task.state_from_cache(state)))
         };
         outcome.files = files.by_ref().map(known).collect::<Option<_>>()?;
     }
@@ -343,7 +343,7 @@ impl JobBuilder<'_> {
         kinds: &[OutputKind],
     ) -> Job {
         let name = |kind: &OutputKind| match self.post_processor {
-            Some(post_processor) if kind.is_program() => posted_program(&stem, post_processor),
+            Some(post_processor) if kind.is_program() => post_output_file(&stem, post_processor),
             _ => kind.file(&stem),
         };
         let kinds = kinds.iter().copied().chain(OutputKind::of_sheet(self.sheet));
@@ -369,7 +369,7 @@ fn sources(db: &Database, checked: &[CheckedTarget]) -> Vec<SourceFile> {
     read.filter(|file| seen.insert(*file)).collect()
 }
 
-pub(super) fn posted_program(stem: &Utf8Path, post_processor: &PostProcessor) -> Utf8PathBuf {
+pub(super) fn post_output_file(stem: &Utf8Path, post_processor: &PostProcessor) -> Utf8PathBuf {
     OutputKind::Milling.file(stem).with_extension(post_processor.extension())
 }
 
@@ -399,7 +399,7 @@ fn leave_out_if_named_like_path(builder: &JobBuilder<'_>, name: &str, job: &mut 
     let named = session.select(&crate::Inputs { inputs: vec![name.to_owned()] });
     let named = named.paths.into_iter().map(|path| path.file).chain(named.named);
     let drawings = job.targets.iter().map(|target| target.file(db)).chain(named);
-    let path = rivals(builder, job, drawings).iter().map(|rival| rival.name(session)).min()?;
+    let path = jobs_with_same_files(builder, job, drawings).iter().map(|rival| rival.name(session)).min()?;
     let output = job.files.first().and_then(|(_, file)| file.file_name());
     let problem = Diagnostic::new(&messages::JOINED_LIKE_PATH).quoting("path", path);
     let problem = problem.quoting("name", output.unwrap_or_default()).in_file(job.drawing(db).path(db));
@@ -463,7 +463,7 @@ pub(super) fn leave_out_files_of_others<'p>(
         let others = library.get(&name(own)).into_iter().flatten();
         let others = others.filter(|other| db.system().canonical(other) != canonical);
         let others = others.map(|other| session.file(other));
-        if let Some(rival) = rivals(builder, job, others).first() {
+        if let Some(rival) = jobs_with_same_files(builder, job, others).first() {
             let output = job.files.first().and_then(|(_, file)| file.file_name());
             diagnostics.push(same_output_error(output, job.name(session), rival.name(session), own));
             job.leave_out();
@@ -472,7 +472,11 @@ pub(super) fn leave_out_files_of_others<'p>(
 }
 
 /// Returns the jobs of all paths in these drawings, each for a program of its own, that would write one of the files of `job`.
-fn rivals(builder: &JobBuilder<'_>, job: &Job, drawings: impl IntoIterator<Item = SourceFile>) -> Vec<Job> {
+fn jobs_with_same_files(
+    builder: &JobBuilder<'_>,
+    job: &Job,
+    drawings: impl IntoIterator<Item = SourceFile>,
+) -> Vec<Job> {
     let JobBuilder { session, .. } = *builder;
     let builder = JobBuilder { join: None, ..*builder };
     let drawings = drawings.into_iter();

@@ -62,7 +62,7 @@ impl SceneReport {
 
     /// Like [`with_findings`](Self::with_findings), for a document that is sent to others: absolute file names become relative to the shown file,
     /// so that they do not reveal the user's directories.
-    pub fn for_others(mut self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
+    pub fn for_sharing(mut self, workspace: &Workspace, file: &str) -> (Scene, Findings) {
         let findings = workspace.findings(self.diagnostics);
         let directory = Utf8Path::new(file).parent().unwrap_or(Utf8Path::new(""));
         let mut shown = findings.diagnostics.clone();
@@ -379,8 +379,9 @@ fn program_text(
         session.map_guarded(slice::from_ref(&job), work).pop().unwrap_or_else(|| Ok(BuiltProgram::default()));
     let files = files.map_err(|problem| vec![*problem])?;
     // If the dialect is unknown, assume that of LinuxCNC, as for reading the text back.
-    let dialect = post_processor
-        .map_or(Dialect::Native, |post_processor| post_processor.reader().unwrap_or(Dialect::LinuxCnc));
+    let dialect = post_processor.map_or(Dialect::Native, |post_processor| {
+        post_processor.reading_dialect().unwrap_or(Dialect::LinuxCnc)
+    });
     match files.outputs.into_iter().find(|output| output.kind.is_program()) {
         Some(output) => Ok(Some(ProgramText { file: output.path, bytes: output.text, dialect })),
         None => Err(files.outcome.problems),

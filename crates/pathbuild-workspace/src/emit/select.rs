@@ -118,7 +118,7 @@ impl TargetCollector<'_> {
             let (path, DrawingResult { names, diagnostics, .. }) = (drawing.drawing(), &drawing.value);
             self.diagnostics.extend_from_slice(diagnostics);
             match names.as_slice() {
-                [] => self.diagnostics.extend(self.session.no_path(path, names, diagnostics)),
+                [] => self.diagnostics.extend(self.session.no_path_error(path, names, diagnostics)),
                 [name] => self.add(path, name),
                 names => self.refuse_several(path, names),
             }
@@ -130,7 +130,7 @@ impl TargetCollector<'_> {
         }
         if self.targets.is_empty() && !self.diagnostics.iter().any(Diagnostic::is_error) {
             let parts = covered.iter().map(|drawing| drawing.value.parts());
-            self.diagnostics.extend(self.session.no_path_anywhere(parts));
+            self.diagnostics.extend(self.session.no_path_anywhere_error(parts));
         }
     }
 

@@ -71,7 +71,7 @@ pub(super) fn build_and_settle<'j>(
             ProgramOutcome { problems: vec![problem], ..ProgramOutcome::default() }
         });
         for file in &mut outcome.inserted {
-            file.path = session.normal(&file.path);
+            file.path = session.normalize(&file.path);
         }
         job.outcome = Some(ProgramOutcome { path: job.path.clone(), ..outcome });
     }
@@ -149,7 +149,7 @@ fn write<'a>(
 ) -> Result<(), Box<Diagnostic>> {
     let values = outputs.clone().map(|(output, _)| output).filter(|output| output.kind == OutputKind::Values);
     let mut replaced = values.filter(|output| !has_same_probes(system, output));
-    if !force && let Some(problem) = replaced.find_map(|output| loss_of_values(system, &output.path)) {
+    if !force && let Some(problem) = replaced.find_map(|output| lost_values_problem(system, &output.path)) {
         return Err(Box::new(problem));
     }
     for (output, hash) in outputs {
@@ -185,22 +185,22 @@ fn is_edited(system: &dyn System, output: &Output, limit: u64) -> bool {
 }
 
 /// Returns PB605 if a file on disk, which is for probes other than those of the drawing, contains measured values, or lines that may contain some.
-pub(super) fn loss_of_values(system: &dyn System, file: &Utf8Path) -> Option<Diagnostic> {
+pub(super) fn lost_values_problem(system: &dyn System, file: &Utf8Path) -> Option<Diagnostic> {
     OutputName::parse(file.as_str()).filter(|name| name.kind == OutputKind::Values)?;
     let present = text_on_disk(system, file)?;
-    let message = adjust::loss_of_values(Source { file, bytes: present.as_bytes() })?;
+    let message = adjust::lost_values_message(Source { file, bytes: present.as_bytes() })?;
     let name = file.file_name().unwrap_or_default();
     Some(Diagnostic::new(message).quoting("name", name).in_file(file))
 }
 
 /// Whether the file of measured values exists and is for the same probes as the generated one.
 fn has_same_probes(system: &dyn System, output: &Output) -> bool {
-    text_on_disk(system, &output.path).is_some_and(|present| is_for_probes(&present, &output.text))
+    text_on_disk(system, &output.path).is_some_and(|present| is_for_same_probes(&present, &output.text))
 }
 
 /// Whether two files of measured values are for the same probes. The file on disk may lack the positions of the probes in the emitted drawing, if an
 /// older version or PathDxf2GCode wrote it.
-fn is_for_probes(present: &str, written: &[u8]) -> bool {
+fn is_for_same_probes(present: &str, written: &[u8]) -> bool {
     let (present, written) = (without_values(present.as_bytes()), without_values(written));
     present == written || present == without_positions(&written)
 }
@@ -233,7 +233,7 @@ fn compare(
         return (State::Outdated, Vec::new());
     }
     // If the dialect cannot be read, only bytes can be compared.
-    let dialect = post_processor.map_or(Some(Dialect::Native), PostProcessor::reader);
+    let dialect = post_processor.map_or(Some(Dialect::Native), PostProcessor::reading_dialect);
     let Some(dialect) = dialect else { return (State::Outdated, Vec::new()) };
     let problems = difference(&present, &output.text, dialect);
     let problems = problems.into_iter().map(|problem| problem.in_file(&output.path)).collect::<Vec<_>>();

@@ -36,7 +36,7 @@ pub struct WrittenPrograms {
 
 /// The drawings that a session covers.
 #[derive(Clone, Copy, Debug)]
-pub struct Scope<'a> {
+pub struct CoveredDrawings<'a> {
     /// Whether these are the drawings of the library, among which each configured target must match a path.
     pub is_library: bool,
     /// Drawings that were found in directories, and whose paths were therefore all considered.
@@ -74,7 +74,7 @@ impl WrittenPrograms {
         }
         let freed: BTreeSet<String> =
             programs.into_iter().flat_map(|(drawing, programs)| self.replace(drawing, programs)).collect();
-        let mut rivals = self.only_owners(db, &freed);
+        let mut rivals = self.drawings_of_sole_owners(db, &freed);
         rivals.retain(|rival| !drawings.contains(rival));
         (refusal.map_or(Ok(outcomes), Err), rivals)
     }
@@ -148,7 +148,7 @@ impl WrittenPrograms {
     pub fn forget(&mut self, db: &Database, removed: &BTreeSet<Utf8PathBuf>) -> Vec<SourceFile> {
         let freed: BTreeSet<String> =
             removed.iter().flat_map(|drawing| self.replace(drawing, Vec::new())).collect();
-        self.only_owners(db, &freed)
+        self.drawings_of_sole_owners(db, &freed)
     }
 
     /// Replaces the programs of a drawing. Returns the file names that it no longer claims, in lower case.
@@ -184,7 +184,7 @@ impl WrittenPrograms {
     }
 
     /// Returns the drawings of the targets that are the only ones to claim one of these file names.
-    fn only_owners(&self, db: &Database, names: &BTreeSet<String>) -> Vec<SourceFile> {
+    fn drawings_of_sole_owners(&self, db: &Database, names: &BTreeSet<String>) -> Vec<SourceFile> {
         let owners = names.iter().filter_map(|name| self.owners.get(name));
         owners.filter(|owners| owners.len() == 1).flatten().map(|owner| owner.file(db)).collect()
     }
@@ -214,7 +214,7 @@ impl WrittenPrograms {
         &mut self,
         session: &mut Session<'_>,
         post_processor: Option<&PostProcessor>,
-        scope: &Scope<'_>,
+        scope: &CoveredDrawings<'_>,
     ) -> Vec<Diagnostic> {
         let mut problems = Vec::new();
         let unselected = self.find_common_problems(session, post_processor, scope, &mut problems);
@@ -227,7 +227,7 @@ impl WrittenPrograms {
         &mut self,
         session: &Session<'_>,
         post_processor: Option<&PostProcessor>,
-        scope: &Scope<'_>,
+        scope: &CoveredDrawings<'_>,
         problems: &mut Vec<Diagnostic>,
     ) -> Vec<StaleProgram> {
         problems.extend(self.leave_out_clashes(session));

@@ -3,7 +3,7 @@
 
 use pathbuild_diagnostic::messages::configuration::{NUMBER, POSITIVE};
 use pathbuild_diagnostic::messages::import as say;
-use pathbuild_diagnostic::{Diagnostic, Text, Value as Shown};
+use pathbuild_diagnostic::{Diagnostic, Text, Value as MessageValue};
 use rustc_hash::FxHashMap;
 
 use super::{DescribedValue, Description, Quantity};
@@ -106,7 +106,8 @@ impl Entries {
     /// Reports an entry with a value that is not of the kind that the key needs.
     pub(super) fn report_invalid_value(&mut self, entry: &Entry, expected: &'static Text) {
         let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", entry.name.as_str());
-        let problem = problem.quoting("value", entry.value.as_str()).with("expected", Shown::Prose(expected));
+        let problem =
+            problem.quoting("value", entry.value.as_str()).with("expected", MessageValue::Prose(expected));
         self.report(problem.at_line(entry.line, None));
     }
 

@@ -14,7 +14,7 @@ use camino::Utf8Path;
 use flate2::bufread::DeflateDecoder;
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::import as say;
-use pathbuild_diagnostic::{Diagnostic, Text, Value as Shown};
+use pathbuild_diagnostic::{Diagnostic, Text, Value as MessageValue};
 use rawzip::{CompressionMethod, ZipArchive};
 
 use crate::files::decode_utf8;
@@ -139,7 +139,7 @@ pub fn table_unit(
 ///
 /// # Errors
 /// The reason why it cannot be read.
-pub fn text(system: &dyn System, file: &Utf8Path) -> Result<String, Shown> {
+pub fn text(system: &dyn System, file: &Utf8Path) -> Result<String, MessageValue> {
     let bytes =
         system.read(file, MAX_DESCRIPTION_BYTES).map_err(|error| error.reason(MAX_DESCRIPTION_BYTES))?;
     let bytes = if bytes.starts_with(b"PK\x03\x04") { unpack(&bytes)? } else { bytes };
@@ -156,7 +156,7 @@ pub fn read(
     file: &Utf8Path,
     text: &str,
     unit: Option<LengthUnit>,
-    bit: &dyn Fn(&str) -> Result<String, Shown>,
+    bit: &dyn Fn(&str) -> Result<String, MessageValue>,
 ) -> Result<Description, Box<Diagnostic>> {
     let read = if text.trim_start().starts_with('{') {
         tools::read_json(text, bit)
@@ -185,25 +185,25 @@ pub fn read(
 ///
 /// # Errors
 /// If the archive is broken or has several entries, or if the content is too large.
-fn unpack(bytes: &[u8]) -> Result<Vec<u8>, Shown> {
-    let archive = ZipArchive::from_slice(bytes).map_err(Shown::foreign)?;
+fn unpack(bytes: &[u8]) -> Result<Vec<u8>, MessageValue> {
+    let archive = ZipArchive::from_slice(bytes).map_err(MessageValue::foreign)?;
     let mut entries = archive.entries();
-    let first = entries.next_entry().map_err(Shown::foreign)?;
-    let second = entries.next_entry().map_err(Shown::foreign)?;
-    let (Some(entry), None) = (first, second) else { return Err(Shown::Prose(&SEVERAL_FILES)) };
-    let local = archive.get_entry(entry.wayfinder()).map_err(Shown::foreign)?;
+    let first = entries.next_entry().map_err(MessageValue::foreign)?;
+    let second = entries.next_entry().map_err(MessageValue::foreign)?;
+    let (Some(entry), None) = (first, second) else { return Err(MessageValue::Prose(&SEVERAL_FILES)) };
+    let local = archive.get_entry(entry.wayfinder()).map_err(MessageValue::foreign)?;
     match entry.compression_method() {
         CompressionMethod::STORE => read_entry(local.verifying_reader(local.data())),
         CompressionMethod::DEFLATE => read_entry(local.verifying_reader(DeflateDecoder::new(local.data()))),
-        _ => Err(Shown::Prose(&OTHER_METHOD)),
+        _ => Err(MessageValue::Prose(&OTHER_METHOD)),
     }
 }
 
-fn read_entry(content: impl Read) -> Result<Vec<u8>, Shown> {
+fn read_entry(content: impl Read) -> Result<Vec<u8>, MessageValue> {
     let mut bytes = Vec::new();
-    content.take(MAX_DESCRIPTION_BYTES + 1).read_to_end(&mut bytes).map_err(Shown::foreign)?;
+    content.take(MAX_DESCRIPTION_BYTES + 1).read_to_end(&mut bytes).map_err(MessageValue::foreign)?;
     if bytes.len() as u64 > MAX_DESCRIPTION_BYTES {
-        return Err(Shown::Prose(&TOO_LARGE));
+        return Err(MessageValue::Prose(&TOO_LARGE));
     }
     Ok(bytes)
 }
@@ -220,6 +220,6 @@ static TOO_LARGE: Text =
     Text { en: "its unpacked content is too large", de: "sein entpackter Inhalt ist zu groß" };
 
 fn broken_description(reason: &str, line: usize) -> Box<Diagnostic> {
-    let problem = Diagnostic::new(&say::BROKEN_DESCRIPTION).with("reason", Shown::foreign(reason));
+    let problem = Diagnostic::new(&say::BROKEN_DESCRIPTION).with("reason", MessageValue::foreign(reason));
     Box::new(problem.at_line(u32::try_from(line).unwrap_or(u32::MAX), None))
 }

@@ -5,7 +5,7 @@
 
 use pathbuild_diagnostic::messages::configuration::COUNT;
 use pathbuild_diagnostic::messages::import as say;
-use pathbuild_diagnostic::{Diagnostic, Message, Value as Shown};
+use pathbuild_diagnostic::{Diagnostic, Message, Value as MessageValue};
 use serde_json::{Map, Value};
 
 use super::entries::rounded;
@@ -13,7 +13,7 @@ use super::{DescribedTool, DescribedValue, Description, Entry, LengthUnit, Quant
 use crate::config::is_too_round;
 
 /// A function that returns the text of a tool bit named in a FreeCAD library.
-pub(super) type ReadBit<'r> = &'r dyn Fn(&str) -> Result<String, Shown>;
+pub(super) type ReadBit<'r> = &'r dyn Fn(&str) -> Result<String, MessageValue>;
 
 /// Whether the text is a tool table of `LinuxCNC`: its first line that is neither empty nor a comment is the entry of a tool.
 pub(super) fn is_table(text: &str) -> bool {
@@ -174,14 +174,14 @@ fn read_freecad_library(
             description.unused.extend(fields.unused());
             continue;
         };
-        let unreadable = |reason: Shown| {
+        let unreadable = |reason: MessageValue| {
             let problem = Diagnostic::new(&say::BIT_UNREADABLE).quoting("name", name.as_str());
             problem.with("reason", reason)
         };
         match bit(&name) {
             Ok(text) => {
                 let bit: Value = serde_json::from_str(&text)
-                    .map_err(|error| Box::new(unreadable(Shown::foreign(error.to_string()))))?;
+                    .map_err(|error| Box::new(unreadable(MessageValue::foreign(error.to_string()))))?;
                 read_freecad_bit(&bit, number, line, &mut description);
             }
             Err(reason) => description.problems.push(unreadable(reason)),
@@ -339,7 +339,7 @@ impl Description {
             Ok(number) => Some(number),
             Err(_) => {
                 let problem = Diagnostic::new(&say::VALUE_NOT_TAKEN).quoting("name", name);
-                let problem = problem.quoting("value", text).with("expected", Shown::Prose(&COUNT));
+                let problem = problem.quoting("value", text).with("expected", MessageValue::Prose(&COUNT));
                 self.problems.push(problem.at_line(line, None));
                 None
             }

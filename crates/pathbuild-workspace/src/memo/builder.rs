@@ -33,7 +33,9 @@ impl Store {
             self.kept.records.iter().zip(&self.verdict.is_sound).filter(|(_, is_sound)| **is_sound)
         {
             let subject = &*record.subject;
-            if !fresh_subjects.contains(subject) && self.scope.may_return(subject, session.db().system()) {
+            if !fresh_subjects.contains(subject)
+                && self.scope.may_be_needed_again(subject, session.db().system())
+            {
                 builder.carry_over_record(record);
             }
         }
@@ -117,7 +119,7 @@ impl<'a> CatalogueBuilder<'a> {
             files.extend(trace.files.iter().map(|file| self.drawing(*file)));
             lookups.extend(trace.lookups.iter().map(|lookup| self.lookup(lookup)));
         }
-        files.extend(inputs.further.iter().map(|file| self.further_file(file)));
+        files.extend(inputs.further.iter().map(|file| self.add_extra_input(file)));
         let outputs = inputs.outputs.iter().map(|output| self.output(output)).collect();
         self.catalogue.records.push(Record {
             subject: result.subject.into(),
@@ -168,7 +170,7 @@ impl<'a> CatalogueBuilder<'a> {
 
     /// Adds a file other than a drawing, and returns its index. If results were computed from different contents of the file, it is unclear to which
     /// content a result belongs, so the file gets neither stamp nor hash.
-    fn further_file(&mut self, ExtraInput { path, hash }: &ExtraInput) -> usize {
+    fn add_extra_input(&mut self, ExtraInput { path, hash }: &ExtraInput) -> usize {
         let mut buffer = Vec::new();
         let limit = self.session.workspace().settings.limits.file_size.value;
         let stamp = self.session.db().system().read_into(path, limit, &mut buffer).ok();

@@ -381,7 +381,7 @@ impl Scope {
     }
 
     /// Whether a result may be needed again, because its drawing still exists. A run on single drawings keeps the results of other drawings.
-    pub(super) fn may_return(&self, subject: &str, system: &dyn System) -> bool {
+    pub(super) fn may_be_needed_again(&self, subject: &str, system: &dyn System) -> bool {
         let drawing = Utf8Path::new(drawing(subject));
         let is_file = || system.kind(drawing) == FileKind::File;
         match self {

@@ -164,10 +164,10 @@ impl Session<'_> {
     /// directories and of files that `is_wanted` accepts. Returns `place` itself if a file with exactly that name exists, or if nothing matches.
     pub(super) fn expand_pattern(&self, place: &Utf8Path, is_wanted: FileFilter<'_>) -> Vec<Utf8PathBuf> {
         let pattern = place.file_name().and_then(pattern_of);
-        let is_missing = || self.db.system().kind(&self.normal(place)) == FileKind::Missing;
+        let is_missing = || self.db.system().kind(&self.normalize(place)) == FileKind::Missing;
         let Some(pattern) = pattern.filter(|_| is_missing()) else { return vec![place.to_owned()] };
         let directory = place.parent().unwrap_or(Utf8Path::new(""));
-        let entries = self.entries(&self.normal(directory), is_wanted).into_iter();
+        let entries = self.entries(&self.normalize(directory), is_wanted).into_iter();
         let matching = entries.filter(|name| pattern.matches(name)).map(|name| join(directory, name));
         let matching: Vec<Utf8PathBuf> = matching.collect();
         if matching.is_empty() { vec![place.to_owned()] } else { matching }
@@ -204,7 +204,7 @@ impl Session<'_> {
 
     fn match_place(&self, place: &Utf8Path, listings: &mut Listings) -> Argument {
         if self.is_directory(place) && !is_drawing(place) {
-            return Argument::Directory(self.search_directory(self.normal(place), listings));
+            return Argument::Directory(self.search_directory(self.normalize(place), listings));
         }
         Argument::Drawing(self.file(place))
     }
@@ -221,8 +221,9 @@ impl Session<'_> {
         }
         let drawing = self.drawing_of_name(name, directories);
         let place = Utf8Path::new(name);
-        let directory =
-            self.is_directory(place).then(|| self.search_directory(self.normal(place), &mut found.listings));
+        let directory = self
+            .is_directory(place)
+            .then(|| self.search_directory(self.normalize(place), &mut found.listings));
         Argument::Name { name: path, candidates, drawing, directory }
     }
 
@@ -249,9 +250,9 @@ impl Session<'_> {
         listings: &mut Listings,
     ) -> SearchedDirectory {
         let listed = walked.listings.into_iter();
-        listings.extend(listed.map(|(directory, listing)| (self.normalised(directory), listing)));
+        listings.extend(listed.map(|(directory, listing)| (self.normalize_owned(directory), listing)));
         let normalised =
-            |paths: Vec<Utf8PathBuf>| paths.into_iter().map(|path| self.normalised(path)).collect();
+            |paths: Vec<Utf8PathBuf>| paths.into_iter().map(|path| self.normalize_owned(path)).collect();
         let (drawings, directories) = (normalised(walked.drawings), normalised(walked.directories));
         SearchedDirectory { path, drawings, directories, problems: walked.problems }
     }
@@ -260,7 +261,7 @@ impl Session<'_> {
     /// submodule that was not checked out.
     fn walk_library(&self, listings: &mut Listings) -> Vec<SearchedDirectory> {
         let library = self.context.settings.general.library.value.iter();
-        let library: Vec<Utf8PathBuf> = library.map(|directory| self.normal(directory)).collect();
+        let library: Vec<Utf8PathBuf> = library.map(|directory| self.normalize(directory)).collect();
         let walk = self.walk(&is_drawing);
         let walked: Vec<library::WalkResult> = if walk.is_parallel && library.len() > 1 {
             library.par_iter().map(|directory| walk.search(directory)).collect()
@@ -296,7 +297,7 @@ impl Session<'_> {
     /// Like [`name_directories`](Self::name_directories), with the errors of searching the library.
     fn listed_name_directories(&self, listings: &mut Listings) -> (Vec<Utf8PathBuf>, Vec<Diagnostic>) {
         let searched = self.context.settings.general.search.value.iter();
-        let searched = searched.map(|directory| self.normal(directory));
+        let searched = searched.map(|directory| self.normalize(directory));
         let walked = self.walk_library(listings);
         let library = directories_with_drawings(&walked);
         self.provide_names(listings);
@@ -368,7 +369,7 @@ impl Session<'_> {
 
     /// Whether the path is an existing directory.
     pub fn is_directory(&self, place: &Utf8Path) -> bool {
-        self.db.system().kind(&self.normal(place)) == FileKind::Directory
+        self.db.system().kind(&self.normalize(place)) == FileKind::Directory
     }
 
     pub(super) fn walk<'w>(&'w self, is_wanted: FileFilter<'w>) -> library::Walk<'w> {

@@ -175,7 +175,7 @@ struct GraphArguments {
 impl GraphArguments {
     fn new(session: &Session<'_>, inputs: &Inputs) -> Self {
         let selection = session.select(inputs);
-        let files = selection.whole(session);
+        let files = selection.whole_drawings(session);
         session.parse_ahead(&files);
         let mut targets: Vec<Target> =
             files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();

@@ -336,7 +336,7 @@ impl Session<'_> {
             }
         }
         let mut seen = HashSet::new();
-        found.programs.retain(|program| seen.insert(self.normal(program)));
+        found.programs.retain(|program| seen.insert(self.normalize(program)));
         found
     }
 
@@ -364,7 +364,7 @@ impl Session<'_> {
     /// Returns the directories that may have been the output directory: that of the configuration and those on the way from it to `out_dir`, each
     /// with those directly in it. Leaves out hidden ones, those that .ignore excludes, and those that cannot be listed.
     pub(crate) fn possible_output_directories(&self, out_dir: Option<&Utf8Path>) -> Vec<Utf8PathBuf> {
-        let Some(mut place) = self.context.settings.directory().map(|top| self.normal(top)) else {
+        let Some(mut place) = self.context.settings.directory().map(|top| self.normalize(top)) else {
             return Vec::new();
         };
         let walk = Walk { obeys_git: false, ..self.walk(&|_| false) };

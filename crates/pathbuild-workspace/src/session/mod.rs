@@ -34,7 +34,7 @@ pub use resolve::{NamedPaths, NamesOf, NotOnePath, SelectedPath, Selection, seve
 pub use scene::HashedPath;
 pub(crate) use scene::{ProgramDetails, drawn_source, examples, finished_parts, program_scene};
 pub use settings::{limits, reading};
-pub use work::{CheckedTarget, Checker, Pair, ProgramFacts, pairs as q_project_pairs};
+pub use work::{CheckedTarget, Checker, ProgramFacts, QProjectPair, pairs as q_project_pairs};
 
 /// A database with the settings of a run.
 #[derive(Debug)]
@@ -120,12 +120,12 @@ impl<'a> Session<'a> {
 
     /// Returns the drawing with this path, whether it exists or not.
     pub fn file(&self, path: &Utf8Path) -> SourceFile {
-        if self.is_normal(path) { self.db.file(path) } else { self.db.file(&self.normal(path)) }
+        if self.is_normal(path) { self.db.file(path) } else { self.db.file(&self.normalize(path)) }
     }
 
     /// Normalizes a path: relative to the working directory if inside it, without `.` and `x/..`.
-    pub fn normal(&self, path: &Utf8Path) -> Utf8PathBuf {
-        normal(path, &self.context.working_directory)
+    pub fn normalize(&self, path: &Utf8Path) -> Utf8PathBuf {
+        normalize(path, &self.context.working_directory)
     }
 
     pub(crate) fn absolute(&self, path: &Utf8Path) -> Utf8PathBuf {
@@ -140,12 +140,12 @@ impl<'a> Session<'a> {
 
     /// Returns the configured output directory of all programs; `None` if programs are written beside their drawings.
     pub fn out_dir(&self) -> Option<Utf8PathBuf> {
-        self.context.settings.general.out_dir.value.as_ref().map(|directory| self.normal(directory))
+        self.context.settings.general.out_dir.value.as_ref().map(|directory| self.normalize(directory))
     }
 
-    /// Like [`normal`](Self::normal), but does not copy a path that is normal already.
-    fn normalised(&self, path: Utf8PathBuf) -> Utf8PathBuf {
-        if self.is_normal(&path) { path } else { self.normal(&path) }
+    /// Like [`normalize`](Self::normalize), but does not copy a path that is normal already.
+    fn normalize_owned(&self, path: Utf8PathBuf) -> Utf8PathBuf {
+        if self.is_normal(&path) { path } else { self.normalize(&path) }
     }
 
     fn is_normal(&self, path: &Utf8Path) -> bool {
@@ -153,7 +153,7 @@ impl<'a> Session<'a> {
     }
 }
 
-fn normal(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
+fn normalize(path: &Utf8Path, working_directory: &Utf8Path) -> Utf8PathBuf {
     if is_normal(path, working_directory) {
         return path.to_owned();
     }

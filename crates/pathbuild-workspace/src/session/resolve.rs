@@ -183,7 +183,7 @@ impl Session<'_> {
 
 impl Selection {
     /// Returns all drawings that are selected as a whole.
-    pub fn whole(&self, session: &Session<'_>) -> Vec<SourceFile> {
+    pub fn whole_drawings(&self, session: &Session<'_>) -> Vec<SourceFile> {
         let mut files = session.db().files(self.drawings.clone());
         files.extend(&self.named);
         files
@@ -266,7 +266,7 @@ impl Session<'_> {
             [name] => Ok(self.db.target(named.file, name.as_str(), role)),
             [] => {
                 let mut found = check_file(self.db(), named.file).to_vec();
-                found.extend(self.no_path(named.file.path(self.db()), &named.names, &found));
+                found.extend(self.no_path_error(named.file.path(self.db()), &named.names, &found));
                 Err(NotOnePath::Wrong(found))
             }
             _ => Err(NotOnePath::Several(named)),
@@ -274,7 +274,7 @@ impl Session<'_> {
     }
 
     /// Returns PB513 for a drawing that was named but contains no path, unless the drawing's errors explain that.
-    pub fn no_path(
+    pub fn no_path_error(
         &self,
         drawing: &Utf8Path,
         names: &[PathName],
@@ -459,12 +459,12 @@ impl Session<'_> {
         expected: &'a [FileKind],
     ) -> impl Iterator<Item = Diagnostic> + 'a {
         let is_missing = |(_, directory): &(usize, &Utf8PathBuf)| {
-            !expected.contains(&self.db.system().kind(&self.normal(directory)))
+            !expected.contains(&self.db.system().kind(&self.normalize(directory)))
         };
         directories.value.iter().enumerate().filter(is_missing).map(move |(index, directory)| {
             let problem = Diagnostic::new(&configuration::NO_DIRECTORY)
                 .quoting("key", key)
-                .quoting("directory", self.normal(directory).as_str());
+                .quoting("directory", self.normalize(directory).as_str());
             self.context.settings.locate(problem, directories.origin.of_item(index))
         })
     }
@@ -488,7 +488,7 @@ impl Session<'_> {
     /// Returns PB518 if there are drawings, but none of them contains a path. Returns `None` if a drawing has an error of its own, because it may
     /// contain a path, and in compatible mode, because PathDxf2GCode accepts such a library. `drawings` has the paths and the diagnostics of each
     /// drawing.
-    pub fn no_path_anywhere<'a>(
+    pub fn no_path_anywhere_error<'a>(
         &self,
         drawings: impl IntoIterator<Item = (&'a [PathName], &'a [Diagnostic])>,
     ) -> Option<Diagnostic> {

@@ -57,7 +57,7 @@ impl Session<'_> {
         let hashed =
             |(((file, name), checked), hash): (((SourceFile, _), CheckedTarget), Result<_, Box<_>>)| {
                 let target = checked.target;
-                let raised = self.context.raised(self.path_diagnostics(&checked));
+                let raised = self.context.raised_to_errors(self.path_diagnostics(&checked));
                 let mut problems: Vec<Diagnostic> =
                     checked.diagnostics.into_iter().filter(prevents_program).collect();
                 let moves = hash.unwrap_or_else(|problem| {

@@ -8,7 +8,7 @@ use pathbuild_path::{
     PathPattern, PathTool, PathTools, Restriction,
 };
 
-use super::normal;
+use super::normalize;
 use crate::config::{self, types};
 use crate::post_processor::tool_table;
 use crate::workspace::Workspace;
@@ -29,7 +29,7 @@ pub(super) fn apply(db: &Database, context: &Workspace, is_hashed: bool) {
     };
     let search = general.search.value.iter();
     let file_pattern = FilePattern::new(&general.file_pattern.value).unwrap_or_default();
-    let search = search.map(|directory| normal(directory, &context.working_directory)).collect();
+    let search = search.map(|directory| normalize(directory, &context.working_directory)).collect();
     let rules = general.restrict.value.iter();
     let restrictions = rules.filter_map(|rule| Restriction::new(&rule.parent, &rule.child).ok()).collect();
     let fold = PathOptions {

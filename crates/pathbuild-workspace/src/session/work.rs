@@ -310,15 +310,15 @@ fn signature<'db>(db: &'db Database, instance: Instance<'db>) -> Option<&'db Pat
 
 impl Session<'_> {
     /// Returns, for each pair, the discrepancies between the drawing and its Q-project, or PB515 if the drawing does not exist.
-    pub fn compare_q_projects(&self, pairs: &[Pair]) -> Vec<Vec<Diagnostic>> {
-        let judge = |db: &Database, [drawing, q_project]: &Pair| {
+    pub fn compare_q_projects(&self, pairs: &[QProjectPair]) -> Vec<Vec<Diagnostic>> {
+        let judge = |db: &Database, [drawing, q_project]: &QProjectPair| {
             if is_missing(db.system(), drawing.path(db)) {
                 return q_project_without_drawing(db, *drawing, *q_project).into_iter().collect();
             }
             let found = q_project_findings(db, *drawing, *q_project).iter().cloned();
             found.map(|problem| locate(db, problem)).collect::<Vec<_>>()
         };
-        let given_up = |(result, [drawing, _]): (Result<_, Box<Diagnostic>>, &Pair)| {
+        let given_up = |(result, [drawing, _]): (Result<_, Box<Diagnostic>>, &QProjectPair)| {
             result.unwrap_or_else(|problem| vec![problem.in_file(drawing.path(self.db()))])
         };
         self.map_guarded(pairs, judge).into_iter().zip(pairs).map(given_up).collect()
@@ -341,7 +341,7 @@ fn q_project_without_drawing(
 }
 
 /// A drawing and its Q-project.
-pub type Pair = [SourceFile; 2];
+pub type QProjectPair = [SourceFile; 2];
 
 /// Pairs each Q-project with the drawing that it tests, provided that this drawing is among `drawings` as well, or does not exist.
 pub fn pairs<'a>(

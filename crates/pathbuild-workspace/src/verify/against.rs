@@ -6,13 +6,13 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::{Db, Role, Target, Trace, check_file, heights_of_shims, placed_keep_outs, program};
 use pathbuild_diagnostic::messages::gcode as say;
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message};
-use pathbuild_gcode::adjust::{Source, adjusted_again, states_heights};
+use pathbuild_gcode::adjust::{Source, adjust_with_listed_heights, has_measured_heights};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{self, Options, Text};
 use pathbuild_gcode::native::{self, OtherLine, Parts};
 use pathbuild_gcode::provenance::Provenance;
 use pathbuild_gcode::read::quote;
-use pathbuild_gcode::verify::{Agreement, Clamps, ExpectedProgram, ToolUse, text_beyond_machine};
+use pathbuild_gcode::verify::{Clamps, ComparisonResult, ExpectedProgram, ToolUse, text_beyond_machine};
 use pathbuild_motion::{Axes, Move, Pace, Position};
 use pathbuild_path::KeepOut;
 use pathbuild_post::{Job, ToolTable, program_number};
@@ -215,7 +215,7 @@ impl ReferenceProgram {
         &self,
         program: &Program,
         lang: Lang,
-        agreement: Agreement,
+        agreement: ComparisonResult,
         is_probing: bool,
         rewritten: Option<&RewrittenProgram>,
     ) -> (Option<MoveComparison>, Vec<Diagnostic>) {
@@ -324,9 +324,12 @@ impl ReferenceProgram {
             return Ok(differences);
         }
         let source = |bytes| Source { file: &program.file, bytes };
-        let is_adjusted = states_heights(source(&program.text));
-        let text =
-            if is_adjusted { adjusted_again(source(&program.text), source(&text)) } else { Some(text) };
+        let is_adjusted = has_measured_heights(source(&program.text));
+        let text = if is_adjusted {
+            adjust_with_listed_heights(source(&program.text), source(&text))
+        } else {
+            Some(text)
+        };
         let other = text.and_then(|text| native::first_other_line(&program.text, &text, Parts::Comments));
         differences.extend(other.map(|other| other_line([&say::TEXT_DIFFERS, &say::TEXT_ADDED], other)));
         Ok(differences)

@@ -28,7 +28,7 @@ pub enum Outcome {
     /// The check was made with these values, except for rapid moves that start at an unknown position.
     Incomplete(RapidValues, BlindRapids),
     /// The check was not made, for this reason.
-    NotMade(Reason),
+    NotMade(MissingCheckReason),
 }
 
 /// The reason why the values of a check may be wrong.
@@ -46,18 +46,18 @@ pub struct RapidValues {
     /// Diameters of the cutters in mm, in the order of use.
     pub cutters: Vec<f64>,
     /// Source of the cutters' diameters.
-    pub cutter_origin: Origin,
+    pub cutter_origin: ValueSource,
     /// Height in mm of the upper face of the material, where it is highest.
     pub surface: f64,
     /// Whether the upper face has the same height everywhere.
     pub is_level: bool,
     /// Source of the height of the upper face.
-    pub surface_origin: Origin,
+    pub surface_origin: ValueSource,
 }
 
 /// Source of a value. The sources are ordered from the most to the least reliable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Origin {
+pub enum ValueSource {
     /// An option on the command line.
     Option,
     /// The drawing that the program is compared with.
@@ -70,7 +70,7 @@ pub enum Origin {
 
 /// The reason why a check was not made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Reason {
+pub enum MissingCheckReason {
     /// The configuration does not limit the machine.
     NoLimit,
     /// There is no drawing to compare with.
@@ -113,13 +113,13 @@ pub enum Reason {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct References {
     /// The reason why not all moves were compared with those of a drawing; `None` if they were.
-    pub(super) drawing_doubt: Option<Reason>,
+    pub(super) drawing_doubt: Option<MissingCheckReason>,
     /// Whether the configuration names layers of clamps.
     pub(super) has_keep_out: bool,
     /// Whether pathbuild interprets all words of the program that may move the tool.
     pub(super) are_moves_known: bool,
     /// The reason why the travel that the program needs is not known; `None` if it is.
-    pub(super) travel_doubt: Option<Reason>,
+    pub(super) travel_doubt: Option<MissingCheckReason>,
 }
 
 /// Returns the checks of a program. `rapids` is the outcome of the check of rapid moves.
@@ -133,16 +133,18 @@ pub(super) fn records(
         |is_made: bool, reason| if is_made { Outcome::Made(None) } else { Outcome::NotMade(reason) };
     let drawing = references.drawing_doubt.map_or(Outcome::Made(None), Outcome::NotMade);
     let clamps = match references.drawing_doubt {
-        Some(Reason::NoDrawing) => drawing.clone(),
-        _ => outcome(references.has_keep_out, Reason::NoKeepOut),
+        Some(MissingCheckReason::NoDrawing) => drawing.clone(),
+        _ => outcome(references.has_keep_out, MissingCheckReason::NoKeepOut),
     };
-    let limits = |is_limited: fn(&Machine) -> bool| outcome(machine.is_some_and(is_limited), Reason::NoLimit);
+    let limits = |is_limited: fn(&Machine) -> bool| {
+        outcome(machine.is_some_and(is_limited), MissingCheckReason::NoLimit)
+    };
     let spindle = match limits(|machine| machine.spindle.is_some()) {
-        Outcome::Made(_) if !states_speed => Outcome::NotMade(Reason::NoSpeed),
+        Outcome::Made(_) if !states_speed => Outcome::NotMade(MissingCheckReason::NoSpeed),
         other => other,
     };
     let envelope = match limits(|machine| machine.travel.is_some()) {
-        Outcome::Made(_) if !references.are_moves_known => Outcome::NotMade(Reason::NotFollowed),
+        Outcome::Made(_) if !references.are_moves_known => Outcome::NotMade(MissingCheckReason::NotFollowed),
         Outcome::Made(_) => references.travel_doubt.map_or(Outcome::Made(None), Outcome::NotMade),
         other => other,
     };
@@ -159,13 +161,17 @@ pub(super) fn records(
 
 /// Returns the record of the check for the rounding of corners. `has_limit` says whether the program limits the rounding.
 pub(super) fn corner_record(has_limit: bool) -> CheckRecord {
-    let outcome = if has_limit { Outcome::Made(None) } else { Outcome::NotMade(Reason::NoCornerLimit) };
+    let outcome =
+        if has_limit { Outcome::Made(None) } else { Outcome::NotMade(MissingCheckReason::NoCornerLimit) };
     CheckRecord { requirement: Requirement::Corners, outcome }
 }
 
 /// Returns the record of the comparison of coolant, which could not be made.
 pub(super) fn coolant_not_compared() -> CheckRecord {
-    CheckRecord { requirement: Requirement::Coolant, outcome: Outcome::NotMade(Reason::NoCoolant) }
+    CheckRecord {
+        requirement: Requirement::Coolant,
+        outcome: Outcome::NotMade(MissingCheckReason::NoCoolant),
+    }
 }
 
 /// Describes the checks of a program in one line.
@@ -228,66 +234,66 @@ impl CheckRecord {
     }
 
     /// Returns the option that would make the check possible.
-    pub fn option(&self, reason: Reason) -> &'static Text {
+    pub fn option(&self, reason: MissingCheckReason) -> &'static Text {
         match (reason, self.requirement) {
-            (Reason::NoDrawing, _) => &Text { en: "--against PATH", de: "--against PFAD" },
-            (Reason::OtherMoves, _) => &Text {
+            (MissingCheckReason::NoDrawing, _) => &Text { en: "--against PATH", de: "--against PFAD" },
+            (MissingCheckReason::OtherMoves, _) => &Text {
                 en: "a program with the moves of the drawing",
                 de: "ein Programm mit den Bewegungen der Zeichnung",
             },
-            (Reason::Unchecked, _) => {
+            (MissingCheckReason::Unchecked, _) => {
                 &Text { en: "a definition without `unchecked`", de: "eine Definition ohne `unchecked`" }
             }
-            (Reason::NoKeepOut, _) => {
+            (MissingCheckReason::NoKeepOut, _) => {
                 &Text { en: "keep-out in pathbuild.toml", de: "keep-out in pathbuild.toml" }
             }
-            (Reason::NoCutter, _) => {
+            (MissingCheckReason::NoCutter, _) => {
                 &Text { en: "--cutter or --against PATH", de: "--cutter oder --against PFAD" }
             }
-            (Reason::NoSurface | Reason::NoCutBelow, _) => {
+            (MissingCheckReason::NoSurface | MissingCheckReason::NoCutBelow, _) => {
                 &Text { en: "--surface or --against PATH", de: "--surface oder --against PFAD" }
             }
-            (Reason::SeveralSurfaces, _) => &Text {
+            (MissingCheckReason::SeveralSurfaces, _) => &Text {
                 en: "the native program, which shows where each of them counts",
                 de: "das native Programm, das zeigt, wo welche Höhe gilt",
             },
-            (Reason::MeasuredSurface, _) => &Text {
+            (MissingCheckReason::MeasuredSurface, _) => &Text {
                 en: "the native program that adjust wrote, or --surface",
                 de: "das native Programm, das adjust geschrieben hat, oder --surface",
             },
-            (Reason::NotFollowed, _) => &Text {
+            (MissingCheckReason::NotFollowed, _) => &Text {
                 en: "a program that is read without errors, such as PB703, PB720 or PB721",
                 de: "ein Programm, das sich ohne Fehler wie PB703, PB720 oder PB721 lesen lässt",
             },
-            (Reason::NoPosition, _) => &Text {
+            (MissingCheckReason::NoPosition, _) => &Text {
                 en: "X, Y and Z in G90 before other moves",
                 de: "X, Y und Z in G90 vor anderen Bewegungen",
             },
-            (Reason::WrongLength, _) => {
+            (MissingCheckReason::WrongLength, _) => {
                 &Text { en: "G43 before Z is stated (PB785)", de: "G43, bevor Z genannt wird (PB785)" }
             }
-            (Reason::SeveralZeros, _) => &Text {
+            (MissingCheckReason::SeveralZeros, _) => &Text {
                 en: "one work offset, or G10 L2 for each",
                 de: "ein einziger Nullpunkt, oder G10 L2 für jeden",
             },
-            (Reason::TooLarge, _) => &Text {
+            (MissingCheckReason::TooLarge, _) => &Text {
                 en: "higher verify-cells and verify-pieces under [limits]",
                 de: "höhere verify-cells und verify-pieces unter [limits]",
             },
-            (Reason::NoSpeed, _) => {
+            (MissingCheckReason::NoSpeed, _) => {
                 &Text { en: "M3 and S before the first cut", de: "M3 und S vor dem ersten Schnitt" }
             }
-            (Reason::NoCornerLimit, _) => {
+            (MissingCheckReason::NoCornerLimit, _) => {
                 &Text { en: "G64 P or G61 in the program", de: "G64 P oder G61 im Programm" }
             }
-            (Reason::NoCoolant, _) => &Text { en: "[tool] coolant", de: "[tool] coolant" },
-            (Reason::NoLimit, Requirement::Feeds) => {
+            (MissingCheckReason::NoCoolant, _) => &Text { en: "[tool] coolant", de: "[tool] coolant" },
+            (MissingCheckReason::NoLimit, Requirement::Feeds) => {
                 &Text { en: "[machine] maximum-feed", de: "[machine] maximum-feed" }
             }
-            (Reason::NoLimit, Requirement::Spindle) => {
+            (MissingCheckReason::NoLimit, Requirement::Spindle) => {
                 &Text { en: "[machine] spindle-speeds", de: "[machine] spindle-speeds" }
             }
-            (Reason::NoLimit, _) => &Text { en: "[machine] travel", de: "[machine] travel" },
+            (MissingCheckReason::NoLimit, _) => &Text { en: "[machine] travel", de: "[machine] travel" },
         }
     }
 
@@ -344,11 +350,11 @@ impl RapidValues {
                 diameters.push(diameter);
             }
         }
-        let name = |origin: Origin, option| match origin {
-            Origin::Option => option,
-            Origin::Drawing => lang.choose("drawing", "Zeichnung"),
-            Origin::Table => "[tool]",
-            Origin::Program => lang.choose("header", "Kopf"),
+        let name = |origin: ValueSource, option| match origin {
+            ValueSource::Option => option,
+            ValueSource::Drawing => lang.choose("drawing", "Zeichnung"),
+            ValueSource::Table => "[tool]",
+            ValueSource::Program => lang.choose("header", "Kopf"),
         };
         let cutter = format!(
             "{} mm ({})",
@@ -361,7 +367,7 @@ impl RapidValues {
     }
 }
 
-impl Reason {
+impl MissingCheckReason {
     /// Returns the reason as a phrase.
     pub fn text(self) -> &'static Text {
         match self {

@@ -13,7 +13,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::System;
 use pathbuild_diagnostic::messages::gcode::{self as say, FEED_IGNORED, NO_DECIMAL_POINT};
 use pathbuild_diagnostic::{Code, Diagnostic, Lang, Message, Severity};
-use pathbuild_gcode::adjust::{Source, corrected_heights, first_open_formula, listed_heights};
+use pathbuild_gcode::adjust::{Source, corrected_heights, first_unapplied_formula, listed_heights};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::header::{Header, HeaderReader};
 use pathbuild_gcode::interpret::Guess;
@@ -38,8 +38,8 @@ use crate::workspace::Failure;
 
 pub use against::{shims, unmillable_moves};
 pub use checks::{
-    APPROACH_ABOVE_MATERIAL, Assumption, CheckRecord, Origin, Outcome, RapidValues, Reason, blind_text,
-    summary,
+    APPROACH_ABOVE_MATERIAL, Assumption, CheckRecord, MissingCheckReason, Outcome, RapidValues, ValueSource,
+    blind_text, summary,
 };
 use possible_posts::PossiblePosts;
 pub use run::{Request, Verification};
@@ -197,7 +197,7 @@ impl<'w> Verifier<'w> {
         let missing_checks =
             verified.checks.iter().filter_map(|record| record.missing_check_error(&required));
         let mut missing_checks: Vec<Diagnostic> = missing_checks.collect();
-        program.place(&mut missing_checks);
+        program.attach_source(&mut missing_checks);
         verified.diagnostics.append(&mut missing_checks);
         verified
     }
@@ -256,7 +256,7 @@ struct AsWrittenSteps<'m> {
 struct AsWrittenFindings {
     statistics: Vec<Diagnostic>,
     limits: Vec<Diagnostic>,
-    travel_doubt: Option<Reason>,
+    travel_doubt: Option<MissingCheckReason>,
 }
 
 impl<'m> AsWrittenSteps<'m> {
@@ -315,11 +315,11 @@ fn is_converted_correction(program: &Program) -> bool {
 }
 
 /// Returns the reason why the travel that a program needs is not known; `None` if it is.
-fn travel_doubt(limits: &MachineRules<'_>) -> Option<Reason> {
+fn travel_doubt(limits: &MachineRules<'_>) -> Option<MissingCheckReason> {
     if limits.has_several_frames() {
-        Some(Reason::SeveralZeros)
+        Some(MissingCheckReason::SeveralZeros)
     } else {
-        limits.has_unknown_axis().then_some(Reason::NoPosition)
+        limits.has_unknown_axis().then_some(MissingCheckReason::NoPosition)
     }
 }
 
@@ -404,7 +404,7 @@ struct CheckEvidence {
     /// Ten times the G code that selects inches.
     inch_word: u16,
     /// The reason why the travel that the program needs is not known; `None` if it is.
-    travel_doubt: Option<Reason>,
+    travel_doubt: Option<MissingCheckReason>,
     /// Whether the program's coolant could not be compared with that of the drawing's tool.
     has_uncompared_coolant: bool,
 }
@@ -519,7 +519,7 @@ impl<'v> Examination<'v> {
         }
         let drawing_doubt = self.drawing_doubt(comparison.as_ref(), rewritten.as_ref());
         let checks = self.checks(&mut found, drawing_doubt, evidence);
-        self.program.place(&mut found);
+        self.program.attach_source(&mut found);
         let mut diagnostics = self.doubts(rewritten.as_ref(), &mut found);
         diagnostics.append(&mut found);
         diagnostics.extend(self.verifier.against.iter().flat_map(ReferenceProgram::left_out).cloned());
@@ -539,7 +539,7 @@ impl<'v> Examination<'v> {
             false => return Ok(()),
         };
         let mut problems = vec![Diagnostic::new(message)];
-        self.program.place(&mut problems);
+        self.program.attach_source(&mut problems);
         Err(problems)
     }
 
@@ -619,7 +619,7 @@ impl<'v> Examination<'v> {
             directions.iter().filter(|_| is_switched).find_map(DirectionRules::never_started_finding),
         );
         found.extend(directions.into_iter().flat_map(DirectionRules::finish));
-        found.extend(self.sources.unknown_tools());
+        found.extend(self.sources.unknown_tool_warnings());
         if program.dialect == Dialect::Native {
             found.extend(native::unstated_heights(&program.text));
             found.extend(self.unadjusted_heights());
@@ -649,14 +649,14 @@ impl<'v> Examination<'v> {
         &self,
         comparison: Option<&MoveComparison>,
         rewritten: Option<&RewrittenProgram>,
-    ) -> Option<Reason> {
+    ) -> Option<MissingCheckReason> {
         if self.verifier.against.is_none() {
-            Some(Reason::NoDrawing)
+            Some(MissingCheckReason::NoDrawing)
         } else if rewritten.is_some_and(|rewritten| !rewritten.is_read_back()) {
-            Some(Reason::Unchecked)
+            Some(MissingCheckReason::Unchecked)
         } else {
             let is_cut_short = comparison.is_some_and(|comparison| comparison.equal != comparison.moves);
-            is_cut_short.then_some(Reason::OtherMoves)
+            is_cut_short.then_some(MissingCheckReason::OtherMoves)
         }
     }
 
@@ -665,7 +665,7 @@ impl<'v> Examination<'v> {
     fn checks(
         &self,
         found: &mut Vec<Diagnostic>,
-        drawing_doubt: Option<Reason>,
+        drawing_doubt: Option<MissingCheckReason>,
         evidence: CheckEvidence,
     ) -> Vec<CheckRecord> {
         let mut is_limit_reached = false;
@@ -674,7 +674,7 @@ impl<'v> Examination<'v> {
             // A check that was not made is an error only if it is required.
             problem.severity = Severity::Warning;
         }
-        found.extend(self.slips_in_own_program(&evidence));
+        found.extend(self.likely_mistakes_in_own_program(&evidence));
         let CheckEvidence {
             blind, speeds, corners, lowest_cut, travel_doubt, has_uncompared_coolant, ..
         } = evidence;
@@ -693,7 +693,7 @@ impl<'v> Examination<'v> {
         let machine = verifier.machine.as_ref();
         let rapids =
             self.sources.rapids(is_limit_reached, blind.and_then(BlindRapidRules::finish), lowest_cut, found);
-        found.extend(self.sources.cuts_above(lowest_cut));
+        found.extend(self.sources.cuts_above_surface_problem(lowest_cut));
         let mut records = checks::records(rapids, machine, references, states_speed);
         // Only LinuxCNC has a word that limits the rounding of corners.
         if self.program.dialect == Dialect::LinuxCnc {
@@ -706,7 +706,7 @@ impl<'v> Examination<'v> {
 
     /// Returns doubts about a program of pathbuild that was not compared with its drawing: such a program has Z 0 on the plate, and millimetres
     /// unless a definition of the user's own wrote it.
-    fn slips_in_own_program(&self, evidence: &CheckEvidence) -> Vec<Diagnostic> {
+    fn likely_mistakes_in_own_program(&self, evidence: &CheckEvidence) -> Vec<Diagnostic> {
         if self.verifier.against.is_some() || Provenance::of_head(&self.program.text).is_none() {
             return Vec::new();
         }
@@ -728,7 +728,7 @@ impl<'v> Examination<'v> {
     /// its own (PB776).
     fn unadjusted_heights(&self) -> Option<Diagnostic> {
         let mut problems = self.program.read.problems.iter();
-        let line = first_open_formula(&self.program.text)?;
+        let line = first_unapplied_formula(&self.program.text)?;
         let is_reported = problems.any(|problem| problem.code() == Code::UncheckedFormula);
         (!is_reported).then(|| Diagnostic::new(&say::UNADJUSTED).at_line(line, None))
     }

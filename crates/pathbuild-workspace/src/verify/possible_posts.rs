@@ -37,7 +37,7 @@ impl PossiblePosts {
         let configured = || {
             let own = PostProcessor::for_run(workspace, None, PostArguments::default()).ok().flatten()?;
             // A post that names its dialect has not written programs of another dialect.
-            if own.reader().is_some() { Some(own) } else { post(None).ok().flatten() }
+            if own.reading_dialect().is_some() { Some(own) } else { post(None).ok().flatten() }
         };
         let configured = if named.is_some() { None } else { configured() };
         Ok(Self { named, configured, dialect })
@@ -57,7 +57,7 @@ impl PossiblePosts {
 
     /// Returns the dialect that the command line names, directly or through the post.
     pub(super) fn dialect(&self) -> Option<Dialect> {
-        self.dialect.or(self.named.as_ref().and_then(PostProcessor::reader))
+        self.dialect.or(self.named.as_ref().and_then(PostProcessor::reading_dialect))
     }
 
     /// Returns the post that wrote a program of this dialect, if known: the post named by `--post`, or else the configured one. A configured
@@ -68,7 +68,7 @@ impl PossiblePosts {
         evidence: Option<EvidenceKind>,
     ) -> Option<&PostProcessor> {
         let is_without_header = evidence.is_some_and(|kind| kind != EvidenceKind::Header);
-        let may_have_written = |post: &&PostProcessor| match post.reader() {
+        let may_have_written = |post: &&PostProcessor| match post.reading_dialect() {
             Some(reader) => reader == dialect,
             None => is_without_header && dialect != Dialect::Native,
         };

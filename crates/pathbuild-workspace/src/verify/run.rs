@@ -105,7 +105,7 @@ impl Verifier<'_> {
             let verified = session.map_programs(open, |file| self.verify_file(file));
             let with_inputs = |(file, (program, hash)): (&&Utf8PathBuf, (VerifiedProgram, _))| {
                 let is_transient = program.diagnostics.iter().any(is_transient);
-                let further = vec![ExtraInput { path: session.normal(file), hash }];
+                let further = vec![ExtraInput { path: session.normalize(file), hash }];
                 (program, Inputs { traces: traces.clone(), further, is_transient, ..Inputs::default() })
             };
             open.iter().zip(verified).map(with_inputs).collect()
@@ -136,7 +136,7 @@ impl Verifier<'_> {
         let limits = &self.settings.limits;
         let limits = (limits.verify_cells.value, limits.verify_pieces.value);
         let identities = self.writers.identities();
-        let drawing = self.against.as_ref().map(|against| session.normal(against.file()));
+        let drawing = self.against.as_ref().map(|against| session.normalize(against.file()));
         let parts = (&self.options, self.required(), self.lang, limits, &self.machine, identities, drawing);
         format!("verify {parts:?}")
     }

@@ -11,7 +11,7 @@ use pathbuild_gcode::verify::{BlindRapids, ByTool, Cutter, DepthRules, Stock, St
 use pathbuild_motion::Turning;
 
 use super::against::ReferenceProgram;
-use super::checks::{Assumption, Origin, Outcome, RapidValues, Reason};
+use super::checks::{Assumption, MissingCheckReason, Outcome, RapidValues, ValueSource};
 use super::{Verifier, VerifyOptions, is_converted_correction};
 use crate::config::types::Tool;
 use crate::program::Program;
@@ -46,12 +46,16 @@ struct ToolDiameters {
 }
 
 impl ToolDiameters {
-    fn origin(&self) -> Option<Origin> {
+    fn origin(&self) -> Option<ValueSource> {
         let table = self.table.filter(|_| self.is_numbered);
         let table = table.map(|table| table.diameter);
-        let known = [(self.given, Origin::Option), (self.drawn, Origin::Drawing), (table, Origin::Table)];
+        let known = [
+            (self.given, ValueSource::Option),
+            (self.drawn, ValueSource::Drawing),
+            (table, ValueSource::Table),
+        ];
         let first = known.into_iter().find_map(|(value, origin)| value.map(|_| origin));
-        first.or(self.header.map(|_| Origin::Program))
+        first.or(self.header.map(|_| ValueSource::Program))
     }
 
     /// Returns the widths according to the first known source of these: command line, drawing, configuration, header. If another one disagrees, the
@@ -66,7 +70,7 @@ impl ToolDiameters {
         let cutter = table.filter(|table| is_same(table.diameter)).unwrap_or(Cutter::flat(first));
         let header = self.header.filter(|header| !header.has_diameter(first)).map(|header| header.diameter);
         let others = known.into_iter().flatten().filter(|diameter| !is_same(*diameter)).chain(header);
-        Some(others.fold(cutter, Cutter::or_diameter))
+        Some(others.fold(cutter, Cutter::combined_with_diameter))
     }
 }
 
@@ -101,7 +105,7 @@ impl<'s> Sources<'s> {
             (None, Some(drawn)) => self.uniform(drawn),
             (None, None) => self.stated_stock(),
         };
-        stock.map(|stock| self.limited(stock).with_probes(self.header.is_probing))
+        stock.map(|stock| self.with_configured_limits(stock).with_probes(self.header.is_probing))
     }
 
     /// Returns the material that the program states: up to the heights at which a native program's plunges begin to cut, else up to the surface in
@@ -119,21 +123,24 @@ impl<'s> Sources<'s> {
     }
 
     /// Returns the source of the cutters. If the program has several tools, this is the least reliable of their sources.
-    pub(super) fn cutter_origin(&self) -> Option<Origin> {
-        let given =
-            self.options().cutter.map(|_| Origin::Option).or(self.drawn_cutter().map(|_| Origin::Drawing));
+    pub(super) fn cutter_origin(&self) -> Option<ValueSource> {
+        let given = self
+            .options()
+            .cutter
+            .map(|_| ValueSource::Option)
+            .or(self.drawn_cutter().map(|_| ValueSource::Drawing));
         self.header.tools.iter().filter_map(|tool| self.diameters(tool).origin()).max().or(given)
     }
 
     /// Returns the source of the surface, and the surface's greatest height in mm.
-    pub(super) fn surface(&self) -> Option<(Origin, f64)> {
+    pub(super) fn surface(&self) -> Option<(ValueSource, f64)> {
         let highest = self.stock().and_then(Stock::highest);
         match (self.options().surface, self.drawn_surface()) {
             (Some(given), _) if highest.is_none_or(|highest| highest == given) => {
-                Some((Origin::Option, given))
+                Some((ValueSource::Option, given))
             }
-            (None, Some(drawn)) => Some((Origin::Drawing, drawn)),
-            (Some(_), _) | (None, None) => Some((Origin::Program, highest?)),
+            (None, Some(drawn)) => Some((ValueSource::Drawing, drawn)),
+            (Some(_), _) | (None, None) => Some((ValueSource::Program, highest?)),
         }
     }
 
@@ -143,9 +150,9 @@ impl<'s> Sources<'s> {
     }
 
     /// Whether only the program itself states the cutter or the surface.
-    pub(super) fn is_stated_only(&self) -> bool {
+    pub(super) fn is_known_only_from_program(&self) -> bool {
         let is_surface_known = self.options().surface.or(self.drawn_surface()).is_some();
-        !is_surface_known || self.cutter_origin() == Some(Origin::Program)
+        !is_surface_known || self.cutter_origin() == Some(ValueSource::Program)
     }
 
     /// Whether pathbuild interprets all words of the program that may move the tool.
@@ -155,8 +162,8 @@ impl<'s> Sources<'s> {
 
     /// Returns PB777 if all cuts end above the surface that an option states: the program then cuts nothing, or its Z 0 is on the table. Returns
     /// nothing if the surface is compared with a drawing or contradicts the program, which is reported already.
-    pub(super) fn cuts_above(&self, lowest_cut: Option<f64>) -> Option<Diagnostic> {
-        let is_compared = self.verifier.against.is_some() || self.other_surface_given().is_some();
+    pub(super) fn cuts_above_surface_problem(&self, lowest_cut: Option<f64>) -> Option<Diagnostic> {
+        let is_compared = self.verifier.against.is_some() || self.surface_disagreement().is_some();
         let given = self.options().surface.filter(|_| !is_compared)?;
         let lowest = lowest_cut.filter(|lowest| *lowest > given + TOLERANCE)?;
         Some(Diagnostic::new(&say::CUTS_ABOVE_SURFACE).with("found", lowest).with("given", given))
@@ -172,29 +179,29 @@ impl<'s> Sources<'s> {
         found: &[Diagnostic],
     ) -> Outcome {
         if is_limit_reached {
-            return Outcome::NotMade(Reason::TooLarge);
+            return Outcome::NotMade(MissingCheckReason::TooLarge);
         }
         let Some((cutter_origin, cutters)) = self.cutter_origin().zip(self.cutters()) else {
-            return Outcome::NotMade(Reason::NoCutter);
+            return Outcome::NotMade(MissingCheckReason::NoCutter);
         };
         let Some((surface_origin, surface)) = self.surface() else {
             return Outcome::NotMade(match self.verifier.against {
-                Some(_) => Reason::SeveralSurfaces,
-                None if is_converted_correction(self.program) => Reason::MeasuredSurface,
-                None => Reason::NoSurface,
+                Some(_) => MissingCheckReason::SeveralSurfaces,
+                None if is_converted_correction(self.program) => MissingCheckReason::MeasuredSurface,
+                None => MissingCheckReason::NoSurface,
             });
         };
         if !self.are_moves_known() {
-            return Outcome::NotMade(Reason::NotFollowed);
+            return Outcome::NotMade(MissingCheckReason::NotFollowed);
         }
-        if self.cuts_above(lowest_cut).is_some() {
-            return Outcome::NotMade(Reason::NoCutBelow);
+        if self.cuts_above_surface_problem(lowest_cut).is_some() {
+            return Outcome::NotMade(MissingCheckReason::NoCutBelow);
         }
         if found
             .iter()
             .any(|problem| RAPIDS_OF_WRONG_LENGTH.iter().any(|message| message.key == problem.message.key))
         {
-            return Outcome::NotMade(Reason::WrongLength);
+            return Outcome::NotMade(MissingCheckReason::WrongLength);
         }
         let cutters = match self.options().cutter.or(self.drawn_cutter()) {
             Some(given) => vec![given],
@@ -207,7 +214,7 @@ impl<'s> Sources<'s> {
         match blind {
             Some(blind) => Outcome::Incomplete(values, blind),
             None if has_machine_values => Outcome::Assumed(values, Assumption::MachineValues),
-            None if self.is_stated_only() => Outcome::Assumed(values, Assumption::Stock),
+            None if self.is_known_only_from_program() => Outcome::Assumed(values, Assumption::Stock),
             None => Outcome::Made(Some(values)),
         }
     }
@@ -225,7 +232,8 @@ impl<'s> Sources<'s> {
         }
         let widest = [(0, Cutter::flat(MAX_ASSUMED_DIAMETER))];
         let stock = Stock::with_unknown_surface(self.cutters().unwrap_or(&widest));
-        let mut doubts = rules.finish(&self.program.at_nominal_heights(), &self.limited(stock));
+        let mut doubts =
+            rules.finish(&self.program.at_nominal_heights(), &self.with_configured_limits(stock));
         let is_same_line = |error: &Diagnostic, doubt: &Diagnostic| error.place.line == doubt.place.line;
         doubts.retain(|doubt| match doubt.code() {
             Code::LimitReached => found.iter().all(|problem| problem.code() != Code::LimitReached),
@@ -244,7 +252,7 @@ impl<'s> Sources<'s> {
         doubts
     }
 
-    fn limited(&self, stock: Stock) -> Stock {
+    fn with_configured_limits(&self, stock: Stock) -> Stock {
         let limits = &self.verifier.settings.limits;
         stock.with_cells(limits.verify_cells.value).with_pieces(limits.verify_pieces.value)
     }
@@ -303,12 +311,12 @@ impl<'s> Sources<'s> {
             &SURFACE,
             differing_values(self.options().surface, surface),
         ));
-        found.extend(self.other_surface_given());
+        found.extend(self.surface_disagreement());
         found
     }
 
     /// Compares the surface of the command line with the highest surface that the program states, unless there is a drawing.
-    fn other_surface_given(&self) -> Option<Diagnostic> {
+    fn surface_disagreement(&self) -> Option<Diagnostic> {
         let given = self.options().surface.filter(|_| self.verifier.against.is_none());
         let stated = self.header.surface.or_else(|| self.stated_stock()?.highest());
         let (given, stated) = differing_values(given, stated)?;
@@ -318,7 +326,7 @@ impl<'s> Sources<'s> {
     }
 
     /// Warns about tools that are not in the table, unless it is empty.
-    pub(super) fn unknown_tools(&self) -> Vec<Diagnostic> {
+    pub(super) fn unknown_tool_warnings(&self) -> Vec<Diagnostic> {
         let table_numbers: Vec<u32> =
             self.verifier.table.entries.iter().filter_map(|entry| entry.index).collect();
         let mut unknown: Vec<(u32, u32)> = Vec::new();

@@ -136,7 +136,7 @@ impl Watcher {
             if self.is_over {
                 return WaitOutcome::Over;
             }
-            if self.has_moved() {
+            if self.has_working_directory_moved() {
                 return WaitOutcome::Restart(Restart::Directories);
             }
             if self.next_poll.is_some_and(|due| due <= Instant::now()) {
@@ -215,7 +215,7 @@ impl Watcher {
 
     /// Whether the working directory was moved or removed. The process keeps the old directory, in which its relative paths are resolved. The path
     /// is polled because events report its change only if every directory above can be watched.
-    fn has_moved(&mut self) -> bool {
+    fn has_working_directory_moved(&mut self) -> bool {
         let now = Instant::now();
         let Some(before) = self.working_directory.as_ref().filter(|_| now >= self.next_directory_check)
         else {
@@ -273,11 +273,11 @@ impl Watcher {
         let restart = if is_configuration(&path.reported) || linked.iter().any(is_configuration) {
             Some(Restart::Configuration)
         } else {
-            self.directories.are_changed(kind, path, &*self.system).then_some(Restart::Directories)
+            self.directories.are_changed_by(kind, path, &*self.system).then_some(Restart::Directories)
         };
         let is_regarded = may_affect_results(&path.reported) && self.directories.is_relevant(path);
         if is_regarded {
-            self.pending.paths.extend(self.directories.own_names(path));
+            self.pending.paths.extend(self.directories.session_names(path));
         }
         let is_change = is_regarded || !linked.is_empty();
         self.pending.paths.extend(linked);
@@ -375,7 +375,7 @@ impl PolledFiles {
             }
             if !polled.is_compared && now.duration_since(polled.since) >= MIN_STABLE_TIME {
                 polled.is_compared = true;
-                if !is_as_read(session, file) {
+                if !is_unchanged_since_read(session, file) {
                     changed.push(path.clone());
                 }
             }
@@ -385,7 +385,7 @@ impl PolledFiles {
 }
 
 /// Whether a file still has the contents that its results were computed from, or could be read neither then nor now.
-fn is_as_read(session: &Session<'_>, file: SourceFile) -> bool {
+fn is_unchanged_since_read(session: &Session<'_>, file: SourceFile) -> bool {
     let db = session.db();
     let limit = session.workspace().settings.limits.file_size.value;
     let hash = db.system().read(file.path(db), limit).ok().map(|bytes| *blake3::hash(&bytes).as_bytes());

@@ -69,7 +69,7 @@ impl WatchedDirectories {
             roots.insert([
                 event_name.clone(),
                 real_directory(session, &event_name),
-                session.normal(&directory),
+                session.normalize(&directory),
             ]);
         }
         let (links, linked) = (Links::default(), BTreeSet::new());
@@ -109,7 +109,7 @@ impl WatchedDirectories {
             let places = self.links.follow(system, &file, &workspace.working_directory, as_event);
             let outcomes = places.into_iter().map(|place| self.watch_link(source, place));
             // Ignore directories that cannot be listed: the links that lead through them are followed again after the next change.
-            let errors = outcomes.filter_map(Result::err).filter(|error| !is_refusal(error));
+            let errors = outcomes.filter_map(Result::err).filter(|error| !is_inaccessible(error));
             refused.extend(errors.last().map(|error| (file, error)));
         }
         refused
@@ -176,7 +176,7 @@ impl WatchedDirectories {
     }
 
     /// Returns the names that the session uses for the path of an event. A drawing may have two: one as an argument, and one in a search directory.
-    pub(super) fn own_names(&self, path: &EventPath) -> Vec<Utf8PathBuf> {
+    pub(super) fn session_names(&self, path: &EventPath) -> Vec<Utf8PathBuf> {
         let below =
             |own: &Utf8Path, root: &Utf8Path, path: &Utf8Path| Some(join(own, path.strip_prefix(root).ok()?));
         let real =
@@ -202,7 +202,7 @@ impl WatchedDirectories {
 
     /// Whether the set of directories to watch changes with this event. Ordinary files do not affect the set, nor do changes inside a directory, for
     /// example when programs are written into it.
-    pub(super) fn are_changed(&self, kind: EventKind, path: &EventPath, system: &dyn System) -> bool {
+    pub(super) fn are_changed_by(&self, kind: EventKind, path: &EventPath, system: &dyn System) -> bool {
         if is_creation_or_removal(kind) {
             // The watches of a moved directory end even if it is moved back.
             let is_working_directory = path.reported.as_str().is_empty() && self.are_relative();
@@ -229,7 +229,7 @@ impl WatchedDirectories {
         seen: &mut BTreeSet<Utf8PathBuf>,
     ) -> notify::Result<()> {
         match source.watch(or_current_directory(directory).as_std_path(), mode) {
-            Err(error) if is_refusal(&error) => {}
+            Err(error) if is_inaccessible(&error) => {}
             done => return done,
         }
         let Ok(listing) = system.list(directory) else {
@@ -267,7 +267,7 @@ fn is_creation_or_removal(kind: EventKind) -> bool {
 }
 
 /// Whether the error says that a directory cannot be listed or no longer exists.
-fn is_refusal(error: &notify::Error) -> bool {
+fn is_inaccessible(error: &notify::Error) -> bool {
     match &error.kind {
         ErrorKind::Io(reason) => {
             matches!(reason.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::NotFound)
@@ -311,7 +311,7 @@ fn directories(
 
 /// Converts a path to the form in which events report it.
 pub(super) fn event_path(session: &Session<'_>, path: &Utf8Path) -> Utf8PathBuf {
-    session.normal(&clean(&session.workspace().working_directory.join(path)))
+    session.normalize(&clean(&session.workspace().working_directory.join(path)))
 }
 
 /// Links among the dependencies of results. All paths have the form in which events report them.

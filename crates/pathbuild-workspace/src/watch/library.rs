@@ -12,10 +12,10 @@ use pathbuild_path::PathName;
 use super::events::{Changes, Update};
 use crate::check::{self, NamedDrawing, check_drawings};
 use crate::common_findings::{globs_without_file, patterns_without_layer, unused_configurations};
-use crate::emit::Scope;
+use crate::emit::CoveredDrawings;
 use crate::files::FILE_NAME;
 use crate::memo::{Coverage, DrawingResult, is_transient};
-use crate::session::{IGNORE_FILES, Pair, Selection, Session, is_ignore_file, q_project_pairs};
+use crate::session::{IGNORE_FILES, QProjectPair, Selection, Session, is_ignore_file, q_project_pairs};
 use crate::{Inputs, waivers};
 
 /// The watched drawings with their results.
@@ -86,7 +86,7 @@ impl<'a> Library<'a> {
     /// Finds and reads the drawings, and marks all of them to be checked. Returns diagnostics of arguments and directories.
     pub(super) fn find(&mut self) -> Update {
         let selection = self.session.select(self.inputs);
-        let mut drawings = selection.whole(&self.session);
+        let mut drawings = selection.whole_drawings(&self.session);
         drawings.extend(selection.paths.iter().map(|path| path.file));
         self.session.parse_ahead(&drawings);
         let db = self.session.db();
@@ -111,8 +111,8 @@ impl<'a> Library<'a> {
     }
 
     /// Returns the session, and the drawings and directories that are watched.
-    pub(super) fn session_and_scope(&mut self) -> (&mut Session<'a>, Scope<'_>) {
-        let scope = Scope {
+    pub(super) fn session_and_scope(&mut self) -> (&mut Session<'a>, CoveredDrawings<'_>) {
+        let scope = CoveredDrawings {
             is_library: self.inputs.inputs.is_empty(),
             drawings: &self.found_drawings,
             directories: &self.directories,
@@ -218,7 +218,7 @@ impl<'a> Library<'a> {
         self.reverse.files().chain(self.unchecked_drawings())
     }
 
-    pub(super) fn check_again(&mut self, drawings: Vec<SourceFile>) {
+    pub(super) fn schedule_check(&mut self, drawings: Vec<SourceFile>) {
         let db = self.session.db();
         self.open.extend(drawings.into_iter().map(|file| (file.path(db).clone(), file)));
     }
@@ -268,7 +268,7 @@ impl<'a> Library<'a> {
                 files.extend(below.map(|file| file.path(db).clone()));
                 if self.session.is_directory(path) {
                     let drawings = self.session.drawings_below(path);
-                    files.extend(drawings.map(|drawing| self.session.normal(&drawing)));
+                    files.extend(drawings.map(|drawing| self.session.normalize(&drawing)));
                 }
             }
         }
@@ -392,7 +392,7 @@ impl<'a> Library<'a> {
         let all: Vec<NamedDrawing<'_>> = checked_files.iter().map(|file| (*file, None)).collect();
         let results = self.session.with_stable_files(|session| check_drawings(session, &all, false));
         for (file, (result, traces)) in checked_files.iter().zip(results) {
-            for directory in searched(&traces) {
+            for directory in searched_directories(&traces) {
                 self.names.add_missing(&self.session, directory);
             }
             let files =
@@ -418,7 +418,7 @@ impl<'a> Library<'a> {
     /// Compares drawings with their Q-projects, if one of the two was checked or the pair is new.
     fn compare_q_projects(&mut self, checked_files: &[SourceFile], update: &mut Update) {
         if self.pairs.is_none() {
-            self.find_pairs(update);
+            self.update_q_project_pairs(update);
         }
         let Some(pairs) = self.pairs.as_ref().filter(|pairs| !pairs.is_empty()) else { return };
         let db = self.session.db();
@@ -427,7 +427,8 @@ impl<'a> Library<'a> {
             !self.q_projects.contains_key(*pair) || pair.iter().any(|path| checked_files.contains(path))
         };
         let open: Vec<[Utf8PathBuf; 2]> = pairs.iter().filter(is_open).cloned().collect();
-        let files: Vec<Pair> = open.iter().map(|pair| [db.file(&pair[0]), db.file(&pair[1])]).collect();
+        let files: Vec<QProjectPair> =
+            open.iter().map(|pair| [db.file(&pair[0]), db.file(&pair[1])]).collect();
         let found = self.session.with_stable_files(|session| session.compare_q_projects(&files));
         for (pair, found) in open.into_iter().zip(found) {
             update.now.extend_from_slice(&found);
@@ -437,7 +438,7 @@ impl<'a> Library<'a> {
 
     /// Finds the drawings that have a Q-project. Among ten thousand drawings, this takes as long as processing an edit, so the pairs are kept until
     /// drawings come or go.
-    fn find_pairs(&mut self, update: &mut Update) {
+    fn update_q_project_pairs(&mut self, update: &mut Update) {
         let pairs = q_project_pairs(self.session.db().system(), self.drawings.keys()).into_iter();
         let pairs: BTreeSet<[Utf8PathBuf; 2]> = pairs.collect();
         let gone: Vec<_> = self.q_projects.extract_if(.., |pair, _| !pairs.contains(pair)).collect();
@@ -458,7 +459,7 @@ fn without_dot(directory: &Utf8Path) -> &Utf8Path {
 }
 
 /// Returns the directories in which lookups were made.
-fn searched(traces: &[Trace]) -> impl Iterator<Item = &Utf8PathBuf> {
+fn searched_directories(traces: &[Trace]) -> impl Iterator<Item = &Utf8PathBuf> {
     traces.iter().flat_map(|trace| &trace.lookups).flat_map(|lookup| &lookup.directories)
 }
 
@@ -470,7 +471,7 @@ fn parent(path: &Utf8Path) -> &Utf8Path {
 /// Returns the paths that ignore files have or would have in the searched directories and in that of the configuration. Such files may be links,
 /// whose targets must be watched as well.
 fn ignore_files(session: &Session<'_>, selection: &Selection) -> Vec<Utf8PathBuf> {
-    let top = session.workspace().settings.directory().map(|directory| session.normal(directory));
+    let top = session.workspace().settings.directory().map(|directory| session.normalize(directory));
     let directories = selection.below.iter().chain(&top);
     directories.flat_map(|directory| IGNORE_FILES.map(|name| join(directory, name))).collect()
 }

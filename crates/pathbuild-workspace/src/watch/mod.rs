@@ -159,9 +159,9 @@ impl WatchLoop<'_> {
     fn work_on(&mut self, mut found: Update) -> Vec<SourceFile> {
         let begun = Instant::now();
         let rivals = self.writer.forget(self.library.session(), &found.removed);
-        self.library.check_again(rivals);
+        self.library.schedule_check(rivals);
         let other = self.writer.set_second_definitions(&self.library);
-        self.library.check_again(other);
+        self.library.schedule_check(other);
         self.follow_links();
         while self.library.has_backlog() {
             let portion = self.library.check_portion(DRAWINGS_PER_POLL, &mut found);
@@ -169,7 +169,7 @@ impl WatchLoop<'_> {
             let mut again = self.writer.set_second_definitions(&self.library);
             again.retain(|drawing| !portion.contains(drawing));
             again.extend(self.writer.write(self.library.session_mut(), &portion));
-            self.library.check_again(again);
+            self.library.schedule_check(again);
             self.report_checked(&portion);
             // The remaining drawings may have changed in the meantime.
             if self.watcher.has_news(self.library.session()) {

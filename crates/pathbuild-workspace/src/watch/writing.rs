@@ -8,7 +8,7 @@ use pathbuild_diagnostic::{Code, Diagnostic};
 
 use super::events::{Listener, Request, Update};
 use super::library::Library;
-use crate::emit::{Scope, TargetPatterns, WrittenPrograms};
+use crate::emit::{CoveredDrawings, TargetPatterns, WrittenPrograms};
 use crate::memo::is_transient;
 use crate::post_processor::{PostArguments, PostProcessor};
 use crate::session::Session;
@@ -133,7 +133,7 @@ impl<'a> Writer<'a> {
     pub(super) fn update_problems(
         &mut self,
         session: &mut Session<'_>,
-        scope: Option<&Scope<'_>>,
+        scope: Option<&CoveredDrawings<'_>>,
         update: &mut Update,
     ) {
         if !self.is_on {

@@ -65,7 +65,7 @@ impl Driver<'_> {
         let inputs = Inputs::default();
         let workspace = self.place.workspace(&inputs, Arc::new(OsSystem), false);
         let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
-        let checked = request.run(&mut Session::open(&workspace, workspace.keeps_results())).unwrap();
+        let checked = request.run(&mut Session::open(&workspace, workspace.caches_results())).unwrap();
         sorted(checked.diagnostics.iter().map(shown).collect())
     }
 }

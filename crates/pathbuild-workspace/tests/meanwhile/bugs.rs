@@ -93,7 +93,7 @@ type Finding = (&'static str, fn(&Workspace, &Inputs) -> Vec<Diagnostic>);
 const COMMANDS: [Finding; 5] = [
     ("check", |workspace, inputs| {
         let request = check::Request { inputs, with_all_values: false, changed: None };
-        request.run(&mut Session::open(workspace, workspace.keeps_results())).unwrap().diagnostics
+        request.run(&mut Session::open(workspace, workspace.caches_results())).unwrap().diagnostics
     }),
     ("emit", |workspace, inputs| emitted(workspace, inputs, Task::Print)),
     ("emit --check", |workspace, inputs| emitted(workspace, inputs, Task::Compare { moves_only: false })),
@@ -105,7 +105,7 @@ const COMMANDS: [Finding; 5] = [
     ("graph", |workspace, inputs| {
         let session = Session::new(workspace);
         let wanted = session.select(inputs);
-        let files = wanted.whole(&session);
+        let files = wanted.whole_drawings(&session);
         let mut targets: Vec<_> =
             files.iter().flat_map(|file| session.targets(*file, &Role::Checked)).collect();
         targets.extend(
@@ -119,7 +119,7 @@ const COMMANDS: [Finding; 5] = [
 fn emitted(workspace: &Workspace, inputs: &Inputs, task: Task) -> Vec<Diagnostic> {
     let request = emit::Request { task, ..emit::Request::default() };
     request
-        .run(&mut Session::open(workspace, workspace.keeps_results()), inputs)
+        .run(&mut Session::open(workspace, workspace.caches_results()), inputs)
         .map(|made| made.diagnostics)
         .unwrap_or_default()
 }

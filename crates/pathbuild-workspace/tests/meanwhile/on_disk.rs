@@ -103,7 +103,7 @@ impl OnDisk {
         let inputs = Inputs { inputs: arguments.iter().map(|it| (*it).to_owned()).collect() };
         let workspace = Workspace { jobs, ..self.workspace(&inputs, system, is_kept) };
         let request = check::Request { inputs: &inputs, with_all_values: false, changed: None };
-        let mut session = Session::open(&workspace, workspace.keeps_results());
+        let mut session = Session::open(&workspace, workspace.caches_results());
         let checked = request.run(&mut session).unwrap();
         let found = checked.diagnostics.iter().map(|it| format!("{it:?}"));
         sorted(found.chain(checked.files.iter().map(|it| format!("{it:?}"))).collect())
@@ -114,7 +114,7 @@ impl OnDisk {
         let inputs = Inputs::default();
         let workspace = Workspace { jobs: Some(1), ..self.workspace(&inputs, system, is_kept) };
         let request = emit::Request { removes_stale, ..emit::Request::default() };
-        request.run(&mut Session::open(&workspace, workspace.keeps_results()), &inputs).unwrap()
+        request.run(&mut Session::open(&workspace, workspace.caches_results()), &inputs).unwrap()
     }
 
     pub(crate) fn workspace(&self, inputs: &Inputs, system: Arc<dyn System>, is_kept: bool) -> Workspace {

@@ -254,7 +254,7 @@ pub struct VerifyArgs {
 impl VerifyArgs {
     /// Returns the programs, followed by the path of `--against`, whose configuration also applies to programs outside of its tree.
     pub(super) fn inputs(&self) -> Inputs {
-        let mut inputs = Inputs::places(self.files.iter().filter(|file| *file != "-"));
+        let mut inputs = Inputs::of_files(self.files.iter().filter(|file| *file != "-"));
         inputs.inputs.extend(self.against.clone());
         inputs
     }

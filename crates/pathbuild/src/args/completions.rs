@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 
 use clap_complete::engine::ValueCompleter;
 use clap_complete::{ArgValueCandidates, ArgValueCompleter, CompletionCandidate, PathCompleter};
-use pathbuild_diagnostic::{Code, shown};
+use pathbuild_diagnostic::{Code, escaping};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_post::BUILT_IN;
 use pathbuild_workspace::Inputs;
@@ -24,7 +24,7 @@ pub(crate) fn paths() -> ArgValueCompleter {
             path.is_dir() || path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"))
         });
         let mut candidates = path_names(current);
-        candidates.extend(harmless(files.complete(current)));
+        candidates.extend(keep_harmless(files.complete(current)));
         candidates
     })
 }
@@ -36,7 +36,7 @@ pub(crate) fn posts() -> ArgValueCompleter {
         let built_in = BUILT_IN.iter().filter(|post| begins(post.name));
         let built_in =
             built_in.map(|post| CompletionCandidate::new(post.name).help(Some(post.description.into())));
-        built_in.chain(harmless(PathCompleter::file().complete(current))).collect()
+        built_in.chain(keep_harmless(PathCompleter::file().complete(current))).collect()
     })
 }
 
@@ -53,13 +53,13 @@ pub(crate) fn codes() -> ArgValueCandidates {
 
 /// Returns the candidates that can be inserted into a command line as they are, because they contain nothing that controls a terminal or
 /// is special to a shell. For other names, the shell's own file completion adds the quotes.
-fn harmless(candidates: Vec<CompletionCandidate>) -> impl Iterator<Item = CompletionCandidate> {
+fn keep_harmless(candidates: Vec<CompletionCandidate>) -> impl Iterator<Item = CompletionCandidate> {
     candidates.into_iter().filter(|candidate| candidate.get_value().to_str().is_some_and(is_harmless))
 }
 
 fn is_harmless(name: &str) -> bool {
     let is_special = |c: char| c.is_whitespace() || c.is_ascii_punctuation() && !"+,-./:@_".contains(c);
-    !name.chars().any(|c| shown::is_active(c) || is_special(c) && !(cfg!(windows) && c == '\\'))
+    !name.chars().any(|c| escaping::is_active(c) || is_special(c) && !(cfg!(windows) && c == '\\'))
 }
 
 /// Returns the paths of the working directory's library whose names begin with the current word.

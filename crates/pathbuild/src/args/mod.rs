@@ -136,25 +136,25 @@ impl Command {
     /// Returns the drawings and paths that the command works on; empty for commands without such arguments.
     pub fn inputs(&self) -> Inputs {
         match self {
-            Self::Check(args) => args.inputs.get(),
-            Self::Emit(args) => args.inputs.get(),
-            Self::Watch(args) => args.inputs.get(),
-            Self::Texts(args) => args.inputs.get(),
+            Self::Check(args) => args.inputs.to_inputs(),
+            Self::Emit(args) => args.inputs.to_inputs(),
+            Self::Watch(args) => args.inputs.to_inputs(),
+            Self::Texts(args) => args.inputs.to_inputs(),
             Self::View(args) => Inputs { inputs: vec![args.what.clone()] },
             Self::Sheet(args) => Inputs { inputs: vec![args.what.clone()] },
             Self::Graph(args)
             | Self::Deps(args)
             | Self::Rdeps(args)
             | Self::Where(args)
-            | Self::Why(args) => args.inputs.get(),
+            | Self::Why(args) => args.inputs.to_inputs(),
             Self::List(args) | Self::Stats(args) => args.inputs(),
             Self::QProject(args) => Inputs { inputs: vec![args.drawing.clone()] },
-            Self::Adjust(args) => Inputs::places(&args.files),
-            Self::Import(args) => Inputs::places(&args.files),
+            Self::Adjust(args) => Inputs::of_files(&args.files),
+            Self::Import(args) => Inputs::of_files(&args.files),
             Self::Verify(args) => args.inputs(),
-            Self::Post(args) => Inputs::places(&args.file),
+            Self::Post(args) => Inputs::of_files(&args.file),
             Self::Config(args) => match &args.command {
-                ConfigCommand::Show { inputs, .. } => inputs.get(),
+                ConfigCommand::Show { inputs, .. } => inputs.to_inputs(),
                 ConfigCommand::Schema => Inputs::default(),
             },
             _ => Inputs::default(),
@@ -235,7 +235,7 @@ impl Cli {
     /// A usage error, or a request for help or the version, which clap also treats as an error.
     pub fn matches(definition: &Definition, arguments: &[OsString]) -> Result<ArgMatches, Error> {
         let read = |arguments: &[OsString]| definition.clone().try_get_matches_from(arguments);
-        read(arguments).or_else(|error| match drawing_as_command(&error, arguments) {
+        read(arguments).or_else(|error| match insert_check_command(&error, arguments) {
             Some(arguments) => read(&arguments),
             None => Err(error),
         })
@@ -260,7 +260,7 @@ impl Cli {
 }
 
 /// Inserts `check` if a drawing is given in place of a command; `None` otherwise.
-fn drawing_as_command(error: &Error, arguments: &[OsString]) -> Option<Vec<OsString>> {
+fn insert_check_command(error: &Error, arguments: &[OsString]) -> Option<Vec<OsString>> {
     let named = error.get(ContextKind::InvalidSubcommand);
     let (ErrorKind::InvalidSubcommand, Some(ContextValue::String(named))) = (error.kind(), named) else {
         return None;

@@ -192,7 +192,7 @@ pub struct InputArgs {
 
 impl InputArgs {
     /// Returns the arguments as the inputs of a session.
-    pub fn get(&self) -> Inputs {
+    pub fn to_inputs(&self) -> Inputs {
         Inputs { inputs: self.inputs.clone() }
     }
 

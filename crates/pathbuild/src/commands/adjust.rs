@@ -46,7 +46,7 @@ pub fn run(context: &Context, args: &AdjustArgs) -> ExitStatus {
         }
     }
     if args.log.is_some() && jobs.len() > 1 {
-        return context.usage(context.choose(
+        return context.usage_error(context.choose(
             "--log holds the results of one probing run: name only one program",
             "--log enthält die Ergebnisse eines einzigen Antastprogramms: nur ein Programm nennen",
         ));
@@ -121,8 +121,9 @@ impl Job {
         let listed = listed.map_err(|bug| Box::new(bug.in_file(&directory)))?;
         let Ok(listing) = listed else { return Ok(vec![job]) };
         let programs = listing.files.iter().filter(|name| without_suffix(name, CLEAN_SUFFIX).is_some());
-        let mut named: Vec<&str> =
-            programs.filter(|name| names_drawing(context, &join(&directory, name), &drawing)).collect();
+        let mut named: Vec<&str> = programs
+            .filter(|name| is_program_of_drawing(context, &join(&directory, name), &drawing))
+            .collect();
         named.sort_unstable();
         let found = |name: &&str| Self {
             drawing: job.drawing.clone(),
@@ -164,7 +165,7 @@ pub(super) fn stem_of_program(name: &str) -> Option<&str> {
 }
 
 /// Whether the header of a program names this drawing.
-fn names_drawing(context: &Context, program: &Utf8Path, drawing: &str) -> bool {
+fn is_program_of_drawing(context: &Context, program: &Utf8Path, drawing: &str) -> bool {
     let text = context.system.read(program, context.settings.limits.file_size.value).unwrap_or_default();
     Provenance::of_head(&text).is_some_and(|(_, title)| native::is_title_of(&title, drawing))
 }
@@ -290,7 +291,7 @@ impl<'a> Adjustment<'a> {
     /// Returns PB608 if the program is up to date with the opposite setting of `--compatible`.
     fn other_mode_problem(&self, job: &Job, clean: &[u8]) -> Option<Diagnostic> {
         let is_compatible = self.context.settings.general.compatible.value;
-        let workspace = self.context.in_mode(!is_compatible);
+        let workspace = self.context.with_compatible_mode(!is_compatible);
         let beside = job.clean.parent().unwrap_or(Utf8Path::new(""));
         let comparison =
             compare_with_drawing(&mut Session::new(&workspace), clean, beside, job.drawing.as_deref());

@@ -16,13 +16,13 @@ use pathbuild_workspace::memo::BUILD;
 /// Runs one of the subcommands.
 pub fn run(context: &Context, args: &CacheArgs) -> ExitStatus {
     if context.settings.directory().is_none() {
-        return context.usage(context.choose(
+        return context.usage_error(context.choose(
             "there is no pathbuild.toml here or above, and without one no results are cached",
             "hier und darüber gibt es keine pathbuild.toml, und ohne sie werden keine Ergebnisse gespeichert",
         ));
     }
     let (Some(home), Some(place)) = (&context.cache, context.cache_store()) else {
-        return context.usage(context.choose(
+        return context.usage_error(context.choose(
             "no results are cached: there is no cache directory, or --no-cache was given",
             "es werden keine Ergebnisse gespeichert: es gibt kein Cache-Verzeichnis, oder --no-cache ist angegeben",
         ));

@@ -17,7 +17,8 @@ pub fn run(context: &Context, args: &CheckArgs) -> ExitStatus {
         return context.refuse_empty_input();
     }
     let options = options(args);
-    match context.library().and_then(|library| library.check_with(&args.inputs.get().texts(), &options)) {
+    match context.library().and_then(|library| library.check_with(&args.inputs.to_inputs().texts(), &options))
+    {
         Ok(report) => conclude(context, args, report, begun.elapsed()),
         Err(error) => context.show_request_error(error),
     }

@@ -13,12 +13,12 @@ use crate::args::EmitArgs;
 use crate::context::{Context, for_rendering};
 use crate::exit::ExitStatus;
 use crate::render::Format;
-use crate::text::count;
+use crate::text::format_count;
 
 /// Runs the command: writes the files, or with `--check` compares them, and reports findings and outcomes.
 pub fn run(context: &Context, args: &EmitArgs) -> ExitStatus {
     let options = options(args);
-    match context.library().and_then(|library| library.emit(&args.inputs.get().texts(), &options)) {
+    match context.library().and_then(|library| library.emit(&args.inputs.to_inputs().texts(), &options)) {
         Ok(report) => conclude(context, args, report),
         Err(error) => context.show_request_error(error),
     }
@@ -57,7 +57,7 @@ fn conclude(context: &Context, args: &EmitArgs, report: EmitReport) -> ExitStatu
     for file in &outdated {
         show(context, file, FileState::Outdated, None);
     }
-    let failed = run_all(&post_builds);
+    let failed = run_post_builds(&post_builds);
     for path in removed {
         let removed = context.choose("stale, removed", "veraltet, entfernt");
         context.printer.status(format_args!("{path}: {removed}"));
@@ -70,7 +70,7 @@ fn conclude(context: &Context, args: &EmitArgs, report: EmitReport) -> ExitStatu
     }
     context.show(&findings);
     if args.check {
-        count_current(context, &files, outdated.len());
+        report_current_count(context, &files, outdated.len());
     }
     if !left_out.is_empty() {
         let label = context.choose("not milled", "nicht gefräst");
@@ -90,7 +90,7 @@ fn left_out_text(left_out: &[LeftOutElements]) -> String {
 }
 
 /// Runs the commands that post-processors request for their output. Returns the errors.
-fn run_all(post_builds: &[PostBuild]) -> Vec<Diagnostic> {
+fn run_post_builds(post_builds: &[PostBuild]) -> Vec<Diagnostic> {
     let run = |build: &PostBuild| run_post_build(&build.command, Utf8Path::new(&build.file)).err();
     post_builds.iter().filter_map(run).map(|failure| *failure).collect()
 }
@@ -139,12 +139,12 @@ fn show(context: &Context, file: &str, state: FileState, output: Option<&OutputF
 }
 
 /// Reports how many files are up to date.
-fn count_current(context: &Context, files: &[OutputFile], outdated: usize) {
+fn report_current_count(context: &Context, files: &[OutputFile], outdated: usize) {
     let current = files.iter().filter(|file| file.state == FileState::Current).count();
     let (all, lang) = (files.len() + outdated, context.lang());
     context.output.add_figure("current", current);
     context.output.add_figure("not_current", all - current);
-    let [current, others] = [current, all - current].map(|number| count(number, lang));
+    let [current, others] = [current, all - current].map(|number| format_count(number, lang));
     context.printer.status(match lang {
         Lang::En => format!("{current} current, {others} not current"),
         Lang::De => format!("{current} aktuell, {others} nicht aktuell"),

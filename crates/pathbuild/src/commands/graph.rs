@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
-use pathbuild_diagnostic::{Code, Lang, Text, shown};
+use pathbuild_diagnostic::{Code, Lang, Text, escaping};
 use pathbuild_path::{Bindings, PathName};
 use pathbuild_workspace::session::{Direction, Embedding, EmbeddingEnd, Graph, GraphOutcome, Node, Session};
 use serde_json::{Map, Value, json};
@@ -28,7 +28,7 @@ fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, Lang) -> Stri
     if args.inputs.is_empty() && !session.has_library() {
         return context.refuse_empty_input();
     }
-    let outcome = session.embedded_paths(&args.inputs.get());
+    let outcome = session.embedded_paths(&args.inputs.to_inputs());
     print(context, &outcome.graph, text);
     finish(context, outcome)
 }
@@ -37,11 +37,11 @@ fn show(context: &Context, args: &GraphArgs, text: impl Fn(&Graph, Lang) -> Stri
 /// those in and below the working directory.
 pub fn rdeps(context: &Context, args: &GraphArgs) -> ExitStatus {
     if args.inputs.is_empty() {
-        return context.usage(
+        return context.usage_error(
             context.choose("name drawings or paths for rdeps", "für rdeps Zeichnungen oder Pfade nennen"),
         );
     }
-    let outcome = Session::new(context).embedding_paths(&args.inputs.get());
+    let outcome = Session::new(context).embedding_paths(&args.inputs.to_inputs());
     print(context, &outcome.graph, |graph, lang| tree(graph, Direction::Up, lang));
     finish(context, outcome)
 }
@@ -72,16 +72,16 @@ fn print(context: &Context, graph: &Graph, text: impl Fn(&Graph, Lang) -> String
 
 /// Formats a path with the values of its variables as in the text of a subpath: `2051.1P :A0,5 :BX`.
 fn path(node: &Node) -> String {
-    let mut label = shown::line(node.name.as_str()).into_owned();
+    let mut label = escaping::line(node.name.as_str()).into_owned();
     for (variable, value) in node.bindings.iter() {
-        _ = write!(label, " :{variable}{}", shown::line(value));
+        _ = write!(label, " :{variable}{}", escaping::line(value));
     }
     label
 }
 
 /// Returns the file name of the drawing that contains a path, escaped for the terminal.
 fn file(node: &Node) -> Cow<'_, str> {
-    shown::line(node.file.as_str())
+    escaping::line(node.file.as_str())
 }
 
 /// Formats the target of an embedding.
@@ -94,7 +94,7 @@ fn target_text(graph: &Graph, end: &EmbeddingEnd) -> String {
 
 /// Formats a missing target with the reason: `9999.1P (PB503 path-not-found)`.
 fn missing_target(name: Option<&PathName>, code: Code) -> String {
-    format!("{} ({code} {})", shown::line(name.map_or("?", PathName::as_str)), code.name())
+    format!("{} ({code} {})", escaping::line(name.map_or("?", PathName::as_str)), code.name())
 }
 
 /// Formats a tree for each root.

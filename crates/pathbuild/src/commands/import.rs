@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use pathbuild_diagnostic::{Diagnostic, Lang, Number, shown, with_decimal_separator};
+use pathbuild_diagnostic::{Diagnostic, Lang, Number, escaping, with_decimal_separator};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::estimate::{self, Kinematics};
 use pathbuild_gcode::statistics::{AxisRanges, MoveTotals, Summary, Tally, ToolTotals, is_guess};
@@ -14,7 +14,7 @@ use crate::args::ImportArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 use crate::render::Format;
-use crate::text::{MOVE, count, counted};
+use crate::text::{MOVE, counted, format_count};
 
 /// Runs the command: prints the summary and the diagnostics of each program. A program with errors is summarized as far as it could be
 /// read.
@@ -156,7 +156,7 @@ impl Formatter<'_> {
         let program = facts.program;
         let lang = self.0.lang();
         let lines = counted(program.lines(), [["line", "lines"], ["Zeile", "Zeilen"]], lang);
-        format!("{}: {lines}, {}\n", shown::line(program.file.as_str()), program.describe_reading(lang))
+        format!("{}: {lines}, {}\n", escaping::line(program.file.as_str()), program.describe_reading(lang))
     }
 
     fn lines(&self, facts: &Facts<'_>) -> Vec<(&str, String)> {
@@ -190,7 +190,7 @@ impl Formatter<'_> {
 
     fn moves(&self, facts: &Facts<'_>) -> String {
         let total = &facts.summary.total;
-        let grouped = |moves| count(moves, self.0.lang());
+        let grouped = |moves| format_count(moves, self.0.lang());
         let kinds = [
             (total.rapid.moves, self.choose("rapid", "Eilgang")),
             (total.milling.moves, self.choose("milling", "Fräsen")),

@@ -13,7 +13,7 @@ use crate::args::ListArgs;
 use crate::context::{Context, for_rendering};
 use crate::exit::ExitStatus;
 use crate::render::Format;
-use crate::text::{Column, ERROR, WARNING, count, counted, decimal, table};
+use crate::text::{Column, ERROR, WARNING, counted, decimal, format_count, table};
 
 /// Prints one line per path.
 pub fn list(context: &Context, args: &ListArgs) -> ExitStatus {
@@ -139,22 +139,22 @@ fn text(stats: &Stats, context: &Context) -> String {
     let mut text = format!(
         "{}: {}, {}: {}, {}: {} mm, {}: {}\n",
         say("drawings", "Zeichnungen"),
-        count(stats.drawings, lang),
+        format_count(stats.drawings, lang),
         say("paths", "Pfade"),
-        count(stats.all.paths, lang),
+        format_count(stats.all.paths, lang),
         say("length", "Länge"),
         decimal(stats.all.length, 0, lang),
         say("minutes", "Minuten"),
         minutes(&stats.all, lang),
     );
     for (state, number) in &stats.states {
-        _ = writeln!(text, "  {}: {}", state_word(*state, context), count(*number, lang));
+        _ = writeln!(text, "  {}: {}", state_word(*state, context), format_count(*number, lang));
     }
     _ = writeln!(
         text,
         "  {}: {}",
         say("paths with warnings", "Pfade mit Warnungen"),
-        count(stats.warnings, lang)
+        format_count(stats.warnings, lang)
     );
     let none = || say("none", "keins").to_owned();
     let materials =
@@ -187,7 +187,7 @@ fn table_by<'a>(
         ("min", true),
     ];
     let rows = totals.map(|(name, total)| {
-        vec![name, count(total.paths, lang), decimal(total.length, 0, lang), minutes(total, lang)]
+        vec![name, format_count(total.paths, lang), decimal(total.length, 0, lang), minutes(total, lang)]
     });
     format!("\n{}", table(&columns, rows))
 }

@@ -20,7 +20,7 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
         return context.refuse_empty_input();
     }
     let (found, problems) = session.with_stable_files(|session| {
-        let matches = session.match_arguments(&args.inputs.get());
+        let matches = session.match_arguments(&args.inputs.to_inputs());
         let names: Vec<PathName> = matches.names().cloned().collect();
         let selection = session.select_matches(matches);
         let mut problems = selection.problems.clone();
@@ -51,7 +51,7 @@ fn definitions(
         let files = session.definitions(name, &directories);
         found.extend(files.into_iter().filter_map(|file| Some((file, path_place(db, file, name)?))));
     }
-    let files = selection.whole(session);
+    let files = selection.whole_drawings(session);
     session.parse_ahead(&files);
     for file in files {
         problems.extend(session.errors_without_paths(file).cloned());

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::join;
 use pathbuild_diagnostic::messages::import as say;
-use pathbuild_diagnostic::{Diagnostic, Value, shown};
+use pathbuild_diagnostic::{Diagnostic, Value, escaping};
 use pathbuild_workspace::config::check_text;
 use pathbuild_workspace::files::{self, FILE_NAME};
 use pathbuild_workspace::machine::{
@@ -26,7 +26,7 @@ pub fn run(context: &Context, args: &MachineArgs) -> ExitStatus {
     for file in files {
         match machine::text(&*context.system, &context.working_directory.join(file)) {
             Ok(text) => texts.push((file.as_path(), text)),
-            Err(reason) => diagnostics.push(unreadable(file, reason)),
+            Err(reason) => diagnostics.push(unreadable_error(file, reason)),
         }
     }
     let unit = machine::table_unit(*units, &texts).unwrap_or_else(|problem| {
@@ -56,7 +56,7 @@ fn text(context: &Context, file: &Utf8Path) -> Result<String, Value> {
     files::read(&*context.system, file, machine::MAX_DESCRIPTION_BYTES)
 }
 
-fn unreadable(file: &Utf8Path, reason: Value) -> Diagnostic {
+fn unreadable_error(file: &Utf8Path, reason: Value) -> Diagnostic {
     Diagnostic::new(&say::DESCRIPTION_UNREADABLE).with("reason", reason).in_file(file)
 }
 
@@ -84,10 +84,10 @@ fn compare(
     descriptions: &[DescribedFile<'_>],
     write: bool,
 ) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
-    let file = configuration(context);
+    let file = configuration_file(context);
     let is_there = files::is_named(&file);
     let old = if is_there {
-        text(context, &file).map_err(|reason| vec![unreadable(&file, reason)])?
+        text(context, &file).map_err(|reason| vec![unreadable_error(&file, reason)])?
     } else {
         String::new()
     };
@@ -112,7 +112,7 @@ fn compare(
 }
 
 /// Returns the configuration file of the run. If there is none, returns the path in the working directory at which it would be created.
-fn configuration(context: &Context) -> Utf8PathBuf {
+fn configuration_file(context: &Context) -> Utf8PathBuf {
     context.settings.file.clone().unwrap_or_else(|| join(&context.working_directory, FILE_NAME))
 }
 
@@ -135,7 +135,7 @@ fn show(context: &Context, file: &Utf8Path, changes: &[Change], descriptions: &[
     for change in changes {
         if table != change.table {
             table = &change.table;
-            _ = writeln!(text, "{} [{table}]", shown::line(context.file(file).as_str()));
+            _ = writeln!(text, "{} [{table}]", escaping::line(context.file(file).as_str()));
         }
         change_lines(&mut text, change);
     }
@@ -149,8 +149,8 @@ fn show(context: &Context, file: &Utf8Path, changes: &[Change], descriptions: &[
             }
         }
         let no_key = context.choose("no key for", "kein Schlüssel für");
-        let file = shown::line(file.as_str());
-        _ = writeln!(text, "{file} ({format}): {no_key} {}", shown::line(&names.join(", ")));
+        let file = escaping::line(file.as_str());
+        _ = writeln!(text, "{file} ({format}): {no_key} {}", escaping::line(&names.join(", ")));
     }
     context.printer.result(text);
 }
@@ -158,8 +158,8 @@ fn show(context: &Context, file: &Utf8Path, changes: &[Change], descriptions: &[
 fn change_lines(text: &mut String, change: &Change) {
     let Change { key, old, new, source, is_new, .. } = change;
     if let Some(old) = old.as_ref().filter(|_| *is_new) {
-        _ = writeln!(text, "  - {key} = {}", shown::line(old));
+        _ = writeln!(text, "  - {key} = {}", escaping::line(old));
     }
     let sign = if *is_new { '+' } else { '=' };
-    _ = writeln!(text, "  {sign} {key} = {}  ({})", shown::line(new), shown::line(source));
+    _ = writeln!(text, "  {sign} {key} = {}  ({})", escaping::line(new), escaping::line(source));
 }

@@ -47,7 +47,7 @@ fn output_row(context: &Context, file: &Utf8Path, written: WriteOutcome) -> (&'s
 }
 
 /// Adds a row about a written file to the JSON document. Returns the file's state as shown to users.
-fn output_state(context: &Context, file: &Utf8Path, written: WriteOutcome) -> &'static str {
+fn report_output(context: &Context, file: &Utf8Path, written: WriteOutcome) -> &'static str {
     context.json_row(|| output_row(context, file, written));
     state_word(context, written)
 }

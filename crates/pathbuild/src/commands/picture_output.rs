@@ -3,11 +3,11 @@
 use camino::Utf8Path;
 #[cfg(feature = "pictures")]
 use pathbuild_diagnostic::{Sentence, reasons::reason};
-use pathbuild_diagnostic::{Text, Value, shown};
+use pathbuild_diagnostic::{Text, Value, escaping};
 use pathbuild_workspace::files::write_error;
 use pathbuild_workspace::findings::Findings;
 
-use super::output_state;
+use super::report_output;
 use crate::context::Context;
 use crate::exit::ExitStatus;
 
@@ -30,8 +30,8 @@ pub(super) fn deliver(
 
 fn write(context: &Context, file: &Utf8Path, bytes: &[u8]) -> Result<(), Value> {
     let written = context.system.write(file, bytes)?;
-    let state = output_state(context, file, written);
-    context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
+    let state = report_output(context, file, written);
+    context.printer.status(format_args!("{}: {state}", escaping::line(file.as_str())));
     Ok(())
 }
 
@@ -47,7 +47,7 @@ fn open_page(context: &Context, page: &[u8]) -> Result<(), Value> {
     let file = file.map_err(|error| reason(&error))?;
     file.as_file().write_all(page).map_err(|error| reason(&error))?;
     let (_, path) = file.keep().map_err(|error| reason(&error.error))?;
-    context.printer.status(format_args!("{}", shown::line(&path.to_string_lossy())));
+    context.printer.status(format_args!("{}", escaping::line(&path.to_string_lossy())));
     open::that_detached(&path)
         .map_err(|error| Sentence::new(&NO_BROWSER).with("error", Value::foreign(error)).into())
 }

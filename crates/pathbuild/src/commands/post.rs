@@ -13,7 +13,7 @@ use pathbuild_workspace::config::number;
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor, run_post_build};
 use pathbuild_workspace::rewrite::Request;
 
-use super::output_state;
+use super::report_output;
 
 /// Runs the command: rewrites a program, or shows the built-in posts.
 pub fn run(context: &Context, args: &PostArgs) -> ExitStatus {
@@ -21,7 +21,7 @@ pub fn run(context: &Context, args: &PostArgs) -> ExitStatus {
         (Some(PostCommand::List), _) => list(context),
         (Some(PostCommand::Show { name }), _) => show(context, name),
         (None, Some(file)) => rewrite(context, file, args),
-        (None, None) => context.usage(context.choose(
+        (None, None) => context.usage_error(context.choose(
             "post needs a program, or `list` or `show NAME`",
             "post braucht ein Programm, `list` oder `show NAME`",
         )),
@@ -53,7 +53,7 @@ fn show(context: &Context, name: &str) -> ExitStatus {
 
 fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
     if args.run_post_build && file_to_write(args).is_none() {
-        return context.usage(context.choose(
+        return context.usage_error(context.choose(
             "--run-post-build needs a file: `-o FILE`",
             "--run-post-build braucht eine Datei: `-o DATEI`",
         ));
@@ -66,7 +66,7 @@ fn rewrite(context: &Context, file: &Utf8Path, args: &PostArgs) -> ExitStatus {
     let post_processor = match PostProcessor::for_run(context, args.post.as_deref(), arguments) {
         Ok(Some(post_processor)) => post_processor,
         Ok(None) => {
-            return context.usage(context.choose(
+            return context.usage_error(context.choose(
                 "native programs can only be written from drawings: `pathbuild emit`",
                 "native Programme lassen sich nur aus Zeichnungen schreiben: `pathbuild emit`",
             ));
@@ -104,7 +104,7 @@ fn rewrite_and_report(
         return Ok(());
     };
     let written = rewritten.write(context, post_processor, to).map_err(|problem| vec![*problem])?;
-    let state = output_state(context, to, written);
+    let state = report_output(context, to, written);
     context.printer.status(format_args!("{to}: {state}"));
     match &rewritten.output.post_build {
         Some(command) => run_post_build(command, to).map_err(|failure| vec![*failure]),

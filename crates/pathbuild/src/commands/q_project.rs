@@ -7,11 +7,11 @@ use pathbuild_db::system::{FileKind, with_forward_slashes};
 use pathbuild_db::{Db, Role, Settings, SourceFile, check_file, path_names, q_project};
 use pathbuild_diagnostic::messages::{files, outputs};
 use pathbuild_diagnostic::reasons::DRAWN_BY_USER;
-use pathbuild_diagnostic::{Code, Diagnostic, Lang, Value, shown};
+use pathbuild_diagnostic::{Code, Diagnostic, Lang, Value, escaping};
 use pathbuild_draw::EmbeddingPath;
 use pathbuild_path::{PathName, PathTools, QProject, q_project_name};
 
-use super::output_state;
+use super::report_output;
 use crate::args::QProjectArgs;
 use crate::context::Context;
 use crate::exit::ExitStatus;
@@ -23,7 +23,7 @@ use pathbuild_workspace::session::{NamedPaths, Session};
 pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     // `-` usually means stdout, but CAD programs read drawings from files.
     if args.output.as_deref() == Some(Utf8Path::new("-")) {
-        return context.usage(context.choose(
+        return context.usage_error(context.choose(
             "`-o -`: q-project writes a drawing, which needs a file name",
             "`-o -`: q-project schreibt eine Zeichnung und braucht dafür einen Dateinamen",
         ));
@@ -32,10 +32,10 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     let drawing = match session.with_stable_files(|session| named_drawing(session, &args.drawing)) {
         Ok(Some(drawing)) => drawing,
         Ok(None) => {
-            return context.usage(&context.phrase(
+            return context.usage_error(&context.phrase(
                 "q-project embeds all paths of one drawing: name the drawing instead of {}",
                 "q-project bettet alle Pfade einer Zeichnung ein: statt {} die Zeichnung nennen",
-                &shown::line(&args.drawing),
+                &escaping::line(&args.drawing),
             ));
         }
         Err(problems) => return context.fail(problems),
@@ -50,12 +50,12 @@ pub fn run(context: &Context, args: &QProjectArgs) -> ExitStatus {
     let name = session.with_stable_files(|session| path_name(session, drawing, args.path_name.as_deref()));
     let name = match name {
         Ok(name) => name,
-        Err(reason) => return context.usage(&reason),
+        Err(reason) => return context.usage_error(&reason),
     };
     let output =
-        session.normal(args.output.as_deref().unwrap_or(&q_project_file(drawing.path(session.db()))));
+        session.normalize(args.output.as_deref().unwrap_or(&q_project_file(drawing.path(session.db()))));
     if output == *drawing.path(session.db()) {
-        return context.usage(context.choose(
+        return context.usage_error(context.choose(
             "the Q-project would overwrite its own drawing",
             "das Q-Projekt würde seine eigene Zeichnung überschreiben",
         ));
@@ -127,7 +127,7 @@ fn draw_q_project(
     output: &Utf8Path,
     name: &PathName,
 ) -> Result<(Vec<u8>, usize), Vec<Diagnostic>> {
-    let problems = faults(session, drawing);
+    let problems = all_diagnostics(session, drawing);
     if problems.iter().any(Diagnostic::is_error) {
         return Err(problems);
     }
@@ -151,8 +151,11 @@ fn draw_q_project(
     let problems = preview.with_stable_files(|preview| {
         let compared = pathbuild_db::q_project_findings(preview.db(), original, written);
         // Errors of proxy lines recur in the Q-project, but must be corrected in the drawing, so that only the comparison reports them.
-        let copied =
-            if compared.iter().any(Diagnostic::is_error) { Vec::new() } else { faults(preview, written) };
+        let copied = if compared.iter().any(Diagnostic::is_error) {
+            Vec::new()
+        } else {
+            all_diagnostics(preview, written)
+        };
         [copied, compared.clone()].concat()
     });
     let is_wrong = |problem: &Diagnostic| problem.is_error() || problem.code() == Code::QProjectDiffers;
@@ -186,11 +189,11 @@ fn names(
 const MAX_TRIED_NAMES: u64 = 1000;
 
 /// Returns the diagnostics of a drawing and of all its paths, including PB513 if there are no paths.
-fn faults(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
+fn all_diagnostics(session: &Session<'_>, drawing: SourceFile) -> Vec<Diagnostic> {
     let db = session.db();
     let mut problems = check_file(db, drawing).to_vec();
     let targets = session.targets(drawing, &Role::Checked);
-    problems.extend(session.no_path(drawing.path(db), path_names(db, drawing), &problems));
+    problems.extend(session.no_path_error(drawing.path(db), path_names(db, drawing), &problems));
     problems.extend(session.check(&targets).into_iter().flat_map(|checked| checked.diagnostics));
     problems
 }
@@ -202,7 +205,7 @@ fn dxf(planned: &[QProject], names: &[PathName]) -> Result<Vec<u8>, String> {
         paths.push(EmbeddingPath { layer: name.as_str(), parameters: &path.parameters, segments });
     }
     let drawing = pathbuild_draw::q_project(&paths).map_err(|reasons| reasons.join("; "))?;
-    Ok(marked(&drawing))
+    Ok(with_mark(&drawing))
 }
 
 fn write(
@@ -216,7 +219,7 @@ fn write(
         return context.fail(vec![replace_error(output, &DRAWN_BY_USER)]);
     }
     let state = match session.db().system().write(output, bytes) {
-        Ok(written) => output_state(context, output, written),
+        Ok(written) => report_output(context, output, written),
         Err(reason) => return context.fail(vec![write_error(output, reason)]),
     };
     let paths = match count {
@@ -245,16 +248,16 @@ fn with_written_line_ends(text: &[u8]) -> Vec<u8> {
 fn is_unedited(old: &[u8], new: &[u8]) -> bool {
     let Some(rest) = old.strip_prefix(Q_PROJECT_MARK) else {
         // The first versions wrote no mark.
-        return marked(old) == new;
+        return with_mark(old) == new;
     };
     // The mark of 0.2.0 has no hash, so edits are not noticed.
     let is_without_hash = rest.starts_with(LINE_END);
     let drawing = rest.get(1 + HASH_LENGTH + LINE_END.len()..);
-    is_without_hash || drawing.is_some_and(|drawing| marked(drawing) == old)
+    is_without_hash || drawing.is_some_and(|drawing| with_mark(drawing) == old)
 }
 
 /// Returns a Q-project with its mark, which ends with a hash of the drawing, so that edits are noticed.
-fn marked(drawing: &[u8]) -> Vec<u8> {
+fn with_mark(drawing: &[u8]) -> Vec<u8> {
     let hash = blake3::hash(drawing).to_hex();
     [Q_PROJECT_MARK, b" ", hash[..HASH_LENGTH].as_bytes(), LINE_END, drawing].concat()
 }

@@ -1,6 +1,6 @@
 //! `pathbuild sheet`: creates a path's setup sheet for the machine operator. (book: program/sheet)
 
-use pathbuild_diagnostic::shown;
+use pathbuild_diagnostic::escaping;
 use pathbuild_workspace::Failure;
 use pathbuild_workspace::config::types::SheetFormat;
 use pathbuild_workspace::emit::{SheetOutcome, sheet_bytes, sheet_of};
@@ -27,7 +27,7 @@ pub fn run(context: &Context, args: &SheetArgs) -> Result<ExitStatus, Failure> {
                 return Err(Failure::Usage(context.phrase(
                     "-o {}: the name must end in .pdf, .html or .svg",
                     "-o {}: der Name muss auf .pdf, .html oder .svg enden",
-                    &shown::line(file.as_str()),
+                    &escaping::line(file.as_str()),
                 )));
             }
         },

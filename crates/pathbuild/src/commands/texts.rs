@@ -6,7 +6,7 @@ use std::fmt::Write;
 use pathbuild_db::{
     Database, SourceFile, assigned_texts, drawn_path, effective_parameters, file_index, path_names,
 };
-use pathbuild_diagnostic::{Diagnostic, Handle, Number, Point, shown};
+use pathbuild_diagnostic::{Diagnostic, Handle, Number, Point, escaping};
 use pathbuild_path::{
     AssignedElement, AssignedText, Curve, ElementParameters, Parameter, PathName, Position, Provider, Shape,
     TextCircle, Xy,
@@ -58,8 +58,8 @@ fn texts(
     args: &TextsArgs,
     pattern: Option<&Regex>,
 ) -> (Vec<OutputItem>, Vec<Diagnostic>) {
-    let selection = session.select(&args.inputs.get());
-    let whole = selection.whole(session).into_iter().map(|file| (file, None));
+    let selection = session.select(&args.inputs.to_inputs());
+    let whole = selection.whole_drawings(session).into_iter().map(|file| (file, None));
     let parts = selection.paths.iter().map(|path| (path.file, Some(&path.name)));
     let mut problems = selection.problems;
     let db = session.db();
@@ -87,7 +87,7 @@ fn texts(
 fn format_text(context: &Context, file: &str, text: &AssignedText) -> String {
     let TextCircle { centre, radius } = text.circle;
     let layer = context.choose("layer", "Layer");
-    let [file, of_layer] = [file, &text.layer].map(shown::line);
+    let [file, of_layer] = [file, &text.layer].map(escaping::line);
     let mut shown = format!("{file}:{}: {:?}\n", text.position.line, text.text);
     _ = writeln!(
         shown,
@@ -102,7 +102,7 @@ fn format_text(context: &Context, file: &str, text: &AssignedText) -> String {
     for element in &text.elements {
         let AssignedElement { entity, line_type, position, shape } = element;
         let (named, geometry) = (element_name(entity.name(), *position), geometry(context, shape));
-        _ = writeln!(shown, "  -> {named}, {layer} {of_layer}, {}, {geometry}", shown::line(line_type));
+        _ = writeln!(shown, "  -> {named}, {layer} {of_layer}, {}, {geometry}", escaping::line(line_type));
     }
     if text.elements.is_empty() {
         _ = writeln!(shown, "  -> {}", context.choose("nothing (PB107)", "nichts (PB107)"));
@@ -212,14 +212,14 @@ fn table<'a>(
     elements: impl Iterator<Item = (&'a ElementParameters, Position)>,
 ) -> String {
     let title = context.choose("parameters of path", "Parameter des Pfads");
-    let mut text = format!("{}: {title} {}\n", shown::line(file), shown::line(path.as_str()));
+    let mut text = format!("{}: {title} {}\n", escaping::line(file), escaping::line(path.as_str()));
     for (ElementParameters { origin, what, parameters }, position) in elements {
         let element = element_name(origin.entity.name(), position);
         let at = context.choose("at", "bei");
         let Point { x, y } = origin.point;
         _ = writeln!(text, "  {element} {at} ({x}, {y}): {}", what.in_lang(context.lang()));
         for Parameter { letter, value, from } in parameters.iter() {
-            let value = shown::line(value);
+            let value = escaping::line(value);
             _ = writeln!(text, "    {} {value:<12} {}", letter.as_char(), source(context, from));
         }
     }
@@ -230,7 +230,7 @@ fn source(context: &Context, from: &Provider) -> String {
     let word = from.word().in_lang(context.lang());
     match from {
         Provider::Option(name) => option(context, word, name),
-        Provider::Lender(path) => format!("{word}: {}", shown::line(path.as_str())),
+        Provider::Lender(path) => format!("{word}: {}", escaping::line(path.as_str())),
         _ => word.to_owned(),
     }
 }

@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use crate::args::VerifyArgs;
 use crate::context::{Context, for_rendering};
 use crate::exit::ExitStatus;
-use crate::text::count;
+use crate::text::format_count;
 use crate::waivers;
 
 /// Runs the command: checks each program, and reports findings and the checks made.
@@ -122,7 +122,7 @@ fn conclude(context: &Context, findings: &Findings) -> ExitStatus {
     let phrase = |en: &'static str, de: &'static str| context.choose(en, de);
     let known = match findings.waived.len() {
         0 => String::new(),
-        known => format!(", {}: {}", phrase("known", "bekannt"), count(known, context.lang())),
+        known => format!(", {}: {}", phrase("known", "bekannt"), format_count(known, context.lang())),
     };
     context.output.add_figure("known", findings.waived.len());
     context.printer.status(format_args!(
@@ -195,7 +195,7 @@ fn report_comparison(context: &Context, file: &str, comparison: &DrawingComparis
     let lang = context.lang();
     let rest = context.choose("; the rest is not compared", "; der Rest ist nicht verglichen");
     let rest = if equal < moves { rest } else { "" };
-    let [equal, all] = [*equal, *moves].map(|number| count(number, lang));
+    let [equal, all] = [*equal, *moves].map(|number| format_count(number, lang));
     let line = match lang {
         Lang::En => format!("{equal} of {all} moves as in path {path} of {drawing}{rest}; read as {read_as}"),
         Lang::De => format!(

@@ -2,7 +2,7 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
-use pathbuild_diagnostic::{Value, shown};
+use pathbuild_diagnostic::{Value, escaping};
 use pathbuild_view::{Scene, VisibleParts, has_stock};
 use pathbuild_workspace::emit::{SceneReport, ShownText};
 use pathbuild_workspace::files::is_file_name_taken;
@@ -25,7 +25,7 @@ use crate::exit::ExitStatus;
 pub fn run(context: &Context, args: &ViewArgs) -> Result<ExitStatus, Failure> {
     let output = Output::of(context, args).map_err(Failure::Usage)?;
     let target = target_scene(context, args, output.format)?;
-    let (scene, findings) = target.report.for_others(context, &target.file);
+    let (scene, findings) = target.report.for_sharing(context, &target.file);
     context.show(&findings);
     if output.shown.stock && !has_stock(&scene) {
         let is_program = !is_drawing(Utf8Path::new(&target.file));
@@ -42,7 +42,7 @@ fn report_missing_stock(context: &Context, findings: &Findings, is_program: bool
         "view --stock: nichts wird gefräst, oder Fräser oder Materialhöhe sind unbekannt",
     );
     let advice = context.choose(": give --cutter and --surface", ": --cutter und --surface angeben");
-    let status = context.usage(&format!("{reason}{}", if is_program { advice } else { "" }));
+    let status = context.usage_error(&format!("{reason}{}", if is_program { advice } else { "" }));
     if findings.error_count() > 0 { ExitStatus::Errors } else { status }
 }
 
@@ -84,7 +84,7 @@ fn drawing(session: &Session<'_>, what: &str, format: Format) -> Result<TargetSc
         let reason = session.workspace().phrase(
             "view shows one path, drawing or program: `{}` is a directory",
             "view zeigt einen Pfad, eine Zeichnung oder ein Programm: `{}` ist ein Verzeichnis",
-            &shown::line(what),
+            &escaping::line(what),
         );
         return Err(Failure::Usage(reason));
     };
@@ -94,7 +94,7 @@ fn drawing(session: &Session<'_>, what: &str, format: Format) -> Result<TargetSc
     let text =
         if format.is_picture() { ShownText::Omitted } else { ShownText::Emitted(post_processor.as_ref()) };
     let mut report = session.scene(file, &names, text);
-    let missing = session.no_path(file.path(db), &names, &report.diagnostics);
+    let missing = session.no_path_error(file.path(db), &names, &report.diagnostics);
     report.diagnostics.extend(missing);
     report.diagnostics = session.with_hints(report.diagnostics);
     if names.is_empty() {
@@ -188,13 +188,13 @@ impl Output {
         let Some(file) = &args.output else { return Self::browser(context, shown) };
         let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
         let format = Format::of(&extension);
-        let format =
-            format.ok_or_else(|| format!("-o {}: {}", shown::line(file.as_str()), Format::names(context)))?;
+        let format = format
+            .ok_or_else(|| format!("-o {}: {}", escaping::line(file.as_str()), Format::names(context)))?;
         if args.stock && !format.is_picture() {
             return Err(context.phrase(
                 "-o {}: view --stock writes a picture: the name must end in .svg, .png or .pdf",
                 "-o {}: view --stock schreibt ein Bild: der Name muss auf .svg, .png oder .pdf enden",
-                &shown::line(file.as_str()),
+                &escaping::line(file.as_str()),
             ));
         }
         Ok(Self { format, file: Some(file.to_owned()), shown })

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use camino::Utf8PathBuf;
 use pathbuild_api::OutputFile;
 use pathbuild_db::SourceFile;
-use pathbuild_diagnostic::{Diagnostic, shown, with_decimal_separator};
+use pathbuild_diagnostic::{Diagnostic, escaping, with_decimal_separator};
 use pathbuild_workspace::Inputs;
 use pathbuild_workspace::emit::ProgramOutcome;
 use pathbuild_workspace::post_processor::PostProcessor;
@@ -39,7 +39,7 @@ pub(crate) fn run(
     // Without a library, show all drawings that `list` would list.
     let is_everything = page.is_some() && args.inputs.is_empty() && !context.has_library();
     let here = Inputs { inputs: vec![".".to_owned()] };
-    let inputs = if is_everything { &here } else { &args.inputs.get() };
+    let inputs = if is_everything { &here } else { &args.inputs.to_inputs() };
     let request = Request { inputs, emits: args.emit, lists: page.is_some(), polls: args.poll };
     let page = page.unwrap_or_else(|| Box::new(()));
     let wake_handle = OnceCell::new();
@@ -66,7 +66,7 @@ pub(crate) fn run(
                 "nichts zu schreiben: `[emit] targets` in pathbuild.toml setzen",
             );
             halt(server, &[], reason);
-            context.usage(reason)
+            context.usage_error(reason)
         }
         WatchEnd::BadPost(problems) => {
             halt(server, &problems, "");
@@ -83,7 +83,7 @@ pub(crate) fn run(
             );
             halt(server, &[], &reason);
             let cannot = context.choose("cannot watch", "kann nicht beobachten");
-            context.usage(&format!("{cannot}: {reason}; {advice}"))
+            context.usage_error(&format!("{cannot}: {reason}; {advice}"))
         }
     })
 }
@@ -230,7 +230,7 @@ impl Listener for WatchPrinter<'_> {
         );
         for (drawing, reason) in drawings {
             let line = format!("{drawing}: {cannot}: {reason}");
-            self.context.printer.status(shown::line(&line));
+            self.context.printer.status(escaping::line(&line));
         }
     }
 
@@ -240,6 +240,6 @@ impl Listener for WatchPrinter<'_> {
     }
 
     fn options_missing(&self, reason: &str) {
-        _ = self.context.usage(reason);
+        _ = self.context.usage_error(reason);
     }
 }

@@ -6,7 +6,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_cache::Reason;
 use pathbuild_db::check_file;
 use pathbuild_db::system::FileKind;
-use pathbuild_diagnostic::shown;
+use pathbuild_diagnostic::escaping;
 use serde_json::{Value, json};
 
 use crate::args::GraphArgs;
@@ -24,12 +24,12 @@ pub fn run(context: &Context, args: &GraphArgs) -> ExitStatus {
         return context.refuse_empty_input();
     }
     let Some(memo) = Memo::of_checks(context) else {
-        return context.usage(context.choose(
+        return context.usage_error(context.choose(
             "why needs cached results: there are none without a pathbuild.toml, or with --no-cache",
             "why braucht gespeicherte Ergebnisse: ohne pathbuild.toml oder mit --no-cache gibt es keine",
         ));
     };
-    let selection = session.with_stable_files(|session| session.select(&args.inputs.get()));
+    let selection = session.with_stable_files(|session| session.select(&args.inputs.to_inputs()));
     let named = selection.named.iter().copied().chain(selection.paths.iter().map(|path| path.file));
     let mut problems = selection.problems.clone();
     let mut listed = HashSet::new();
@@ -66,8 +66,8 @@ impl DrawingState<'_> {
             Some(_) => context.choose("would be compiled again", "würde neu übersetzt"),
         };
         let reasons = self.reasons.iter().flatten();
-        let lines = reasons.map(|reason| format!("  {}\n", shown::line(&describe(context, reason))));
-        format!("{}: {state}\n", shown::line(self.drawing.as_str())) + &lines.collect::<String>()
+        let lines = reasons.map(|reason| format!("  {}\n", escaping::line(&describe(context, reason))));
+        format!("{}: {state}\n", escaping::line(self.drawing.as_str())) + &lines.collect::<String>()
     }
 
     fn json(&self, context: &Context) -> Value {

@@ -9,7 +9,7 @@ use miette::{
     GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents, SourceCode,
     SourceSpan, SpanContents,
 };
-use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, shown};
+use pathbuild_diagnostic::{Diagnostic, Severity, TextFault, escaping};
 
 use super::{View, view};
 use pathbuild_workspace::findings::Findings;
@@ -91,11 +91,11 @@ fn excerpt(fault: &TextFault) -> (String, Range<usize>) {
     };
     let (before, after) = (if start > 0 { "…" } else { "" }, if end < text.len() { "…" } else { "" });
     let fault = span.start.clamp(start, end)..span.end.clamp(start, end);
-    let mut excerpt = format!("{before}{}", shown::framed(&text[start..fault.start]));
+    let mut excerpt = format!("{before}{}", escaping::framed(&text[start..fault.start]));
     let from = excerpt.len();
-    excerpt.push_str(&shown::framed(&text[fault.clone()]));
+    excerpt.push_str(&escaping::framed(&text[fault.clone()]));
     let to = excerpt.len();
-    excerpt.extend([&*shown::framed(&text[fault.end..end]), after]);
+    excerpt.extend([&*escaping::framed(&text[fault.end..end]), after]);
     (excerpt, from..to)
 }
 

@@ -2,7 +2,7 @@
 //!
 //! GitHub shows only ten errors and ten warnings per step, so further ones are written as plain log lines. Errors come first.
 
-use pathbuild_diagnostic::{Diagnostic, Severity, shown};
+use pathbuild_diagnostic::{Diagnostic, Severity, escaping};
 
 use super::{View, concise, view};
 use pathbuild_workspace::findings::Findings;
@@ -20,7 +20,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
         .into_iter()
         .flat_map(|severity| of_severity(severity).skip(MAX_ANNOTATIONS));
     let annotations = annotations.map(|diagnostic| annotation(diagnostic, view));
-    let lines = lines.map(|diagnostic| shown::lines(&concise::line(diagnostic, view)).into_owned());
+    let lines = lines.map(|diagnostic| escaping::lines(&concise::line(diagnostic, view)).into_owned());
     annotations.chain(lines).collect()
 }
 
@@ -41,7 +41,7 @@ fn annotation(diagnostic: &Diagnostic, view: &View) -> String {
 
 /// Escapes the text after the second `::`.
 fn escape_data(text: &str) -> String {
-    shown::lines(text).replace('%', "%25").replace('\n', "%0A")
+    escaping::lines(text).replace('%', "%25").replace('\n', "%0A")
 }
 
 /// Escapes the value of a property.

@@ -4,7 +4,7 @@
 //! `span` is the faulty part of `text`: the position of its first character, and the position after its last one, counted in characters
 //! from 0. `x` and `y` are in mm, in the drawing. `trace` lists the embeddings that led to the path, outermost first.
 
-use pathbuild_diagnostic::{Diagnostic, EntityKind, TextFault, TraceStep, shown};
+use pathbuild_diagnostic::{Diagnostic, EntityKind, TextFault, TraceStep, escaping};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -83,7 +83,7 @@ pub(crate) fn serialize_with_type(kind: &str, object: &Value) -> String {
 
 /// Escapes characters with special effects in lines of JSON.
 pub(crate) fn escaped_lines(lines: &str) -> RenderedText {
-    RenderedText(shown::json(lines).into_owned())
+    RenderedText(escaping::json(lines).into_owned())
 }
 
 /// Version of the format that docs/schemas/output.json describes.

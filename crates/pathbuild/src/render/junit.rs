@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::time::Duration;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::{Diagnostic, shown};
+use pathbuild_diagnostic::{Diagnostic, escaping};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 use super::{View, concise};
@@ -18,7 +18,7 @@ pub(super) fn render(findings: &Findings, view: &View) -> String {
         let name = file.map_or_else(|| "pathbuild".into(), |file| view.name(file));
         let mut suite = TestSuite::new(&*name);
         for (path, case) in cases {
-            let path = path.map_or_else(|| name.clone(), shown::line);
+            let path = path.map_or_else(|| name.clone(), escaping::line);
             suite.add_test_case(case.test_case(&path, &name, view));
         }
         report.add_test_suite(suite);
@@ -73,7 +73,7 @@ impl TestOutcome<'_> {
         let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
         let more = if others.is_empty() { String::new() } else { format!(" (+{})", others.len()) };
         status.set_type(first.code().to_string());
-        status.set_message(shown::lines(&format!("{}{more}", first.text(view.lang))));
+        status.set_message(escaping::lines(&format!("{}{more}", first.text(view.lang))));
         status.set_description(lines(&self.errors, view));
         status
     }
@@ -81,7 +81,7 @@ impl TestOutcome<'_> {
 
 fn lines(diagnostics: &[&Diagnostic], view: &View) -> String {
     let lines: String = diagnostics.iter().map(|diagnostic| body(diagnostic, view)).collect();
-    shown::lines(lines.trim_end()).into()
+    escaping::lines(lines.trim_end()).into()
 }
 
 /// Returns the text of a failure: a line as in the concise format, followed by the help.

@@ -12,7 +12,7 @@ mod sarif;
 mod view;
 
 use clap::ValueEnum;
-use pathbuild_diagnostic::shown;
+use pathbuild_diagnostic::escaping;
 use pathbuild_workspace::findings::Findings;
 
 pub(crate) use html::page;
@@ -77,7 +77,7 @@ impl Format {
     }
 
     /// Whether the format can only be written when all findings are known.
-    pub fn is_whole(self) -> bool {
+    pub fn needs_all_findings(self) -> bool {
         matches!(self, Self::Sarif | Self::Gitlab | Self::Junit)
     }
 }
@@ -86,18 +86,18 @@ impl Format {
 /// pictures (see `page`).
 pub fn render(format: Format, findings: &Findings, view: &View) -> RenderedText {
     let text = match format {
-        Format::Concise => shown::lines(&concise::render(findings, view)).into_owned(),
-        Format::Json => shown::json(&json::render(findings, view)).into_owned(),
-        Format::Sarif => shown::json(&sarif::render(findings, view)).into_owned(),
+        Format::Concise => escaping::lines(&concise::render(findings, view)).into_owned(),
+        Format::Json => escaping::json(&json::render(findings, view)).into_owned(),
+        Format::Sarif => escaping::json(&sarif::render(findings, view)).into_owned(),
         // This format consists of lines that begin with `::`. Its renderer escapes that beginning in all other lines.
-        Format::Github => shown::framed(&github::render(findings, view)).into_owned(),
-        Format::Gitlab => shown::json(&gitlab::render(findings, view)).into_owned(),
-        Format::Junit => shown::lines(&junit::render(findings, view)).into_owned(),
+        Format::Github => escaping::framed(&github::render(findings, view)).into_owned(),
+        Format::Gitlab => escaping::json(&gitlab::render(findings, view)).into_owned(),
+        Format::Junit => escaping::lines(&junit::render(findings, view)).into_owned(),
         Format::Full | Format::Html | Format::Dot | Format::Mermaid if view.color => {
-            shown::colored_lines(&full::render(findings, view)).into_owned()
+            escaping::colored_lines(&full::render(findings, view)).into_owned()
         }
         Format::Full | Format::Html | Format::Dot | Format::Mermaid => {
-            shown::lines(&full::render(findings, view)).into_owned()
+            escaping::lines(&full::render(findings, view)).into_owned()
         }
     };
     RenderedText(text)

@@ -6,7 +6,9 @@ use std::str::FromStr;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::is_drawing;
 use pathbuild_diagnostic::{Code, Diagnostic, Point, Value};
-use pathbuild_view::{FindingPlace, IN_PROGRAM, Places, Scene, cutout_svg, has_stock, stock_cutout_svg};
+use pathbuild_view::{
+    FindingPlace, MESSAGES_IN_PROGRAM_COORDINATES, Places, Scene, cutout_svg, has_stock, stock_cutout_svg,
+};
 use pathbuild_workspace::Workspace;
 use pathbuild_workspace::files::write_error;
 use pathbuild_workspace::findings::{Findings, Fingerprint};
@@ -30,23 +32,23 @@ pub(crate) fn pictures<'d>(workspace: &Workspace, diagnostics: &'d [Diagnostic])
     let places: Vec<Option<Places<'_>>> = places.collect();
     let drawn = |diagnostic: &Diagnostic| -> Option<String> {
         let file = files.binary_search(&drawing(diagnostic)?).ok()?;
-        let spot = spot(diagnostic, places[file].as_ref())?;
+        let spot = finding_place(diagnostic, places[file].as_ref())?;
         Some(cutout_svg(scenes[file].as_ref()?, &spot, workspace.lang()))
     };
     let session = Session::new(workspace);
     let mut known: Option<StockScene<'_>> = None;
     let mut stock = |index: usize, diagnostic: &'d Diagnostic| -> Option<String> {
-        let place = part_and_path(diagnostic)?;
+        let place = drawing_and_path_of_part(diagnostic)?;
         if known.as_ref().is_none_or(|(known, _)| *known != place) {
             let scene = session.scene_of(place.0, place.1).filter(has_stock);
             known = Some((place, scene));
         }
         let scene = known.as_ref()?.1.as_ref()?;
         let has_corners = diagnostic.code() == Code::UnreachableCorner;
-        let spot = if IN_PROGRAM.contains(&diagnostic.message) {
+        let spot = if MESSAGES_IN_PROGRAM_COORDINATES.contains(&diagnostic.message) {
             spot_in_program(diagnostic, scene, place.0)
         } else {
-            spot(diagnostic, None)
+            finding_place(diagnostic, None)
         };
         Some(stock_cutout_svg(scene, &spot?, has_corners, index))
     };
@@ -65,7 +67,7 @@ type StockScene<'d> = ((&'d Utf8Path, &'d str), Option<Scene>);
 
 /// Returns the drawing and the path of a finding about a finished part, because such findings are shown in pictures of the stock; `None`
 /// for all other findings.
-fn part_and_path(diagnostic: &Diagnostic) -> Option<(&Utf8Path, &str)> {
+fn drawing_and_path_of_part(diagnostic: &Diagnostic) -> Option<(&Utf8Path, &str)> {
     let is_about_part = matches!(
         diagnostic.code(),
         Code::GougedPart
@@ -91,7 +93,7 @@ fn drawing(diagnostic: &Diagnostic) -> Option<&Utf8Path> {
 const SAME_PLACE: f64 = 1e-6;
 
 /// Returns the place of a finding, with further places mentioned in its message and notes.
-fn spot(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<FindingPlace> {
+fn finding_place(diagnostic: &Diagnostic, places: Option<&Places<'_>>) -> Option<FindingPlace> {
     let at = places.and_then(|places| places.of(diagnostic)).or(diagnostic.place.point.map(pair))?;
     let notes = diagnostic.notes.iter().flat_map(|note| &note.arguments);
     let is_centre = |name: &str| name == "centre";

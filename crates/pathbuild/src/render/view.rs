@@ -3,7 +3,7 @@ use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::or_current_directory;
-use pathbuild_diagnostic::{Diagnostic, Lang, TraceStep, Value, shown};
+use pathbuild_diagnostic::{Diagnostic, Lang, TraceStep, Value, escaping};
 use pathbuild_workspace::config::clean;
 
 /// Properties of an output device: language, colours, width, and form of file names.
@@ -25,8 +25,8 @@ impl View {
     /// Returns a file name for users: relative to the base if it is inside, with `/` as separator, and with control characters escaped.
     pub fn name<'a>(&self, file: &'a Utf8Path) -> Cow<'a, str> {
         match self.raw_name(file) {
-            Cow::Borrowed(name) => shown::line(name),
-            Cow::Owned(name) => shown::line(&name).into_owned().into(),
+            Cow::Borrowed(name) => escaping::line(name),
+            Cow::Owned(name) => escaping::line(&name).into_owned().into(),
         }
     }
 
@@ -83,7 +83,7 @@ pub(super) fn element(diagnostic: &Diagnostic, view: &View) -> String {
     let place = &diagnostic.place;
     let mut parts = Vec::new();
     if let Some(path) = &diagnostic.path {
-        parts.push(format!("{} {}", view.choose("path", "Pfad"), shown::line(path)));
+        parts.push(format!("{} {}", view.choose("path", "Pfad"), escaping::line(path)));
     }
     let mut words = Vec::new();
     words.extend(place.entity.map(|kind| kind.name().to_owned()));
@@ -92,7 +92,7 @@ pub(super) fn element(diagnostic: &Diagnostic, view: &View) -> String {
         place
             .layer
             .as_deref()
-            .map(|layer| format!("{} {}", view.choose("on layer", "auf Layer"), shown::line(layer))),
+            .map(|layer| format!("{} {}", view.choose("on layer", "auf Layer"), escaping::line(layer))),
     );
     words.extend(
         place
@@ -117,7 +117,7 @@ pub(super) fn embedding(step: &TraceStep, view: &View) -> String {
     let (by, at) = (view.choose("embedded by", "eingebettet von"), view.choose("at", "bei"));
     format!(
         "{by} {} {at} {}, {}",
-        shown::line(&step.path),
+        escaping::line(&step.path),
         Value::from(step.point).render(view.lang),
         view.name(&step.file)
     )

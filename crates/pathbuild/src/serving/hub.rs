@@ -164,7 +164,13 @@ impl Hub {
 
 impl State {
     /// Publishes a drawing's rows as JSON; `None` removes the drawing.
-    pub(super) fn set(&mut self, drawing: &Utf8Path, file: &str, rows: Option<&str>, revision: u64) {
+    pub(super) fn publish_drawing(
+        &mut self,
+        drawing: &Utf8Path,
+        file: &str,
+        rows: Option<&str>,
+        revision: u64,
+    ) {
         let name = serde_json::Value::from(file);
         let text = format!("{{\"file\":{name},\"rows\":{}}}", rows.unwrap_or("null"));
         self.drawings.insert(drawing.to_owned(), PublishedDrawing { revision, text });

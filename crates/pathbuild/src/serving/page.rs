@@ -84,7 +84,7 @@ impl Listener for Page<'_> {
                 let drawing = file.path(db);
                 let name = self.context.file(drawing);
                 let rows = path_names(db, *file).iter().map(|path| json!({ "path": path.as_str() }));
-                state.set(drawing, &name, Some(&rows.collect::<Value>().to_string()), revision);
+                state.publish_drawing(drawing, &name, Some(&rows.collect::<Value>().to_string()), revision);
                 self.library.borrow_mut().by_file.insert(name, drawing.clone());
             }
         });
@@ -109,7 +109,7 @@ impl Listener for Page<'_> {
                 let whole = drawing_json(&self.context.findings(check_file(session.db(), *file).to_vec()));
                 let texts = whole.into_iter().chain(rows.iter().map(|row| path_json(&name, row)));
                 let text = texts.collect::<Value>().to_string();
-                state.set(drawing, &name, Some(&text), revision);
+                state.publish_drawing(drawing, &name, Some(&text), revision);
                 library.by_file.insert(name, drawing.clone());
                 library.rows.insert(drawing.clone(), rows);
             }
@@ -137,7 +137,7 @@ impl Listener for Page<'_> {
             }
             for drawing in removed {
                 let name = self.context.file(drawing);
-                state.set(drawing, &name, None, revision);
+                state.publish_drawing(drawing, &name, None, revision);
                 library.by_file.remove(&name);
                 library.rows.remove(drawing);
             }

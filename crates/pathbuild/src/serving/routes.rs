@@ -16,7 +16,7 @@ use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use futures_util::stream;
-use pathbuild_diagnostic::{Lang, shown};
+use pathbuild_diagnostic::{Lang, escaping};
 use pathbuild_workspace::program_view::{Assumptions, DroppedProgram};
 use serde::Deserialize;
 use tokio::runtime;
@@ -61,7 +61,7 @@ impl Routes {
         let hub = Arc::clone(&self.hub);
         let served = runtime.block_on(async {
             let listener = tokio::net::TcpListener::from_std(listener)?;
-            tokio::spawn(end_by_key(Arc::clone(&self.hub)));
+            tokio::spawn(end_on_ctrl_c(Arc::clone(&self.hub)));
             if until_closed {
                 tokio::spawn(end_without_pages(Arc::clone(&self.hub), self.pages.subscribe()));
             }
@@ -74,7 +74,7 @@ impl Routes {
 }
 
 /// Ends watching on the first Ctrl+C, and the process on the second one.
-async fn end_by_key(hub: Arc<Hub>) {
+async fn end_on_ctrl_c(hub: Arc<Hub>) {
     if tokio::signal::ctrl_c().await.is_ok() {
         hub.end();
         _ = tokio::signal::ctrl_c().await;
@@ -146,7 +146,10 @@ async fn library(
     State(routes): State<Arc<Routes>>,
     Query(ChangesQuery { since, most }): Query<ChangesQuery>,
 ) -> Response {
-    ([(CONTENT_TYPE, JSON)], shown::json(&routes.hub.library(since, most.unwrap_or(usize::MAX))).into_owned())
+    (
+        [(CONTENT_TYPE, JSON)],
+        escaping::json(&routes.hub.library(since, most.unwrap_or(usize::MAX))).into_owned(),
+    )
         .into_response()
 }
 
@@ -203,7 +206,7 @@ async fn answer_with(routes: &Routes, subject: Subject, kind: &'static str) -> R
 /// Returns a stream of the numbers of changes, beginning with the number of the last change so far.
 async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
     let (revisions, run) = (routes.hub.revisions(), routes.run.clone());
-    let open = OpenPage::new(routes.pages.clone());
+    let open = OpenPageGuard::new(routes.pages.clone());
     let numbers = stream::unfold((revisions, true, open), move |(mut revisions, is_first, open)| {
         let run = run.clone();
         async move {
@@ -219,16 +222,16 @@ async fn events(State(routes): State<Arc<Routes>>) -> impl IntoResponse {
 }
 
 /// Guard that counts a page as open until it is dropped.
-struct OpenPage(watch::Sender<usize>);
+struct OpenPageGuard(watch::Sender<usize>);
 
-impl OpenPage {
+impl OpenPageGuard {
     fn new(pages: watch::Sender<usize>) -> Self {
         pages.send_modify(|open| *open += 1);
         Self(pages)
     }
 }
 
-impl Drop for OpenPage {
+impl Drop for OpenPageGuard {
     fn drop(&mut self) {
         self.0.send_modify(|open| *open -= 1);
     }

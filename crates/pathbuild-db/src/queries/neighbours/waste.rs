@@ -10,7 +10,7 @@ use pathbuild_path::{EarlierCuts, WasteCut};
 use super::{PlacedPath, PlacedProgram, diagnostic_point};
 
 /// Successive cuts of a path, between which it embeds no other path.
-struct Section<'p, 'db> {
+struct UninterruptedCuts<'p, 'db> {
     /// Indices into [`PathCuts::cuts`](pathbuild_path::PathCuts::cuts).
     cuts: Range<usize>,
     /// Number of paths in [`PlacedProgram::paths`] that begin before these cuts.
@@ -30,7 +30,7 @@ impl<'db> PlacedProgram<'db> {
 
     /// Returns PB222 for a path, once for each path with openings in which it cuts loose waste.
     fn cuts_of_path_in_loose_waste(&self, later: usize) -> Vec<Diagnostic> {
-        let sections: Vec<Section<'_, 'db>> = self.sections(later).collect();
+        let sections: Vec<UninterruptedCuts<'_, 'db>> = self.sections(later).collect();
         let paths_before = sections.last().map_or(0, |section| section.paths_before);
         let owners = (0..paths_before).filter(|owner| self.may_share_waste(*owner, later));
         let cut = |owner: usize| {
@@ -46,7 +46,7 @@ impl<'db> PlacedProgram<'db> {
     }
 
     /// Returns the sections with cuts of a path, which the paths that it embeds divide.
-    fn sections(&self, path: usize) -> impl Iterator<Item = Section<'_, 'db>> {
+    fn sections(&self, path: usize) -> impl Iterator<Item = UninterruptedCuts<'_, 'db>> {
         let is_within = |inner: &usize| self.path_and_embedders(*inner).any(|around| around == path);
         let end = (path..self.paths.len()).find(|inner| !is_within(inner)).unwrap_or(self.paths.len());
         let parent = move |inner: usize| self.paths[inner].parent.filter(|parent| parent.path == path);
@@ -55,7 +55,7 @@ impl<'db> PlacedProgram<'db> {
         let mut start = 0;
         let sections = ends.map(move |(paths_before, end)| {
             let cuts = std::mem::replace(&mut start, end)..end;
-            Section { cuts, paths_before, earlier: OnceCell::new() }
+            UninterruptedCuts { cuts, paths_before, earlier: OnceCell::new() }
         });
         sections.filter(|section| !section.cuts.is_empty())
     }

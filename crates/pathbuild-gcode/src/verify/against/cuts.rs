@@ -9,7 +9,7 @@ use pathbuild_toolpath::LAST_DIGIT_SLACK;
 
 use crate::dialect::Dialect;
 use crate::verify::compare::{
-    Difference, DifferenceKind, Ends, Stretch, Tolerance, are_alike, check_pace, check_shape,
+    Difference, DifferenceKind, Ends, Stretch, Tolerance, are_similar_lengths, check_pace, check_shape,
     meeting_fraction,
 };
 use crate::verify::is_near;
@@ -96,7 +96,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
         } else if self.repeats_last_stroke(movement) {
             self.chain = RapidSequence::after_cut();
         } else if let Err(difference) =
-            self.rapids(Some((line, movement))).and_then(|()| self.cut(line, movement))
+            self.compare_rapids(Some((line, movement))).and_then(|()| self.cut(line, movement))
         {
             self.difference = Some(*difference);
         }
@@ -105,7 +105,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
     /// Returns the first difference and the first stroke that is too deep, and the number of expected moves found before the difference.
     pub(super) fn finish(mut self) -> (Vec<Diagnostic>, usize) {
         if self.difference.is_none() {
-            self.difference = self.rapids(None).err().map(|difference| *difference);
+            self.difference = self.compare_rapids(None).err().map(|difference| *difference);
         }
         let difference = self.difference.or_else(|| {
             let expected = self.expected.next();
@@ -120,9 +120,9 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
     }
 
     /// Compares the rapid moves before this cut, or at the end of the program, with the expected ones.
-    fn rapids(&mut self, cut: Option<(u32, &Move)>) -> Result<(), Box<Difference>> {
+    fn compare_rapids(&mut self, cut: Option<(u32, &Move)>) -> Result<(), Box<Difference>> {
         let mut chain = std::mem::replace(&mut self.chain, RapidSequence::after_cut());
-        let plunge = self.begun_plunge().filter(|_| cut.is_some());
+        let plunge = self.partial_plunge().filter(|_| cut.is_some());
         if let Some((plunge, share)) = plunge.and_then(|plunge| Some((plunge, chain.peck_fraction(&plunge)?)))
         {
             // A lift inside the hole breaks the chip, but does not clear it.
@@ -207,7 +207,7 @@ impl<M: Iterator<Item = (u32, Move)>> CutComparison<M> {
     }
 
     /// Returns the next expected move if it is a plunge that the program has made in part, and may continue in pecks.
-    fn begun_plunge(&mut self) -> Option<Plunge> {
+    fn partial_plunge(&mut self) -> Option<Plunge> {
         let (done, slack) = (self.done, self.tolerance.place);
         let (_, movement) = self.expected.peek().filter(|_| done > 0.0)?;
         is_plunge(movement).then_some(Plunge { movement: *movement, done, slack })
@@ -318,7 +318,7 @@ fn check_chord(chord: &Stretch, rest: &Stretch) -> Result<f64, DifferenceKind> {
         return Err(DifferenceKind::Shape);
     };
     let is_last = is_near(&end, &rest.end(), POSITION_TOLERANCE)
-        && are_alike(chord.length, rest.length, POSITION_TOLERANCE);
+        && are_similar_lengths(chord.length, rest.length, POSITION_TOLERANCE);
     let share = if is_last { 1.0 } else { rest.nearest(&end, chord.length).ok_or(DifferenceKind::Place)? };
     let [x, y, z] = rest.point(share);
     let height = 2.0 * POSITION_TOLERANCE * (1.0 + rest.steepness());
@@ -366,7 +366,7 @@ struct Plunge {
 
 impl Plunge {
     /// Returns the fraction of the plunge at a height; `None` outside the plunge, or below what the program has cut so far.
-    fn share_at(&self, z: f64) -> Option<f64> {
+    fn fraction_at(&self, z: f64) -> Option<f64> {
         let (top, bottom) = (self.movement.from.z(), self.movement.to.z());
         let share = (top - z) / (top - bottom);
         let slack = self.slack / (top - bottom);
@@ -439,7 +439,7 @@ impl RapidSequence {
     fn peck_fraction(&self, plunge: &Plunge) -> Option<f64> {
         let (_, last) = self.moves.last()?;
         let stays = self.moves.iter().all(|(_, movement)| plunge.is_in_hole(movement));
-        plunge.share_at(last.to.z()).filter(|_| stays)
+        plunge.fraction_at(last.to.z()).filter(|_| stays)
     }
 
     /// Checks the moves against the expected ones. The error is the first deviation.

@@ -105,7 +105,7 @@ impl ToolUse {
 
 /// The result of comparing a program with a drawing.
 #[derive(Clone, Debug)]
-pub struct Agreement {
+pub struct ComparisonResult {
     /// All differences, ordered by line. Of the differences between moves, only the first one is included.
     pub differences: Vec<Diagnostic>,
     /// Number of the drawing's moves that the program contains before the first difference between the moves.
@@ -163,7 +163,7 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
     }
 
     /// Completes the comparison at the end of the program and returns its result.
-    pub fn finish(self) -> Agreement {
+    pub fn finish(self) -> ComparisonResult {
         let has_uncompared_coolant = self.setup.has_uncompared_coolant();
         let mut problems = self.setup.finish();
         problems.append(self.problems);
@@ -175,6 +175,6 @@ impl<'w, M: Iterator<Item = (u32, Move)>> DrawingComparison<'w, M> {
         let (found, equal) = self.cuts.finish();
         differences.extend(found);
         differences.sort_by_key(|diagnostic| diagnostic.place.line);
-        Agreement { differences, equal, has_uncompared_coolant }
+        ComparisonResult { differences, equal, has_uncompared_coolant }
     }
 }

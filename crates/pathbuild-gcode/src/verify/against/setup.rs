@@ -123,7 +123,7 @@ impl<'w> Setup<'w> {
             Action::Coolant(coolant) => {
                 (self.coolant, self.coolant_line) = (*coolant, line);
                 self.reported.coolant = false;
-                if coolant.is_on() && !self.takes_coolant() {
+                if coolant.is_on() && !self.may_use_coolant() {
                     self.report_extra_word(line, coolant_text(*coolant).to_owned());
                 } else if coolant.is_on() {
                     self.has_uncompared_coolant |= self.expected.coolant.is_none();
@@ -144,7 +144,7 @@ impl<'w> Setup<'w> {
                 self.report_extra_word(self.spindle_line, word);
             }
         }
-        if self.coolant != Coolant::default() && self.takes_coolant() {
+        if self.coolant != Coolant::default() && self.may_use_coolant() {
             if self.expected.coolant.is_some_and(|expected| expected != Coolant::default()) {
                 self.problems.add_at_line(&say::STOP_MISSING, self.line, |d| d.quoting("word", "M9"));
             } else {
@@ -286,7 +286,7 @@ impl<'w> Setup<'w> {
     }
 
     /// Whether programs of the post may switch coolant on; any program of a dialect that no post writes may.
-    fn takes_coolant(&self) -> bool {
+    fn may_use_coolant(&self) -> bool {
         !self.has_post() || self.words.has('M', 70) || self.words.has('M', 80)
     }
 
@@ -296,7 +296,7 @@ impl<'w> Setup<'w> {
     }
 
     fn check_cutting_coolant(&mut self, line: u32) {
-        let differs = |expected: &Coolant| *expected != self.coolant && self.takes_coolant();
+        let differs = |expected: &Coolant| *expected != self.coolant && self.may_use_coolant();
         let Some(expected) = self.expected.coolant.filter(differs) else { return };
         if !std::mem::replace(&mut self.reported.coolant, true) {
             let found = coolant_text(self.coolant);
@@ -318,7 +318,7 @@ impl<'w> Setup<'w> {
         if self.reported.spindle {
             return;
         }
-        let message = if self.turns_otherwise() {
+        let message = if self.has_other_spindle_state() {
             &say::SPINDLES_DIFFER
         } else if self.dwelt < self.spin_up && self.is_spindle_on() {
             &say::SPUN_UP_TOO_SHORT
@@ -333,8 +333,8 @@ impl<'w> Setup<'w> {
         self.tools.spindle().turning.is_on()
     }
 
-    fn turns_otherwise(&self) -> bool {
-        self.tools.turns_otherwise(self.expected.turning, self.expected.speed, SPEED_TOLERANCE)
+    fn has_other_spindle_state(&self) -> bool {
+        self.tools.has_other_spindle_state(self.expected.turning, self.expected.speed, SPEED_TOLERANCE)
     }
 
     fn report_spindle(&mut self, line: u32, message: &'static Message) {

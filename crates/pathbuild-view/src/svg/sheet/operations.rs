@@ -41,7 +41,7 @@ pub(super) fn rows(sheet: &Sheet, lang: Lang) -> Vec<Vec<String>> {
         rows.push(vec![
             "…".to_owned(),
             String::new(),
-            counted(more, MORE, lang),
+            counted(more, MORE_OPERATIONS, lang),
             String::new(),
             String::new(),
         ]);
@@ -49,7 +49,8 @@ pub(super) fn rows(sheet: &Sheet, lang: Lang) -> Vec<Vec<String>> {
     rows
 }
 
-const MORE: Noun = [["more operation", "more operations"], ["weiterer Arbeitsgang", "weitere Arbeitsgänge"]];
+const MORE_OPERATIONS: Noun =
+    [["more operation", "more operations"], ["weiterer Arbeitsgang", "weitere Arbeitsgänge"]];
 
 /// Names a cutter by its number in the machine, or else by its diameter.
 fn cutter(tool: &SheetTool) -> String {

@@ -10,7 +10,7 @@ use crate::svg::canvas::{
 };
 use crate::svg::frame::{Frame, OccupiedSpace, PageTransform, VisibleParts};
 use crate::svg::stock::{MilledStock, has_stock};
-use crate::svg::{drawing, legend, moves, symbols};
+use crate::svg::{draw_scene, legend, moves, symbols};
 
 use super::data::{Sheet, UNITS_PER_MM, removed_box, shown_box};
 use super::flow::{Column, MAX_PICTURE_HEIGHT};
@@ -171,13 +171,16 @@ impl PlacedPicture {
         canvas.open("id=\"drawing\" clip-path=\"url(#frame)\"");
         let clip = [[self.area.left, self.area.top], [self.area.left + self.area.width, bottom + 20.0]];
         canvas.clip(clip);
-        let axes =
-            axes(canvas, place.to_page([0.0; 2]), [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]]);
+        let axes = draw_axes(
+            canvas,
+            place.to_page([0.0; 2]),
+            [[left - 6.0, top - 6.0], [right + 6.0, bottom + 6.0]],
+        );
         // Reserve space: dimensions are to the left and below, and the name of the axis is above.
         let mut room = OccupiedSpace::new([[left - 14.0, top - 6.0], [right + RIGHT_MARGIN, bottom + 20.0]]);
         room.lines.extend(axes);
         room.lines.extend(removed_box(sheet).into_iter().flat_map(|corners| sides(corners, &place)));
-        let hidden = drawing(canvas, &sheet.scene, &frame, &depths, shown, &mut room);
+        let hidden = draw_scene(canvas, &sheet.scene, &frame, &depths, shown, &mut room);
         symbols::draw_findings(canvas, &sheet.scene, &frame, &mut room, sheet.scene.findings.len());
         canvas.close();
         if let Some(box_) = removed_box(sheet) {
@@ -186,7 +189,7 @@ impl PlacedPicture {
         if self.has_inset {
             self.draw_inset(canvas, sheet, lang);
         }
-        self.legend(canvas, sheet, &depths, shown, &hidden);
+        self.draw_legend(canvas, sheet, &depths, shown, &hidden);
     }
 
     fn draw_stock(&self, canvas: &mut Canvas, sheet: &Sheet, lang: Lang) {
@@ -199,11 +202,11 @@ impl PlacedPicture {
             lang.choose(format!("after milling, scale {scale}"), format!("nach dem Fräsen, Maßstab {scale}"));
         canvas.text([self.area.left, top], 11.0, Anchor::Start, "font-weight=\"bold\"", &title);
         let right = self.area.left + self.area.width;
-        stock.legend(canvas, VisibleParts::all(lang), [self.area.left, top + 17.0], right);
+        stock.draw_legend(canvas, VisibleParts::all(lang), [self.area.left, top + 17.0], right);
         canvas.close();
     }
 
-    fn legend(
+    fn draw_legend(
         &self,
         canvas: &mut Canvas,
         sheet: &Sheet,
@@ -255,7 +258,7 @@ fn sides([low, high]: Corners, place: &PageTransform) -> [[Point; 2]; 4] {
 }
 
 /// Draws the axes X0 and Y0 of the program, and returns their lines.
-fn axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corners) -> [[Point; 2]; 2] {
+fn draw_axes(canvas: &mut Canvas, [x, y]: Point, [[left, top], [right, bottom]]: Corners) -> [[Point; 2]; 2] {
     let style = format!("stroke=\"{PROBE_COLOUR}\" stroke-width=\"0.7\" stroke-dasharray=\"10 3 2 3\"");
     canvas.open(&format!("id=\"axes\" fill=\"{PROBE_COLOUR}\""));
     let lines = [[[left, y], [right, y]], [[x, bottom], [x, top]]];
@@ -283,11 +286,11 @@ fn draw_dimensions(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransf
     canvas.open(&format!("id=\"measures\" fill=\"none\" stroke=\"{INK_COLOUR}\" stroke-width=\"0.7\""));
     canvas.rect([x0, y0], [x1 - x0, y1 - y0], "stroke-dasharray=\"5 3\"");
     let y = bottom + DIMENSION_DISTANCE;
-    arrows(canvas, [x0, y], [x1, y]);
+    draw_double_arrow(canvas, [x0, y], [x1, y]);
     draw_extension_line(canvas, [x0, y1], [x0, y + 4.0]);
     draw_extension_line(canvas, [x1, y1], [x1, y + 4.0]);
     let x = left - DIMENSION_DISTANCE;
-    arrows(canvas, [x, y1], [x, y0]);
+    draw_double_arrow(canvas, [x, y1], [x, y0]);
     draw_extension_line(canvas, [x0, y1], [x - 4.0, y1]);
     draw_extension_line(canvas, [x0, y0], [x - 4.0, y0]);
     canvas.close();
@@ -296,14 +299,19 @@ fn draw_dimensions(canvas: &mut Canvas, [low, high]: Corners, place: &PageTransf
     let size = mm(high[0] - low[0]);
     let has_room = text_width(&size, NUMBER_SIZE) < x1 - x0 - 12.0;
     let down = if has_room { 12.0 } else { 23.0 };
-    text(canvas, [f64::midpoint(x0, x1), y + down], Side::Middle, &size);
-    text(canvas, [x0 - 3.0, y + 12.0], Side::End, &number(0, low[0]));
-    text(canvas, [x1 + 3.0, y + 12.0], Side::Start, &number(0, high[0]));
+    draw_text(canvas, [f64::midpoint(x0, x1), y + down], Side::Middle, &size);
+    draw_text(canvas, [x0 - 3.0, y + 12.0], Side::End, &number(0, low[0]));
+    draw_text(canvas, [x1 + 3.0, y + 12.0], Side::Start, &number(0, high[0]));
     let middle = f64::midpoint(y0, y1);
     let third = NUMBER_SIZE / 3.0;
-    text(canvas, [x - 4.0, middle + third], Side::End, &mm(high[1] - low[1]));
-    text(canvas, [x - 6.0, y0.min(middle - MIN_NUMBER_DISTANCE) + third], Side::End, &number(1, high[1]));
-    text(canvas, [x - 6.0, y1.max(middle + MIN_NUMBER_DISTANCE) + third], Side::End, &number(1, low[1]));
+    draw_text(canvas, [x - 4.0, middle + third], Side::End, &mm(high[1] - low[1]));
+    draw_text(
+        canvas,
+        [x - 6.0, y0.min(middle - MIN_NUMBER_DISTANCE) + third],
+        Side::End,
+        &number(1, high[1]),
+    );
+    draw_text(canvas, [x - 6.0, y1.max(middle + MIN_NUMBER_DISTANCE) + third], Side::End, &number(1, low[1]));
     canvas.close();
 }
 
@@ -314,7 +322,7 @@ enum Side {
     End,
 }
 
-fn text(canvas: &mut Canvas, at: Point, side: Side, text: &str) {
+fn draw_text(canvas: &mut Canvas, at: Point, side: Side, text: &str) {
     let (anchor, style) = match side {
         Side::Start => (Anchor::Start, ""),
         Side::Middle => (Anchor::Middle, ""),
@@ -324,7 +332,7 @@ fn text(canvas: &mut Canvas, at: Point, side: Side, text: &str) {
 }
 
 /// Draws a line with arrows at both ends.
-fn arrows(canvas: &mut Canvas, from: Point, to: Point) {
+fn draw_double_arrow(canvas: &mut Canvas, from: Point, to: Point) {
     canvas.line(from, to, "");
     let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
     if length < 12.0 {

@@ -10,7 +10,7 @@ use crate::extent::enclosing_box;
 use crate::scene::{MoveKind, Point, Scene, SceneMove, ScenePath};
 
 /// Length, in cutter diameters, of the pieces of a rapid move that are checked for material.
-const SEARCH_PIECE: f64 = 0.25;
+const SEARCH_PIECE_DIAMETERS: f64 = 0.25;
 
 /// Maximum number of pieces of a rapid move.
 const MAX_PIECES: f64 = 400.0;
@@ -93,7 +93,9 @@ impl HitSearch<'_> {
         if !self.is_low(movement) || movement.way.is_vertical() {
             return 1;
         }
-        let count = (movement.way.length() / (setting.diameter * SEARCH_PIECE)).ceil().clamp(1.0, MAX_PIECES);
+        let count = (movement.way.length() / (setting.diameter * SEARCH_PIECE_DIAMETERS))
+            .ceil()
+            .clamp(1.0, MAX_PIECES);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let count = count as u16;
         count

@@ -16,7 +16,8 @@ pub(super) fn draw_leftovers(canvas: &mut Canvas, part: &FinishedPart, place: &P
     clip_outside(canvas, part, place, reach, id);
     canvas.open(&format!("clip-path=\"url(#{id})\""));
     for stretch in &part.left {
-        let data: String = stretch.outline.iter().map(|shape| symbols::shape(shape, place)).collect();
+        let data: String =
+            stretch.outline.iter().map(|shape| symbols::shape_path_data(shape, place)).collect();
         stroke(canvas, &data, 2.0 * stretch.reach * place.scale(), LEFTOVER_COLOUR);
     }
     canvas.close();
@@ -40,13 +41,15 @@ pub(super) fn draw_defects(canvas: &mut Canvas, part: &FinishedPart, place: &Pag
         // Rings within an opening are left out, because an opening is not filled.
         let rings =
             part.rings.iter().enumerate().zip(&part.nests).filter(|((index, _), nest)| index == *nest);
-        rings.map(|((_, ring), _)| symbols::outline(ring, place)).collect()
+        rings.map(|((_, ring), _)| symbols::outline_path_data(ring, place)).collect()
     };
     if part.is_loose {
         canvas.path(&material(), &format!("fill=\"{LOOSE_COLOUR}\" fill-opacity=\"0.45\""));
     }
     let width = 2.0 * part.radius * place.scale();
-    let data = |shapes: &[Shape]| shapes.iter().map(|shape| symbols::shape(shape, place)).collect::<String>();
+    let data = |shapes: &[Shape]| {
+        shapes.iter().map(|shape| symbols::shape_path_data(shape, place)).collect::<String>()
+    };
     if !part.gouges.is_empty() {
         canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{}\"/></clipPath>", material()));
         canvas.open(&format!("clip-path=\"url(#{id})\""));
@@ -64,6 +67,6 @@ pub(super) fn draw_defects(canvas: &mut Canvas, part: &FinishedPart, place: &Pag
 fn clip_outside(canvas: &mut Canvas, part: &FinishedPart, place: &PageTransform, reach: f64, id: &str) {
     let corners = bounding_box(part.rings.iter().flatten().map(Shape::extent)).unwrap_or_default();
     let frame = rectangle(place, with_margin(corners, reach));
-    let rings: String = part.rings.iter().map(|ring| symbols::outline(ring, place)).collect();
+    let rings: String = part.rings.iter().map(|ring| symbols::outline_path_data(ring, place)).collect();
     canvas.raw(&format!("<clipPath id=\"{id}\"><path d=\"{frame}{rings}\"/></clipPath>"));
 }

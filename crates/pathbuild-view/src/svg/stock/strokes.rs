@@ -44,7 +44,7 @@ impl Piece {
             Self::Whole => *way,
             Self::Part { number, count } => {
                 let part = way.piece(number.into(), count.into());
-                if is_upright(way) { Move { shape: MoveShape::Line, ..part } } else { part }
+                if is_vertical_arc(way) { Move { shape: MoveShape::Line, ..part } } else { part }
             }
             Self::Bottom => {
                 let bottom = if way.from.z() < way.to.z() { way.from } else { way.to };
@@ -55,7 +55,7 @@ impl Piece {
 }
 
 /// Whether a move is an arc in a plane other than XY: seen from above, a straight line, whose height changes along it.
-fn is_upright(way: &Move) -> bool {
+fn is_vertical_arc(way: &Move) -> bool {
     matches!(way.shape, MoveShape::Arc(arc) if arc.plane.axes() != [0, 1])
 }
 
@@ -250,7 +250,7 @@ impl StrokeBuilder {
         } else if high - low < step / 4.0 {
             self.add(at, high, setting, rounded(low) == rounded(high));
         } else {
-            let count = if is_upright(way) { SLOPE_STEPS } else { (high - low) / step };
+            let count = if is_vertical_arc(way) { SLOPE_STEPS } else { (high - low) / step };
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,

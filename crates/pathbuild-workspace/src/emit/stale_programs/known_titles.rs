@@ -153,7 +153,11 @@ impl KnownTitles {
     }
 
     /// Returns the drawing and the path in the title of a program, if the run generates nothing for this path.
-    pub(super) fn idle_path(&self, directory: &Utf8Path, title: &str) -> Option<(&Utf8Path, &PathName)> {
+    pub(super) fn path_without_output(
+        &self,
+        directory: &Utf8Path,
+        title: &str,
+    ) -> Option<(&Utf8Path, &PathName)> {
         let number = *self.idle.get(&(directory.to_owned(), plain_title(title)))?;
         let (_, drawing, name) = &self.paths[number?];
         Some((drawing, name))
@@ -190,14 +194,15 @@ impl KnownTitles {
 /// Returns the names of the files in the search directories, normalised for comparison.
 fn searched_drawings(session: &Session<'_>) -> BTreeSet<String> {
     let directories = session.workspace().settings.general.search.value.iter();
-    let listed = directories.filter_map(|directory| session.file_names_in(&session.normal(directory)).ok());
+    let listed =
+        directories.filter_map(|directory| session.file_names_in(&session.normalize(directory)).ok());
     listed.flat_map(|names| names.iter().map(plain_title).collect::<Vec<_>>()).collect()
 }
 
 /// Whether a directory lies outside the directory of the configuration.
 fn is_outside(session: &Session<'_>, directory: &Utf8Path) -> bool {
     let workspace = session.workspace();
-    let own = session.normal(workspace.settings.directory().unwrap_or(&workspace.working_directory));
+    let own = session.normalize(workspace.settings.directory().unwrap_or(&workspace.working_directory));
     let rest = directory.strip_prefix(own);
     !rest.is_ok_and(|rest| rest.is_relative() && !rest.starts_with(".."))
 }

@@ -85,10 +85,10 @@ impl<'a> EarlierPrograms<'a> {
         stale.retain(|program| !reported.contains(&program.path));
         let (unselected, stale) =
             stale.into_iter().partition(|stale| matches!(stale.reason, Reason::Unselected { .. }));
-        StaleOutcome { older, unselected, ..self.settle(stale, is_removed, diagnostics) }
+        StaleOutcome { older, unselected, ..self.report_or_remove(stale, is_removed, diagnostics) }
     }
 
-    fn settle(
+    fn report_or_remove(
         &self,
         stale: Vec<StaleProgram>,
         is_removed: bool,
@@ -97,7 +97,7 @@ impl<'a> EarlierPrograms<'a> {
         let mut outcome = StaleOutcome::default();
         for stale in stale {
             if !is_removed || self.is_kept(&stale) {
-                let finding = self.judge(&stale);
+                let finding = self.finding_about(&stale);
                 if self.session.workspace().has_error([&finding]) {
                     outcome.outdated.push(stale.path);
                 }
@@ -146,7 +146,7 @@ impl<'a> EarlierPrograms<'a> {
 
     /// Returns the finding about a stale program. In a comparison it is an error, unless the program may belong to another library, or may have been
     /// emitted from an ignored drawing by its name.
-    fn judge(&self, stale: &StaleProgram) -> Diagnostic {
+    fn finding_about(&self, stale: &StaleProgram) -> Diagnostic {
         let finding = stale.diagnostic();
         match stale.reason {
             Reason::OfOthers | Reason::Ignored { .. } => finding,
@@ -227,7 +227,8 @@ pub(super) fn has_stale_adjusted_program(
     let path = OutputKind::Milling.file(&job.stem);
     let Some((found, title)) = provenance(session, &path) else { return false };
     let former = FormerFile { job, kind: OutputKind::Milling, provenance: now };
-    let stale = former.stale_program(session, path, &found).filter(|_| is_of(job, session, &title));
+    let stale =
+        former.stale_program(session, path, &found).filter(|_| has_title_of_job(job, session, &title));
     stale.is_some_and(|stale| {
         matches!(stale.reason, Reason::Adjusted { .. } | Reason::Edited { .. } | Reason::OtherValues { .. })
     })
@@ -239,7 +240,7 @@ fn provenance(session: &Session<'_>, program: &Utf8Path) -> Option<(Provenance, 
 }
 
 /// Whether a program's title names the path of this job.
-fn is_of(job: &Job, session: &Session<'_>, title: &str) -> bool {
+fn has_title_of_job(job: &Job, session: &Session<'_>, title: &str) -> bool {
     let db = session.db();
     let drawing = job.drawing(db).path(db).file_name().unwrap_or_default();
     native::is_title(title, drawing, &job.path)

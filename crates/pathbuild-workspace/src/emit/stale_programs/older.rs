@@ -12,7 +12,7 @@ use pathbuild_gcode::native::{self, plain_title};
 use super::names::is_gcode;
 use super::{EarlierPrograms, file_name, provenance};
 use crate::emit::outcome::{ProgramOutcome, State, Task};
-use crate::emit::plan::{Job, output_directory, posted_program};
+use crate::emit::plan::{Job, output_directory, post_output_file};
 use crate::memo::find;
 use crate::post_processor::PostProcessor;
 use crate::session::Argument;
@@ -135,7 +135,7 @@ impl<'a> EarlierPrograms<'a> {
     ) -> Option<Utf8PathBuf> {
         let db = self.session.db();
         let directory = output_directory(self.session.out_dir().as_deref(), first.file(db).path(db));
-        let program = posted_program(&join(&directory, name), post_processor);
+        let program = post_output_file(&join(&directory, name), post_processor);
         let (_, title) = provenance(self.session, &program)?;
         native::joined_paths(&title).map(|_| program)
     }

@@ -7,14 +7,14 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{Names, is_drawing, join};
 use pathbuild_db::{Db, Role, program};
 use pathbuild_diagnostic::Diagnostic;
-use pathbuild_gcode::adjust::{Source, is_adjusted_from, listed_heights, states_other_values};
+use pathbuild_gcode::adjust::{Source, has_differing_values, is_adjusted_from, listed_heights};
 use pathbuild_gcode::native::{self, plain_title};
 use pathbuild_gcode::provenance::Provenance;
 
 use super::known_titles::KnownTitles;
 use super::names::{has_name_of_title, is_gcode, is_sheet, possible_files};
 use super::reason::{Reason, StaleProgram};
-use super::{EarlierPrograms, file_name, is_of, provenance};
+use super::{EarlierPrograms, file_name, has_title_of_job, provenance};
 use crate::emit::options::Provenances;
 use crate::emit::outcome::Task;
 use crate::emit::plan::Job;
@@ -91,14 +91,14 @@ impl<'a> StaleSearch<'a> {
         let mut stale = Vec::new();
         for directory in directories.iter().filter(|directory| seen.insert(directory)) {
             let names = self.run.file_names_in(directory, diagnostics);
-            stale.extend(self.stale_in(directory, &names, out_dir));
+            stale.extend(self.stale_programs_in(directory, &names, out_dir));
         }
         let former =
             if directories.is_empty() { Vec::new() } else { session.possible_output_directories(out_dir) };
         for directory in former.iter().filter(|directory| seen.insert(directory)) {
             // No programs are expected in this directory, so no error is reported if it cannot be listed.
             let names = session.file_names_in(directory).unwrap_or_default();
-            stale.extend(self.stale_in(directory, &names, None));
+            stale.extend(self.stale_programs_in(directory, &names, None));
         }
         let Some(out_dir) = out_dir else { return stale };
         stale.extend(self.programs_beside_drawings(out_dir));
@@ -109,7 +109,12 @@ impl<'a> StaleSearch<'a> {
     }
 
     /// Returns the stale programs in a directory to which the run writes nothing. `names` lists its files.
-    fn stale_in(&self, directory: &Utf8Path, names: &Names, out_dir: Option<&Utf8Path>) -> Vec<StaleProgram> {
+    fn stale_programs_in(
+        &self,
+        directory: &Utf8Path,
+        names: &Names,
+        out_dir: Option<&Utf8Path>,
+    ) -> Vec<StaleProgram> {
         let drawings = names.iter().filter(|name| is_drawing(Utf8Path::new(name)));
         let drawings: HashSet<String> = drawings.map(plain_title).collect();
         let stale = |path: Utf8PathBuf| {
@@ -137,7 +142,8 @@ impl<'a> StaleSearch<'a> {
             let directory = drawing.parent().unwrap_or(Utf8Path::new(""));
             if directory != out_dir && !searched.contains(directory) {
                 let files = possible_files(&join(directory, file_name(&job.stem)));
-                let own = files.filter(|path| title(path).is_some_and(|title| is_of(job, session, &title)));
+                let own = files
+                    .filter(|path| title(path).is_some_and(|title| has_title_of_job(job, session, &title)));
                 let reason = || Reason::Beside { directory: out_dir.to_owned() };
                 stale.extend(own.map(|path| StaleProgram { path, reason: reason() }));
             }
@@ -150,7 +156,7 @@ impl<'a> StaleSearch<'a> {
     pub(super) fn program_if_stale(&self, path: Utf8PathBuf, beside: Option<&Names>) -> Option<StaleProgram> {
         let (found, title) = provenance(self.run.session, &path)?;
         match self.native_job_of(&path) {
-            Some(own) if is_of(own.job, self.run.session, &title) => {
+            Some(own) if has_title_of_job(own.job, self.run.session, &title) => {
                 own.stale_program(self.run.session, path, &found)
             }
             _ if self.is_converted(&path, &found, &title) => self.stale_converted_program(path),
@@ -194,7 +200,7 @@ impl<'a> StaleSearch<'a> {
             let text = read(path).filter(|_| now.is_some_and(|now| now.is_same(found)));
             text.is_some_and(|text| job.files.iter().any(|(_, file)| read(file).as_ref() == Some(&text)))
         };
-        let job = self.run.jobs.iter().find(|job| is_of(job, session, title));
+        let job = self.run.jobs.iter().find(|job| has_title_of_job(job, session, title));
         let current = job.filter(|job| is_current(job));
         current.map_or(Reason::Copied, |job| Reason::CurrentCopy { path: job.path.to_string() })
     }
@@ -203,7 +209,7 @@ impl<'a> StaleSearch<'a> {
     /// path.
     fn reason_if_unselected(&self, directory: &Utf8Path, found: &Provenance, title: &str) -> Option<Reason> {
         let session = self.run.session;
-        let (drawing, name) = self.known_titles.idle_path(directory, title)?;
+        let (drawing, name) = self.known_titles.path_without_output(directory, title)?;
         let target = session.db().target(session.file(drawing), name.as_str(), Role::Emitted);
         let is_selected = self.run.targets.contains(&target);
         let path = name.to_string();
@@ -245,7 +251,7 @@ impl<'a> StaleSearch<'a> {
         let name = OutputName::parse(path.as_str())?;
         let job = self.job(name).filter(|_| OutputKind::GCODE.contains(&name.kind))?;
         let now = job.outcome.as_ref()?.provenance.as_ref()?;
-        let is_meant = is_of(job, self.run.session, title) && now.moves != found.moves;
+        let is_meant = has_title_of_job(job, self.run.session, title) && now.moves != found.moves;
         let program = job.files.first()?.1.clone();
         is_meant.then(|| StaleProgram { path: path.to_owned(), reason: Reason::OtherMoves { program } })
     }
@@ -259,7 +265,7 @@ impl<'a> StaleSearch<'a> {
         self.run.post_processor.is_none()
             && name.kind != OutputKind::Clean
             && job.files.iter().any(|(kind, _)| *kind == OutputKind::Clean)
-            && is_of(job, self.run.session, title)
+            && has_title_of_job(job, self.run.session, title)
             && now.is_some_and(|now| now.moves == found.moves)
             && provenance(self.run.session, &name.kind.file(name.stem))
                 .is_some_and(|(beside, _)| beside.is_same(found))
@@ -376,7 +382,7 @@ impl FormerFile<'_> {
             return Some(Reason::Edited { clean: clean.to_owned() });
         }
         let values = self.file(OutputKind::Values)?;
-        let is_other = states_other_values(program, source(values, &read(values)?));
+        let is_other = has_differing_values(program, source(values, &read(values)?));
         is_other.then(|| Reason::OtherValues { values: values.to_owned() })
     }
 }

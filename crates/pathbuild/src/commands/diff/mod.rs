@@ -7,14 +7,15 @@ use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::Role;
 use pathbuild_db::system::{FileKind, is_drawing};
 use pathbuild_diagnostic::messages::outputs;
-use pathbuild_diagnostic::{Diagnostic, Lang, shown};
+use pathbuild_diagnostic::{Diagnostic, Lang, escaping};
 use pathbuild_gcode::dialect::Dialect;
 use pathbuild_gcode::interpret::{Heights, Options, Program as _, interpret};
 use pathbuild_gcode::provenance::{HEAD_BYTES, Provenance};
 use pathbuild_view::{GcodeSource, ScenePath, gcode_path};
 use pathbuild_workspace::baseline::Baseline;
 use pathbuild_workspace::diff::{
-    Comparison, MachineStates, Outcome, PathDiff, ProgramDiff, StateKind, Tree, compare_moves, compare_trees,
+    Comparison, MachineStates, PathChangeKind, PathDiff, ProgramDiff, StateKind, Tree, compare_moves,
+    compare_trees,
 };
 use pathbuild_workspace::emit::{ShownText, missing_values};
 use pathbuild_workspace::post_processor::{PostArguments, PostProcessor};
@@ -77,10 +78,10 @@ fn compare_two_programs(old: ComparedProgram, new: ComparedProgram, pictures: Op
         // Corrections by measured heights show as changed moves, so they are listed separately only if no move has changed.
         states.retain(|state| state.kind != StateKind::Correction || changed.groups.is_empty());
         let is_same = changed.groups.is_empty() && states.is_empty();
-        (!is_same).then(|| Outcome::Changed(Box::new(ProgramDiff { states, ..changed })))
+        (!is_same).then(|| PathChangeKind::Changed(Box::new(ProgramDiff { states, ..changed })))
     };
     let has_errors = [&old, &new].map(|program| !program.are_moves_known);
-    let outcome = Outcome::of_errors(has_errors).or_else(changed);
+    let outcome = PathChangeKind::of_errors(has_errors).or_else(changed);
     let files = [&old, &new].map(|seen| Some(seen.path.file.clone().into()));
     let name = new.path.name.clone();
     let paths =
@@ -100,7 +101,8 @@ fn finish(context: &Context, output: &Output, comparison: &Comparison) -> ExitSt
     if let Err(problem) = output.deliver(context, comparison) {
         return context.fail(vec![*problem]);
     }
-    let is_broken = |path: &PathDiff| matches!(path.outcome, Outcome::Broken | Outcome::StillBroken);
+    let is_broken =
+        |path: &PathDiff| matches!(path.outcome, PathChangeKind::Broken | PathChangeKind::StillBroken);
     // Errors of old drawings do not decide the status, unless something was not compared because of them.
     let decides = |problem: &&Diagnostic| {
         !problem.file.as_deref().is_some_and(is_drawing) || !Baseline::may_accept(problem)
@@ -183,7 +185,7 @@ fn not_in_repository(context: &Context, drawing: &Utf8Path) -> Failure {
     Failure::Usage(context.phrase(
         "{} is not in the repository of the working directory: run `diff` in the repository of the drawing",
         "{} ist nicht im Repository des Arbeitsverzeichnisses: `diff` im Repository der Zeichnung aufrufen",
-        &shown::line(drawing.as_str()),
+        &escaping::line(drawing.as_str()),
     ))
 }
 
@@ -205,7 +207,7 @@ fn kind_of(context: &Context, argument: &str) -> ArgumentKind {
 
 fn drawings_side(context: &Context, place: Utf8PathBuf, revision: Option<Revision>) -> Result<Side, Failure> {
     let is_drawing = is_drawing(&place);
-    let named = Inputs::places([&place]);
+    let named = Inputs::of_files([&place]);
     let (workspace, mut faults) = context.workspace_of_inputs(&named);
     if !faults.is_empty() {
         if let Some(revision) = &revision {
@@ -340,7 +342,7 @@ fn path(
         let path = seen.scene.paths.into_iter().next().unwrap_or_default();
         let cutter = path.tool;
         let path = match post_processor {
-            Some(_) if path.native.is_some() => with_posted_program(context, path, args)?,
+            Some(_) if path.native.is_some() => with_post_output(context, path, args)?,
             _ => with_printed_program(path),
         };
         let states = MachineStates::of_drawing(cutter);
@@ -360,13 +362,13 @@ fn post_processor_of(context: &Context, program: &Utf8Path) -> Option<PostProces
             ..PostArguments::default()
         };
         let found = PostProcessor::for_run(context, name, arguments).ok().flatten();
-        found.filter(|post_processor| post_processor.reader() == dialect)
+        found.filter(|post_processor| post_processor.reading_dialect() == dialect)
     };
     post_processor(None).or_else(|| post_processor(Some(dialect?.name())))
 }
 
 /// Replaces a path's program by the text of its post-processor, read in the same way as a program in a file.
-fn with_posted_program(context: &Context, path: ScenePath, args: &DiffArgs) -> Result<ScenePath, Failure> {
+fn with_post_output(context: &Context, path: ScenePath, args: &DiffArgs) -> Result<ScenePath, Failure> {
     let text = path.gcode.unwrap_or_default().into_bytes();
     let program = reader(context, args)?.read(Utf8Path::new(&path.file), text);
     let program = program.map_err(|problem| Failure::Found(vec![*problem]))?;

@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use pathbuild_diagnostic::{Diagnostic, Lang, Number, shown};
+use pathbuild_diagnostic::{Diagnostic, Lang, Number, escaping};
 use pathbuild_path::{DrawnChange, ElementChange};
 use pathbuild_view::{ChangeKind, Group, Totals, escaped, moves, phrase};
 use pathbuild_workspace::diff::{
-    Comparison, Outcome, PathDiff, PictureSet, ProgramDiff, Reason, StateChange,
+    Comparison, PathChangeKind, PathDiff, PictureSet, ProgramDiff, Reason, StateChange,
 };
 use pathbuild_workspace::files::write_error;
 use serde::Serialize;
@@ -40,7 +40,7 @@ impl Output {
                 return Err(context.phrase(
                     "-o {}: the name must end in .html or .md",
                     "-o {}: der Name muss auf .html oder .md enden",
-                    &shown::line(file.as_str()),
+                    &escaping::line(file.as_str()),
                 ));
             }
         };
@@ -63,7 +63,7 @@ impl Output {
         };
         let refused = |reason| Box::new(write_error(file, reason));
         let state = state_word(context, context.system.write(file, text.as_bytes()).map_err(refused)?);
-        context.printer.status(format_args!("{}: {state}", shown::line(file.as_str())));
+        context.printer.status(format_args!("{}: {state}", escaping::line(file.as_str())));
         Ok(())
     }
 }
@@ -75,11 +75,11 @@ pub(super) fn text(comparison: &Comparison, lang: Lang) -> String {
         _ = writeln!(
             text,
             "{} · {}: {}",
-            shown::line(&path.name),
-            shown::line(&place(path)),
+            escaping::line(&path.name),
+            escaping::line(&place(path)),
             outcome(path, comparison, lang)
         );
-        if let Outcome::Changed(program) = &path.outcome {
+        if let PathChangeKind::Changed(program) = &path.outcome {
             for line in details(program, lang) {
                 _ = writeln!(text, "  {line}");
             }
@@ -106,19 +106,19 @@ pub(super) fn place(path: &PathDiff) -> String {
 pub(super) fn outcome(path: &PathDiff, comparison: &Comparison, lang: Lang) -> &'static str {
     let (en, de) = match &path.outcome {
         // The error is shown among the problems, so there is no need to refer to `check`, which would not report errors that only programs have.
-        Outcome::Broken if path.files[0].is_none() => ("new, has errors", "neu, hat Fehler"),
-        Outcome::Broken if comparison.has_error_of(path) => ("has errors now", "hat jetzt Fehler"),
-        Outcome::Added => ("new", "neu"),
-        Outcome::Removed => ("gone", "weg"),
-        Outcome::Broken => {
+        PathChangeKind::Broken if path.files[0].is_none() => ("new, has errors", "neu, hat Fehler"),
+        PathChangeKind::Broken if comparison.has_error_of(path) => ("has errors now", "hat jetzt Fehler"),
+        PathChangeKind::Added => ("new", "neu"),
+        PathChangeKind::Removed => ("gone", "weg"),
+        PathChangeKind::Broken => {
             ("has errors now (pathbuild check shows them)", "hat jetzt Fehler (pathbuild check zeigt sie)")
         }
-        Outcome::Mended => ("had errors, has none now", "hatte Fehler, jetzt keine mehr"),
-        Outcome::StillBroken => ("has errors, before and now", "hat Fehler, vorher und jetzt"),
-        Outcome::OtherDrawing => {
+        PathChangeKind::Mended => ("had errors, has none now", "hatte Fehler, jetzt keine mehr"),
+        PathChangeKind::StillBroken => ("has errors, before and now", "hat Fehler, vorher und jetzt"),
+        PathChangeKind::OtherDrawing => {
             ("the same moves, from another drawing", "dieselben Bewegungen, aus anderer Zeichnung")
         }
-        Outcome::Changed(_) => ("changed", "geändert"),
+        PathChangeKind::Changed(_) => ("changed", "geändert"),
     };
     lang.choose(en, de)
 }
@@ -226,8 +226,9 @@ fn totals(old: &Totals, new: &Totals, lang: Lang) -> String {
 
 /// Formats a summary such as "2 of 35 paths changed, 1 new".
 pub(super) fn summary(comparison: &Comparison, lang: Lang) -> String {
-    let count = |is: fn(&Outcome) -> bool| comparison.paths.iter().filter(|path| is(&path.outcome)).count();
-    let changed = count(|outcome| matches!(outcome, Outcome::Changed(_)));
+    let count =
+        |is: fn(&PathChangeKind) -> bool| comparison.paths.iter().filter(|path| is(&path.outcome)).count();
+    let changed = count(|outcome| matches!(outcome, PathChangeKind::Changed(_)));
     let paths = counted(comparison.path_count, [["path", "paths"], ["Pfad", "Pfaden"]], lang);
     let mut parts = vec![match lang {
         Lang::En => format!("{changed} of {paths} changed"),
@@ -238,17 +239,21 @@ pub(super) fn summary(comparison: &Comparison, lang: Lang) -> String {
             parts.push(format!("{number} {}", lang.choose(en, de)));
         }
     };
-    add(count(|outcome| matches!(outcome, Outcome::Added)), "new", "neu");
-    add(count(|outcome| matches!(outcome, Outcome::Removed)), "gone", "weg");
-    add(count(|outcome| matches!(outcome, Outcome::Broken)), "with errors now", "jetzt mit Fehlern");
-    add(count(|outcome| matches!(outcome, Outcome::Mended)), "without errors now", "jetzt ohne Fehler");
+    add(count(|outcome| matches!(outcome, PathChangeKind::Added)), "new", "neu");
+    add(count(|outcome| matches!(outcome, PathChangeKind::Removed)), "gone", "weg");
+    add(count(|outcome| matches!(outcome, PathChangeKind::Broken)), "with errors now", "jetzt mit Fehlern");
     add(
-        count(|outcome| matches!(outcome, Outcome::StillBroken)),
+        count(|outcome| matches!(outcome, PathChangeKind::Mended)),
+        "without errors now",
+        "jetzt ohne Fehler",
+    );
+    add(
+        count(|outcome| matches!(outcome, PathChangeKind::StillBroken)),
         "with errors before and now",
         "vorher und jetzt mit Fehlern",
     );
     add(
-        count(|outcome| matches!(outcome, Outcome::OtherDrawing)),
+        count(|outcome| matches!(outcome, PathChangeKind::OtherDrawing)),
         "from another drawing",
         "aus anderer Zeichnung",
     );
@@ -272,7 +277,7 @@ pub(super) fn markdown(comparison: &Comparison, lang: Lang) -> String {
     if !comparison.paths.is_empty() {
         write_path_table(&mut text, comparison, lang);
     }
-    shown::lines(&text).into_owned()
+    escaping::lines(&text).into_owned()
 }
 
 fn write_path_table(text: &mut String, comparison: &Comparison, lang: Lang) {
@@ -280,7 +285,7 @@ fn write_path_table(text: &mut String, comparison: &Comparison, lang: Lang) {
     _ = writeln!(text, "\n{head}\n| --- | --- | --- |");
     for path in &comparison.paths {
         let mut cell = outcome(path, comparison, lang).to_owned();
-        if let Outcome::Changed(program) = &path.outcome {
+        if let PathChangeKind::Changed(program) = &path.outcome {
             let reasons = explanation(program, lang).into_iter();
             let reasons = reasons.map(|(depth, line)| format!("{}{line}", "– ".repeat(depth)));
             let lines = details(program, lang).into_iter().chain(reasons);
@@ -293,7 +298,7 @@ fn write_path_table(text: &mut String, comparison: &Comparison, lang: Lang) {
 /// Replaces every character that could be markup or begin a mention by a character reference.
 fn escaped_markdown(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
-    for character in shown::line(text).chars() {
+    for character in escaping::line(text).chars() {
         let is_plain =
             character.is_alphanumeric() || matches!(character, ' ' | '.' | ',' | '/' | '-' | '(' | ')' | '→');
         if is_plain {
@@ -312,7 +317,7 @@ fn cell_of(name: &str) -> String {
 
 /// Formats a text as code, because GitHub turns addresses, numbers and hashes in ordinary text into links, even if they are escaped.
 fn code(text: &str) -> String {
-    let text = shown::line(text);
+    let text = escaping::line(text);
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let ticks = "`".repeat(longest + 1);
     // Markdown removes the blanks next to the backticks.
@@ -329,17 +334,17 @@ pub(super) fn rows(context: &Context, comparison: &Comparison) {
 
 fn path_json(path: &PathDiff, lang: Lang) -> Value {
     let outcome = match &path.outcome {
-        Outcome::Added => "added",
-        Outcome::Removed => "removed",
-        Outcome::Broken => "broken",
-        Outcome::Mended => "mended",
-        Outcome::StillBroken => "still-broken",
-        Outcome::OtherDrawing => "other-drawing",
-        Outcome::Changed(_) => "changed",
+        PathChangeKind::Added => "added",
+        PathChangeKind::Removed => "removed",
+        PathChangeKind::Broken => "broken",
+        PathChangeKind::Mended => "mended",
+        PathChangeKind::StillBroken => "still-broken",
+        PathChangeKind::OtherDrawing => "other-drawing",
+        PathChangeKind::Changed(_) => "changed",
     };
     let [old, new] = path.files.each_ref().map(|file| file.as_deref().map(Utf8Path::as_str));
     let mut value = json!({ "path": path.name, "old_file": old, "new_file": new, "outcome": outcome });
-    if let Outcome::Changed(program) = &path.outcome {
+    if let PathChangeKind::Changed(program) = &path.outcome {
         value["changes"] = program.groups.iter().map(group_json).collect();
         if program.has_undivided_moves {
             value["has_undivided_moves"] = json!(true);
@@ -472,7 +477,7 @@ fn add_section(page: &mut String, path: &PathDiff, comparison: &Comparison, lang
         escaped(&place(path)),
         outcome(path, comparison, lang)
     );
-    if let Outcome::Changed(program) = &path.outcome {
+    if let PathChangeKind::Changed(program) = &path.outcome {
         page.push_str("<ul>\n");
         for line in details(program, lang) {
             _ = writeln!(page, "<li>{}</li>", escaped(&line));

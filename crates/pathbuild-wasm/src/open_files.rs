@@ -7,7 +7,7 @@ use std::time::Instant;
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_db::system::{FileKind, Listing, MemorySystem, ReadError, Stamp, WriteOutcome, clean};
 use pathbuild_db::{
-    Db as _, Role, SourceFile, System, Target, bug, check_file, file_index, path_names, too_slow,
+    Db as _, Role, SourceFile, System, Target, bug, check_file, file_index, path_names, time_limit_error,
 };
 use pathbuild_diagnostic::Diagnostic;
 use pathbuild_path::PathName;
@@ -85,7 +85,7 @@ impl OpenedFiles {
             "seconds": limit.as_secs_f64(),
         });
         let problem = |why| match why {
-            AbortReason::Time => too_slow(limit),
+            AbortReason::Time => time_limit_error(limit),
             AbortReason::Bug { reason } => bug(&reason),
         };
         let lost = lost.into_iter().map(|AbortedItem { place, why }| (place, problem(why))).collect();
@@ -167,7 +167,7 @@ impl OpenedFiles {
     fn check(&mut self, place: Place) -> Option<Value> {
         let path = if let Some(problem) = self.lost.get(&place) {
             let name = PathName::new(place.path.as_deref()?);
-            ListedPath::unknown(name, self.session.normal(Utf8Path::new(&place.file)), problem.clone())
+            ListedPath::unknown(name, self.session.normalize(Utf8Path::new(&place.file)), problem.clone())
         } else {
             let (file, name) = self.path(&place)?;
             list::of_path(&mut self.session, file, &name, self.post_processor.as_ref()).pop()?
