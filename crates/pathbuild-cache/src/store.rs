@@ -10,7 +10,7 @@ use std::{fs, io};
 use camino::{Utf8Path, Utf8PathBuf};
 use pathbuild_diagnostic::reasons::{self, HOLDS_OTHERS, NO_CACHE, reason};
 use pathbuild_diagnostic::{Text, Value};
-use pathbuild_files::{CLOCK, Clock, private};
+use pathbuild_files::{CLOCK, FileSystemTime, private};
 
 use crate::catalogue::{CacheFault, Catalogue, Key, decode_file, encode_file, is_file_name, key_of};
 
@@ -100,8 +100,8 @@ impl TreeStore {
     ///
     /// # Errors
     /// If no file can be written in the directory.
-    pub fn clock(&self) -> io::Result<Clock> {
-        Clock::of(&self.directory)
+    pub fn clock(&self) -> io::Result<FileSystemTime> {
+        FileSystemTime::now_in(&self.directory)
     }
 
     /// Creates the directory, and the tag that keeps it out of backups. Returns whether the directory is new.

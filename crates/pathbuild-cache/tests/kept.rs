@@ -19,7 +19,7 @@ use pathbuild_diagnostic::messages::{self, parameters};
 use pathbuild_diagnostic::{
     Diagnostic, EntityKind, Handle, Number, Point, TextFault, TraceStep, Value, words,
 };
-use pathbuild_files::{Clock, Stamp};
+use pathbuild_files::{FileSystemTime, Stamp};
 use tempfile::TempDir;
 
 fn place() -> (TempDir, Utf8PathBuf) {
@@ -117,7 +117,7 @@ fn a_catalogue_is_found_under_its_key_and_build_only() {
 }
 
 /// Writes a file and waits for `rest`. Returns the file, and the time at which a run begins afterwards.
-fn written(base: &Utf8Path, rest: Duration) -> (Utf8PathBuf, Clock) {
+fn written(base: &Utf8Path, rest: Duration) -> (Utf8PathBuf, FileSystemTime) {
     let file = base.join("a.dxf");
     fs::write(&file, "one").unwrap();
     sleep(rest);

@@ -292,8 +292,8 @@ impl<'r, 'a, 'o> Model<'r, 'a, 'o> {
         self.refuse_insertion(site, &[site.layer], &site.omission_error(&BLOCK_ELSEWHERE, layers))
     }
 
-    /// Reports a missing block that is inserted on a layer that is not read. Reports nothing if that layer, or that of an insertion around it, is
-    /// frozen, or in compatible mode.
+    /// Reports a missing block that is inserted on a layer that is not read, unless that layer or the layer of an enclosing insertion is frozen. In
+    /// compatible mode, nothing is reported.
     fn note_missing(&mut self, site: &InsertionSite<'_, 'a>) -> Result<(), FatalError> {
         let is_compatible = self.reader.options.compatible;
         let placed = site.place(self.reader)?;

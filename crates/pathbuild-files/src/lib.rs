@@ -17,7 +17,7 @@ pub use path_spelling::{
     clean, is_drawing, is_hidden, is_windows_device, join, or_current_directory, with_forward_slashes,
 };
 pub use replace::is_temporary;
-pub use stamp::{CLOCK, Clock, Stamp};
+pub use stamp::{CLOCK, FileSystemTime, Stamp};
 pub use wrappers::{ConfinedSystem, FixedDirectorySystem};
 
 use std::fmt::{self, Debug};

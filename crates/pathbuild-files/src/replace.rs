@@ -23,7 +23,7 @@ pub(crate) fn write(path: &Utf8Path, bytes: &[u8], is_private: bool) -> io::Resu
     }
     let (temporary, mut file) = create_temporary(path, is_private)?;
     let written = file.write_all(bytes).and_then(|()| file.flush());
-    // The lock is held until the file has its final name.
+    // `file` stays open, and so locked, until it has its final name: another run removes unlocked temporary files as leftovers.
     let renamed = written.and_then(|()| retry_while_busy(|| fs::rename(&temporary, path)));
     // Best effort: the first error is the one to report.
     renamed.inspect_err(|_| _ = fs::remove_file(&temporary))

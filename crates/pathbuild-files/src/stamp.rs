@@ -24,7 +24,7 @@ pub struct Stamp([u64; 6]);
 
 /// The time by the clock of a directory's file system, which may differ from this machine's clock.
 #[derive(Clone, Copy, Debug)]
-pub struct Clock(SystemTime);
+pub struct FileSystemTime(SystemTime);
 
 /// Base name of the temporary file whose modification time is the time of the file system, as in `.clock.123-0.tmp`.
 pub const CLOCK: &str = "clock";
@@ -55,13 +55,13 @@ impl Stamp {
 
     /// Returns the stamp to store for a run that began reading at `begun`: [`UNKNOWN`](Self::UNKNOWN) if the file was not at rest by then.
     #[must_use]
-    pub fn for_storing(self, begun: Clock) -> Self {
+    pub fn for_storing(self, begun: FileSystemTime) -> Self {
         let is_of_file = self != Self::MISSING && self != Self::UNKNOWN;
         if is_of_file && !self.is_old_enough(begun) { Self::UNKNOWN } else { self }
     }
 
     /// Whether the file's last change is old enough that a later one would alter the stamp.
-    fn is_old_enough(self, Clock(begun): Clock) -> bool {
+    fn is_old_enough(self, FileSystemTime(begun): FileSystemTime) -> bool {
         // Times before 1970 are not trusted: a file with such a time is never considered old enough.
         let is_before = |seconds: u64| {
             let time = i64::try_from(seconds)
@@ -80,7 +80,7 @@ impl Stamp {
     }
 }
 
-impl Clock {
+impl FileSystemTime {
     /// Returns the time an hour ago, by this machine's clock. A file that was at rest by then is at rest now, even if the clock of its file system
     /// differs by minutes.
     #[expect(
@@ -96,7 +96,7 @@ impl Clock {
     ///
     /// # Errors
     /// If no file can be created there.
-    pub fn of(directory: &Utf8Path) -> io::Result<Self> {
+    pub fn now_in(directory: &Utf8Path) -> io::Result<Self> {
         let (probe, file) = replace::create_temporary(&directory.join(CLOCK), true)?;
         let time = file.metadata().and_then(|data| data.modified());
         // Best effort: a leftover temporary file does no harm.

@@ -92,7 +92,7 @@ impl Interpolation<'_> {
         }
     }
 
-    /// Returns PB305 for the variable with references left in its value.
+    /// Returns PB305 for a value in which references are left after all passes. `name` is the variable that the first of them names.
     fn endless_reference_error(&self, name: String) -> Box<Diagnostic> {
         let problem = if self.bindings.0.len() > MAX_REFERENCE_DEPTH {
             Diagnostic::new(&messages::TOO_DEEP).with("limit", MAX_REFERENCE_DEPTH)

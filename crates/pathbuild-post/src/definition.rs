@@ -166,7 +166,7 @@ impl PostDefinition {
         }
         let rounding = self.check_rounding(job, options.unchecked).map_err(|error| vec![*error])?;
         let chord = self.check_chord(job);
-        let options = &self.restricted_to(options, target.as_ref());
+        let options = &self.supported_options(options, target.as_ref());
         let target = target.as_ref();
         let EngineOutput { text, translation, origins, warnings, notes, follows_coolant, post_build } =
             match &self.engine {
@@ -373,7 +373,7 @@ impl PostDefinition {
 
     /// Restricts the options to the capabilities of the target. For a control without cycles, holes are written as moves, unless the
     /// definition leaves the word of the cycle (G81) empty, because it then writes holes in its own way.
-    fn restricted_to<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
+    fn supported_options<'o>(&self, options: &PostOptions<'o>, target: Option<&Target>) -> PostOptions<'o> {
         let (writes_cycles, is_wrapped) = match &self.engine {
             Engine::CamBam(definition) => {
                 (definition.writes_cycles(), definition.is_wrapped() || definition.is_for_beam())

@@ -55,7 +55,7 @@ impl LineStarts {
     }
 
     /// Returns the offset at which the line of a byte begins.
-    pub(crate) fn start(&self, byte: usize) -> usize {
+    pub(crate) fn line_start(&self, byte: usize) -> usize {
         self.index(byte).checked_sub(1).map_or(0, |index| self.0[index])
     }
 

@@ -87,7 +87,7 @@ impl Job {
 /// The cutter that the head of a native program states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NativeCutter {
-    /// The line of the head.
+    /// The line of the head's comment that states the cutter.
     pub line: u32,
     /// The path of the program; `None` if the head does not name it.
     pub path: Option<String>,

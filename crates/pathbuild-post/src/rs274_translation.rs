@@ -166,7 +166,7 @@ impl Rs274Translation {
         if line.words.iter().filter(codes).any(|word| tenths(word) == 40) {
             let time = line.words.iter().find(|word| matches!(word.letter, 'P' | 'X' | 'U' | 'F' | 'S'));
             self.dwells.extend(time.map(|time| (self.line, time.number)));
-            // Only Siemens controls take F and S for a time. On others, F is the feed of the cuts that follow.
+            // Only Siemens controls read F or S beside G4 as the dwell time. On others, F is the feed of the cuts that follow.
             if let Some(time) = time.filter(|time| matches!(time.letter, 'F' | 'S')) {
                 self.report(format!("G4 {}", time.letter), Doubt::Unknown);
             }

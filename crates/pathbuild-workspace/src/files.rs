@@ -22,6 +22,7 @@ pub struct ExtraInput {
 }
 
 /// Maximum number of symbolic links that are followed in a row, as on Linux.
+#[cfg(not(target_family = "wasm"))]
 pub(crate) const MAX_LINKS: usize = 40;
 
 /// Whether this name exists and is not a directory. Also true for an unreadable file: the attempt to read it reports the error.

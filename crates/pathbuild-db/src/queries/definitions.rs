@@ -1,4 +1,4 @@
-//! Finds paths that two drawings define, among drawings with known paths. No directory is listed for this. (book: language/embedding)
+//! Finds paths that two drawings define, among the drawings that the caller passes; no directory is listed to find more. (book: language/embedding)
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};

@@ -186,7 +186,7 @@ messages! {
         help_en: "move the text onto its element: to a circle, at its centre or on its edge",
         help_de: "den Text auf sein Element schieben: bei einem Kreis in dessen Mitte oder auf dessen Rand",
     }
-    /// A text that is equally near to two elements, and belongs to the one that comes first in the file.
+    /// A text that is equally near to two elements, and belongs to the first of them in the file.
     FIRST_OF_EQUALS: DoubtfulText {
         en: "the text \"{text}\" is as near to {other} at {other_point} as to {element} at {point}; it belongs to the latter only because the file lists that one first",
         de: "zum Text \"{text}\" gehört {element} bei {point} nur wegen der Reihenfolge in der Datei: {other} bei {other_point} ist genauso nah",

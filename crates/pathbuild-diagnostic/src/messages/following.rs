@@ -113,7 +113,7 @@ messages! {
         en: "with {word}, {dialect} moves to the reference switches, and then counts from them, no longer from the zero of the part",
         de: "mit {word} fährt {dialect} auf die Referenzschalter und zählt danach von ihnen aus, nicht mehr vom Nullpunkt des Werkstücks",
         help_en: "home the machine before you start the program; to park it at the end, raise the cutter and move to a position in the coordinates of the part",
-        help_de: "vor dem Programm referenzieren; zum Parken den Fräser anheben und eine Position des Programms anfahren",
+        help_de: "die Maschine vor dem Programmstart referenzieren; zum Parken am Ende den Fräser anheben und eine Position in den Koordinaten des Werkstücks anfahren",
     }
     /// G92.1 or G92.2 after the operator has touched off.
     ZERO_CLEARED: WordNotFollowed {

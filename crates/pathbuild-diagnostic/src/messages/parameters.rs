@@ -340,7 +340,7 @@ messages! {
         help_en: "write a smaller infeed, for example I{example}; `infeed` under [warnings] allows more",
         help_de: "eine kleinere Zustellung schreiben, zum Beispiel I{example}; `infeed` unter [warnings] erlaubt mehr",
     }
-    /// A feed whose decimal separator was probably meant to separate thousands.
+    /// A feed with a decimal separator that was probably meant to separate thousands.
     FEED_WITH_THOUSANDS: DoubtfulValue {
         en: "F{written} is a feed of {value} mm/min: a point or comma begins the decimals",
         de: "F{written} ist ein Vorschub von {value} mm/min: Punkt oder Komma beginnt die Nachkommastellen",

@@ -123,7 +123,7 @@ messages! {
     /// Support bars that a cut of another path of the project removes.
     NEIGHBOURS_BAR_CUT_AWAY: BarCutAway {
         en: "this cut removes {lost} of the {length} mm of a support bar of path {other}; that bar stands at {point} in the program (bars: {count})",
-        de: "dieser Schnitt nimmt {lost} von {length} mm eines Stützstegs von Pfad {other} weg, der im Programm bei {point} steht (Stege: {count})",
+        de: "dieser Schnitt nimmt {lost} von {length} mm eines Stützstegs von Pfad {other} weg; dieser Steg steht im Programm bei {point} (Stege: {count})",
         help_en: "place the paths farther apart, or end this cut higher than D of the bar",
         help_de: "die Pfade mit größerem Abstand anordnen oder diesen Schnitt höher als D des Stegs enden lassen",
     }

@@ -344,7 +344,7 @@ messages! {
         help_en: "correct the name, or add the directory of its drawing to `search`; pathbuild searched in {directories}; files that could contain the path: {files}",
         help_de: "den Namen berichtigen oder das Verzeichnis seiner Zeichnung zu `search` hinzufügen; gesucht wurde in {directories}; Dateien, die den Pfad enthalten könnten: {files}",
     }
-    /// Note: names of existing paths that are similar to the one that was not found.
+    /// Note: existing paths with names similar to the missing one.
     NEAR_NAMES: PathNotFound {
         en: "similar names: {names}",
         de: "ähnliche Namen: {names}",

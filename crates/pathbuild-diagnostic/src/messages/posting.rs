@@ -551,7 +551,7 @@ messages! {
         en: "the post's command \"{command}\" is not run: the repository is not trusted",
         de: "der Befehl \"{command}\" des Postprozessors wird nicht ausgeführt: dem Repository wird nicht vertraut",
         help_en: "leave out --run-post-build; nothing was written",
-        help_de: "--run-post-build weglassen; nichts wurde geschrieben",
+        help_de: "--run-post-build weglassen; es wurde nichts geschrieben",
     }
     /// A path with probes that is written through a post.
     POST_WITH_PROBES: UncorrectedHeights {

@@ -798,12 +798,12 @@ messages! {
         en: "the feeds differ: {found} here, but {expected} in line {line} of the other program",
         de: "die Vorschübe unterscheiden sich: hier {found}, in Zeile {line} des anderen Programms aber {expected}",
     }
-    /// A program that lacks the last moves of the one it is compared with.
+    /// A program that lacks the last moves of the other program.
     MOVES_MISSING: MovesDiffer {
         en: "the moves end here, but the other program goes on in line {line}",
         de: "die Bewegungen enden hier, das andere Programm geht aber in Zeile {line} weiter",
     }
-    /// A program that goes on after the last move of the one it is compared with.
+    /// A program that goes on after the last move of the other program.
     MOVES_TOO_MANY: MovesDiffer {
         en: "the other program has no more moves, but this program goes on here",
         de: "das andere Programm hat keine weiteren Bewegungen, dieses Programm geht hier aber weiter",

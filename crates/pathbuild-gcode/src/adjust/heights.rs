@@ -64,7 +64,7 @@ pub(super) struct HeightRules<'a> {
     in_material: Option<Diagnostic>,
     /// The cuts that were drawn down to the plate or below it, but end above it.
     raised: Vec<RaisedCut<'a>>,
-    /// The greatest depth in mm below the plate to which a correction lowered a cut too far, with its warning.
+    /// The greatest depth in mm below the plate, or below the shims on it, to which a correction lowered a cut beyond the limit, with its warning.
     lowered: Option<(f64, Diagnostic)>,
     /// All corrections, in the order of their lines.
     pub(super) applied: Vec<AppliedCorrection>,

@@ -152,7 +152,8 @@ impl<'i> Interpreter<'i> {
         self.step(block, Action::Move(movement));
     }
 
-    /// Reports a word that clears the zero of a touch-off. If only rapid moves follow, they may be high enough.
+    /// Reports a word that clears the zero of a touch-off. This is an error if a cut follows, and otherwise only a warning, because the moves may stay
+    /// above the material.
     fn report_cleared_zero(&mut self, cleared: ClearedZero, severity: Severity) {
         self.problems.add_at_line(&say::ZERO_CLEARED, cleared.line, |d| Diagnostic {
             severity,

@@ -324,7 +324,7 @@ struct NearPaths {
     is_cut: bool,
 }
 
-/// `may_cut`: for each path, whether the part may belong to it.
+/// Finds the paths whose cuts come within O of a ring of the part, among those that the part may belong to (`may_cut`).
 fn near_paths(
     part: &Part,
     ring: usize,

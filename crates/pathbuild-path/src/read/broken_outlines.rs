@@ -55,7 +55,7 @@ pub(super) struct SortedOutlines {
 
 impl SortedOutlines {
     pub(super) fn new(graph: &Graph) -> Self {
-        let mut rings = graph.rings();
+        let mut rings = graph.outer_rings();
         rings.sort_by_key(|ring| ring[0].0);
         let curves: Vec<Vec<Curve>> = rings.iter().map(curves_of).collect();
         let mut around = nesting(&curves);
@@ -195,7 +195,7 @@ fn overshooting_outlines(chains: &[NumberedCurves]) -> Vec<BrokenOutline> {
         let curve = curves[pieces[ring[0].0].0].1;
         is_most.then(|| BrokenOutline::new(curve, at, Some(problem), &inside))
     };
-    graph.rings().into_iter().filter_map(outline).collect()
+    graph.outer_rings().into_iter().filter_map(outline).collect()
 }
 
 /// The open half of an outline with a gap; a line across the outline closes the other half.

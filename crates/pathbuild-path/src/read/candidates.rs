@@ -240,7 +240,7 @@ pub(crate) fn find_shape(
     nearest.map(|(_, index)| index).filter(|_| !budget.is_exhausted())
 }
 
-/// Returns the nearest free candidate to a text that overlaps none; the first of several. `None` if the budget is exhausted.
+/// Returns the free candidate nearest to a text that overlaps none; if several are equally near, the first. `None` if the budget is exhausted.
 pub(crate) fn nearest_miss(
     circle: &TextCircle,
     candidates: &[Candidate],

@@ -108,7 +108,8 @@ impl<'n> NearLayer<'n> {
         }
         let similar: Vec<String> = names.iter().flat_map(|name| similar_names(name)).collect();
         let letters: String = language.patterns_beside_paths().map(LayerPattern::letters).collect();
-        let longer: Vec<String> = names.iter().flat_map(|name| with_another_letter(name, &letters)).collect();
+        let longer: Vec<String> =
+            names.iter().flat_map(|name| with_inserted_letter(name, &letters)).collect();
         let is_near = |is_layer: &dyn Fn(&str) -> bool| {
             // `Part.*` matches `Partameters`, but `Parameters` does not lack a `t`.
             let lacks_letter = |name: &String| {
@@ -168,7 +169,7 @@ fn after_version<'n>(name: &'n str, word: &str) -> Option<&'n str> {
 }
 
 /// Returns the names with one of these letters inserted behind the first character: `Part` for `Par` and `Prt`.
-fn with_another_letter(name: &str, letters: &str) -> Vec<String> {
+fn with_inserted_letter(name: &str, letters: &str) -> Vec<String> {
     let plain = look_alikes::with_keyboard_characters(name);
     let plain = plain.trim_end();
     if plain.chars().count() + 1 < MIN_NAME_CHARACTERS {

@@ -113,7 +113,7 @@ impl Graph {
 
     /// Returns the outer rings of all connected curves, counterclockwise, each curve with its number. Curves with the same face on both sides are
     /// dropped: dangling chains, and lines from one ring to another. A ring that crosses itself may run either way round.
-    pub(super) fn rings(&self) -> Vec<NumberedCurves> {
+    pub(super) fn outer_rings(&self) -> Vec<NumberedCurves> {
         let outer = self.faces.iter().filter(|face| {
             let area = self.area(face);
             area < -JOIN_DISTANCE * JOIN_DISTANCE

@@ -23,8 +23,8 @@ pub fn parts(drawing: &Drawing, language: &Language) -> DrawnParts {
     let mut found = DrawnParts::default();
     let Some(settings) = &language.part else { return found };
     let layers = OutlineLayers::read(drawing, language, &settings.pattern);
-    found.problems.extend(layers.hidden_problems());
-    found.problems.extend(layers.unreadable_problems());
+    found.problems.extend(layers.hidden_layer_problems());
+    found.problems.extend(layers.unreadable_curve_problems());
     for (paths, curves) in &layers.curves {
         let graph = Graph::new(curves.iter().map(|drawn| drawn.curve).collect());
         let outlines = SortedOutlines::new(&graph);
@@ -104,7 +104,7 @@ impl<'d> OutlineLayers<'d> {
     }
 
     /// Returns PB112 for layers that are frozen or off.
-    fn hidden_problems(&self) -> impl Iterator<Item = Diagnostic> {
+    fn hidden_layer_problems(&self) -> impl Iterator<Item = Diagnostic> {
         let layers = self.drawing.layers.iter().zip(&self.layers);
         layers.filter(|(layer, is_part)| **is_part && layer.hidden).map(|(layer, _)| {
             let place = Place { layer: Some(layer.name.clone()), ..Place::default() };
@@ -114,7 +114,7 @@ impl<'d> OutlineLayers<'d> {
     }
 
     /// Returns PB219 for curves that may be part of an outline and could not be read.
-    fn unreadable_problems(&self) -> impl Iterator<Item = Diagnostic> {
+    fn unreadable_curve_problems(&self) -> impl Iterator<Item = Diagnostic> {
         let is_read = |layer: u32| self.layers[layer as usize];
         let problem = |message, cause: &Diagnostic| {
             let entity = cause.place.entity.map_or("?", |entity| entity.name());

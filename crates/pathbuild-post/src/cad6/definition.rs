@@ -193,7 +193,7 @@ impl ControlTextReader<'_> {
     /// Returns the line and column of an offset in the file, counted from 1.
     fn place(&self, byte: usize) -> (u32, u32) {
         let byte = self.source.floor_char_boundary(byte);
-        let column = self.source[self.lines.start(byte)..byte].chars().count();
+        let column = self.source[self.lines.line_start(byte)..byte].chars().count();
         (self.lines.line(byte), u32::try_from(column + 1).unwrap_or(u32::MAX))
     }
 

@@ -12,7 +12,7 @@ use pathbuild_db::{
     has_part_layer, path_names,
 };
 use pathbuild_diagnostic::{Code, Diagnostic, Value};
-use pathbuild_files::{Clock, Stamp};
+use pathbuild_files::{FileSystemTime, Stamp};
 use pathbuild_path::PathName;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -50,7 +50,7 @@ impl Store {
 struct CatalogueBuilder<'a> {
     store: &'a Store,
     session: &'a Session<'a>,
-    begun: Clock,
+    begun: FileSystemTime,
     catalogue: Catalogue,
     /// Index of each file in the new catalogue, by path. The next three maps hold the indices of directories, lists of directories, and lookups.
     files: HashMap<Utf8PathBuf, usize>,
@@ -65,7 +65,12 @@ struct CatalogueBuilder<'a> {
 }
 
 impl<'a> CatalogueBuilder<'a> {
-    fn new(store: &'a Store, session: &'a Session<'a>, begun: Clock, fresh: &'a [FreshResult<'a>]) -> Self {
+    fn new(
+        store: &'a Store,
+        session: &'a Session<'a>,
+        begun: FileSystemTime,
+        fresh: &'a [FreshResult<'a>],
+    ) -> Self {
         let kept = &store.kept;
         Self {
             store,

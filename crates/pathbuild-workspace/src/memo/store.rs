@@ -12,7 +12,7 @@ use pathbuild_cache::{
 use pathbuild_db::system::{FileKind, System};
 use pathbuild_db::{Database, Trace};
 use pathbuild_diagnostic::reasons::IN_UNTRUSTED_TREE;
-use pathbuild_files::{Clock, Stamp};
+use pathbuild_files::{FileSystemTime, Stamp};
 use pathbuild_path::{FilePattern, PathKey, PathPattern, RangeTable};
 use serde::Serialize;
 
@@ -72,7 +72,7 @@ pub(super) struct Store {
     pub(super) coverage: Coverage,
     pub(super) scope: Scope,
     /// Time of the file system before anything was read; `None` if the cache is not writable.
-    pub(super) begun: Option<Clock>,
+    pub(super) begun: Option<FileSystemTime>,
     pub(super) kept: Catalogue,
     pub(super) verdict: Verdict,
     /// Index of the record that is likely to be requested next, since requests come in order.

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use camino::{Utf8Path, Utf8PathBuf};
 use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{Config, Event, PollWatcher, RecommendedWatcher, Watcher as _};
-use pathbuild_db::system::{Clock, Stamp, is_drawing};
+use pathbuild_db::system::{FileSystemTime, Stamp, is_drawing};
 use pathbuild_db::{Db, SourceFile, System, content};
 
 use super::directories::{EventPath, WatchedDirectories, event_path};
@@ -367,7 +367,7 @@ impl PolledFiles {
             let polled = self.0.entry(file).or_insert_with(|| PolledFile {
                 stamp,
                 since: now,
-                is_compared: stamp.for_storing(Clock::an_hour_ago()) != Stamp::UNKNOWN
+                is_compared: stamp.for_storing(FileSystemTime::an_hour_ago()) != Stamp::UNKNOWN
                     && content(db, file).is_some_and(|(_, read)| read == stamp),
             });
             if polled.stamp != stamp {

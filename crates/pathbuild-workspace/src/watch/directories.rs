@@ -56,7 +56,7 @@ impl WatchedDirectories {
         let (mut watched, mut roots, mut names) = (BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
         let workspace = session.workspace();
         let (system, working_directory) = (&*workspace.system, &workspace.working_directory);
-        for (directory, mode) in directories(session, request, post) {
+        for (directory, mode) in directories_to_watch(session, request, post) {
             let event_name = event_path(session, &directory);
             let known = watched.entry(event_name.clone()).or_insert(mode);
             if mode == RecursiveMode::Recursive {
@@ -279,7 +279,7 @@ fn is_inaccessible(error: &notify::Error) -> bool {
 
 /// Returns the directories to watch: those of drawings, the search directories, and those of the configuration, the post-processor and the baseline.
 /// Missing directories are included because they may appear later.
-fn directories(
+fn directories_to_watch(
     session: &Session<'_>,
     request: &Request<'_>,
     post: &[Utf8PathBuf],
