@@ -7,6 +7,7 @@
 
 mod agreement;
 mod api;
+mod architecture;
 mod book;
 #[cfg(unix)]
 mod build_systems;
