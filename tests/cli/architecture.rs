@@ -39,17 +39,17 @@ fn files_of_a_crate_use_each_other_in_one_direction() {
 
 /// Reads which modules of a crate use which others.
 fn uses(sources: &Path) -> Uses {
-    let files = files_below(sources).into_iter().filter(|file| file.ends_with(".rs"));
+    let files = files_below(sources);
+    let files = files.iter().filter_map(|file| Some((file.strip_suffix(".rs")?, sources.join(file))));
     let texts: BTreeMap<String, String> =
-        files.map(|file| (module(&file), fs::read_to_string(sources.join(&file)).unwrap())).collect();
+        files.map(|(name, file)| (module(name), fs::read_to_string(file).unwrap())).collect();
     let is_module = |other: &str| texts.contains_key(other);
     texts.iter().map(|(module, text)| (module.clone(), used_modules(module, text, is_module))).collect()
 }
 
-/// Returns the path of the module in a file; empty for the root of the crate.
+/// Returns the path of the module in a file without its extension; empty for the root of the crate.
 fn module(file: &str) -> String {
-    let name = file.trim_end_matches(".rs");
-    let name = name.strip_suffix("/mod").unwrap_or(name);
+    let name = file.strip_suffix("/mod").unwrap_or(file);
     if ["lib", "main"].contains(&name) { String::new() } else { name.replace('/', "::") }
 }
 

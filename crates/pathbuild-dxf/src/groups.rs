@@ -110,7 +110,8 @@ impl<'a> Groups<'a> {
         self.bytes.get(self.ahead.stretch.consumed()..).unwrap_or_default()
     }
 
-    /// Scans the bytes ahead and returns whether this may have found pairs. At a place where a scan has already failed, it is not repeated.
+    /// Scans the bytes ahead and returns whether they may contain pairs that [`ScannedPairs`] can read. Where it has already failed to read one, the
+    /// scan is not repeated.
     #[inline]
     fn look_ahead(&mut self) -> bool {
         if self.ahead.stretch.consumed() == 0 && !self.ahead.stretch.is_empty() {

@@ -11,7 +11,7 @@ use crate::database::Db;
 use crate::inputs::{Reading, Settings, SourceFile};
 use crate::queries::embedding::{Instance, chains, path};
 use crate::queries::index::{FileParts, cuts_of, file_index, lower_to_warnings, path_index};
-use crate::queries::raw::read_layers_as;
+use crate::queries::raw::read_layers_with_options;
 
 /// Returns the parts and cuts of a drawing; `None` if the settings name no layers with parts, or if it has neither parts nor paths that embed others.
 pub(super) fn file_parts(db: &dyn Db, file: SourceFile) -> Option<&FileParts> {
@@ -154,7 +154,7 @@ pub(super) fn doubtful_outlines(db: &dyn Db, file: SourceFile) -> Vec<Diagnostic
     let language = Settings::get(db).language(db);
     let reading = Reading { compatible: false, ..Settings::get(db).reading(db).clone() };
     let mut drawn =
-        read_parts(&read_layers_as(db, file, &reading, &|layer| language.is_part(layer)), language);
+        read_parts(&read_layers_with_options(db, file, &reading, &|layer| language.is_part(layer)), language);
     let (paths, is_complete) =
         file_parts(db, file).map_or((&[][..], false), |found| (&found.cuts[..], found.is_complete));
     drawn.judge_outlines(paths, is_complete);

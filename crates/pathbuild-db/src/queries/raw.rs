@@ -31,11 +31,11 @@ fn read_again<R>(db: &dyn Db, file: SourceFile, work: impl FnOnce(&[u8], &mut Dr
 
 /// Reads the entities of an indexed drawing on some of its layers. Empty if it cannot be read.
 pub(super) fn read_layers(db: &dyn Db, file: SourceFile, keep_layer: &dyn Fn(&str) -> bool) -> Drawing {
-    read_layers_as(db, file, Settings::get(db).reading(db), keep_layer)
+    read_layers_with_options(db, file, Settings::get(db).reading(db), keep_layer)
 }
 
 /// Like [`read_layers`], but with reading options other than those of the settings.
-pub(super) fn read_layers_as(
+pub(super) fn read_layers_with_options(
     db: &dyn Db,
     file: SourceFile,
     reading: &Reading,

@@ -80,7 +80,7 @@ messages! {
     }
     /// `verify --against`: a probing program that goes on after the end of the drawing's.
     PROBING_ENDED: MovesDiffer {
-        en: "this line is too many: the drawing's probing program ends before it",
+        en: "this line is not in the drawing's probing program, which ends before it",
         de: "diese Zeile ist zu viel: das Antastprogramm der Zeichnung endet davor",
         help_en: "write the program again with `pathbuild emit`",
         help_de: "das Programm mit `pathbuild emit` neu schreiben",

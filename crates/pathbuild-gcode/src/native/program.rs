@@ -74,7 +74,7 @@ pub fn path_of_title(title: &str) -> Option<&str> {
     split_ignoring_case(path, PATH).filter(|(before, _)| before.is_empty()).map(|(_, path)| path)
 }
 
-/// Splits a title at the first occurrence of a text, which some posts write in upper case.
+/// Splits a title at the first occurrence of a text, ignoring ASCII case because some posts write the text in upper case.
 fn split_ignoring_case<'t>(title: &'t str, text: &str) -> Option<(&'t str, &'t str)> {
     let at = title.to_ascii_lowercase().find(&text.to_ascii_lowercase())?;
     Some((&title[..at], &title[at + text.len()..]))

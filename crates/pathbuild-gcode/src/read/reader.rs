@@ -180,7 +180,7 @@ impl<'t> BlockReader<'t> {
             return None;
         }
         let rest = &self.text[self.at.min(self.text.len())..];
-        let length = self.plain_length(&rest[..rest.len().min(LONGEST_LINE)]);
+        let length = self.read_plain_words(&rest[..rest.len().min(LONGEST_LINE)]);
         let end = match rest.get(length..)? {
             [b'\n', ..] => 1,
             [b'\r', b'\n', ..] => 2,
@@ -197,7 +197,7 @@ impl<'t> BlockReader<'t> {
     }
 
     /// Reads words, and formulas if the dialect has them, as long as they have the simplest form. Returns the offset of the first other byte.
-    fn plain_length(&mut self, line: &[u8]) -> usize {
+    fn read_plain_words(&mut self, line: &[u8]) -> usize {
         let mut at = plain_words(line, 0, &mut self.parts.words);
         while self.rules.spelling.formulas && line.get(at) == Some(&b'(') {
             let Some(end) = plain_formula(line, at, &mut self.parts) else { break };

@@ -238,10 +238,13 @@ impl Line<'_> {
         let start = self.at;
         self.at += 1;
         self.skip_blanks();
-        let name =
-            if self.peek() == Some(b'<') { self.name()? } else { self.run(|byte| byte.is_ascii_digit()) };
+        let name = if self.peek() == Some(b'<') {
+            self.name()?
+        } else {
+            self.read_while(|byte| byte.is_ascii_digit())
+        };
         self.skip_blanks();
-        let keyword = self.run(|byte| byte.is_ascii_alphabetic()).range();
+        let keyword = self.read_while(|byte| byte.is_ascii_alphabetic()).range();
         let known = O_WORDS.iter().find(|(known, _)| self.bytes[keyword.clone()].eq_ignore_ascii_case(known));
         let kind = known.filter(|_| !name.range().is_empty()).map_or(OWordKind::Other, |(_, kind)| *kind);
         if kind == OWordKind::Other {
@@ -254,7 +257,7 @@ impl Line<'_> {
         Ok(())
     }
 
-    fn run(&mut self, belongs: impl Fn(u8) -> bool) -> Span {
+    fn read_while(&mut self, belongs: impl Fn(u8) -> bool) -> Span {
         let start = self.at;
         while self.peek().is_some_and(&belongs) {
             self.at += 1;

@@ -15,7 +15,7 @@ use crate::walk::{MAX_SKIPPED_GAP, OpenEnds, Walker};
 /// Tolerance in mm within which a point is considered to be on a curve: the offset is invisible on screen.
 const ON_CURVE_TOLERANCE: f64 = 0.001;
 
-/// Number of arcs that are examined for a circle. Each is compared with all others.
+/// Maximum number of unreached arcs that are checked for being part of a full circle. Each is compared with all others.
 const MAX_SEARCHED_CIRCLES: usize = 16;
 
 /// An end of a remaining segment that a small gap separates from the end of a traversed one.

@@ -40,7 +40,7 @@ const DEPTH_COLOURS: [[f64; 3]; 2] = [[189.0, 148.0, 92.0], [115.0, 77.0, 41.0]]
 /// Width in px of the line along the edges of cuts.
 const EDGE_WIDTH: f64 = 0.7;
 
-/// Width in px of a colour of the legend, with the gap before its meaning.
+/// Width in px of a colour swatch in the legend, including the gap before its label.
 const SWATCH_WIDTH: f64 = 17.0;
 
 /// Approximate maximum number of strokes into which the level cuts of round cutters are divided in one picture. If a program needs more, the steps of
